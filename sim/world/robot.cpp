@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "robot.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -21,6 +22,7 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       on_turret_(on_body_),
       odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever) {
   if (model.turret) turret_.emplace(*model.turret);
+  if (model.gripper) gripper.emplace(*model.gripper);
   const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
   for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
   for (const LaserScanner& s : model.lasers) lasers.emplace_back(s, errors, stream(s.name), birth.time);
@@ -143,6 +145,14 @@ void Robot::add_to(Fnv1a& hash) const {
        {pose.x, pose.y, pose.yaw, body.yaw, turret_ ? turret_->angle() : 0.0, velocity.forward, velocity.left,
         velocity.turn_rate, odometric.x, odometric.y, odometric.yaw})
     hash.add_u64(std::bit_cast<std::uint64_t>(value));
+  if (gripper) gripper->add_to(hash);
+}
+
+const Robot* robot_at(const std::deque<Robot>& robots, const Body& body) {
+  const auto found = std::ranges::find_if(robots, [&](const Robot& r) {
+    return body.top > r.model.bottom && overlap(body.shape, placed(r.model.footprint, r.body));
+  });
+  return found == robots.end() ? nullptr : &*found;
 }
 
 }  // namespace orca::sim::detail

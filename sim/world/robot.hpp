@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "motion/drive_model.hpp"
+#include "motion/gripper_model.hpp"
 #include "motion/odometry_model.hpp"
 #include "motion/turret_model.hpp"
 #include "motion/wheel_model.hpp"
@@ -67,6 +69,7 @@ class Robot {
   const std::string name;
   const RobotModel model;
   DriveModel drive;
+  std::optional<GripperModel> gripper;
   Twist2 velocity;  // True velocity in the last tick, in the robot's frame.
   Pose2 pose;       // Pose of the robot's frame: x is forward.
   Pose2 body;       // Equals `pose` except on a synchro base, whose body does not turn with its wheels.
@@ -96,5 +99,8 @@ class Robot {
   TimePoint odometry_due_;
   std::optional<Trail> trail_;  // Only if somebody draws it.
 };
+
+// Returns the first robot that stands where the body is and reaches below its top, or null.
+[[nodiscard]] const Robot* robot_at(const std::deque<Robot>& robots, const Body& body);
 
 }  // namespace orca::sim::detail

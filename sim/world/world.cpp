@@ -6,17 +6,21 @@
 #include <set>
 #include <utility>
 
+#include "items.hpp"
 #include "motion/contact_log.hpp"
 #include "motion/physics.hpp"
 #include "movers.hpp"
 #include "orca/base/team.hpp"
 #include "orca/geometry/arc.hpp"
+#include "pose_text.hpp"
 #include "robot.hpp"
 #include "robot_solids.hpp"
 #include "schedule.hpp"
 
 namespace orca::sim {
 namespace {
+
+using detail::text;
 
 constexpr double kFarthest = 1e5;  // [m]
 constexpr double kFastest = 1e3;   // [m/s], [rad/s]
@@ -43,14 +47,6 @@ bool has_area(const Shape& shape) {
   return b.low.x < b.high.x && b.low.y < b.high.y;
 }
 
-std::string text(const Pose2& pose) {
-  const auto number = [](double v) {
-    std::string s = std::to_string(v);
-    return s.substr(0, s.find('.') + 3);
-  };
-  return "(" + number(pose.x) + ", " + number(pose.y) + ") m";
-}
-
 }  // namespace
 
 struct World::Impl {
@@ -72,7 +68,8 @@ struct World::Impl {
   detail::ContactLog contact_log;
   detail::Movers movers;
   detail::Schedule schedule;
-  std::deque<detail::Robot> robots;       // Robots do not move in memory. Their numbers are those in physics.
+  std::deque<detail::Robot> robots;  // Robots do not move in memory. Their numbers are those in physics.
+  detail::Items items{model, robots, movers};
   std::vector<std::size_t> bodies;        // The robots' numbers in the caster.
   std::vector<detail::RobotSolids> seen;  // What sensors see of the robots.
   std::set<double> eyes;                  // [m] Heights of all sensors of ranges.
@@ -93,6 +90,10 @@ struct World::Impl {
   void report_contacts();
   void move();
   void sense();
+  // Returns whether the mover of that number was added while the world ran.
+  [[nodiscard]] bool is_obstacle(std::size_t number) const {
+    return movers.is_obstacle(number) && !items.is_mover(number);
+  }
   // Returns what a sensor has read, nothing while it is out.
   template <class Reading>
   [[nodiscard]] const std::optional<Reading>& unless_out(RobotId id, SensorKind sensor,
@@ -135,10 +136,9 @@ Status World::Impl::check_room(const std::string& name, const Body& body, const 
   const std::string who = "obstacle '" + name + "'";
   if (!is_near(X_WO) || !is_near(body.shape))
     return fail(Code::invalid_argument, who + ": its pose or shape is not finite or beyond 100 km");
-  for (const detail::Robot& robot : robots)
-    if (body.top > robot.model.bottom && overlap(body.shape, placed(robot.model.footprint, robot.body)))
-      return fail(Code::failed_precondition, who + " cannot stand at " + text(X_WO) + ": robot '" +
-                                                 robot.name + "' is there; choose a free place");
+  if (const detail::Robot* const robot = detail::robot_at(robots, body))
+    return fail(Code::failed_precondition, who + " cannot stand at " + text(X_WO) + ": robot '" +
+                                               robot->name + "' is there; choose a free place");
   return ok();
 }
 
@@ -220,7 +220,7 @@ Result<RobotId> World::add_robot(const std::string& name, const RobotModel& mode
 Result<ObstacleId> World::add_obstacle(const std::string& name, const Shape& shape, double height,
                                        const Pose2& X_WO) {
   if (name.empty()) return fail(Code::invalid_argument, "an obstacle needs a name");
-  if (impl_->movers.has_name(name))
+  if (impl_->movers.has_name(name) || impl_->items.pose(name))
     return fail(Code::already_exists, "there is a '" + name + "' already; choose another name");
   const std::string who = "obstacle '" + name + "'";
   if (!(height > 0.0 && height <= kFarthest))
@@ -234,7 +234,7 @@ Result<ObstacleId> World::add_obstacle(const std::string& name, const Shape& sha
 Status World::move_obstacle(ObstacleId obstacle, const Pose2& X_WO) {
   const auto number = static_cast<std::size_t>(obstacle);
   detail::Movers& movers = impl_->movers;
-  if (!movers.is_obstacle(number)) return fail(Code::not_found, "there is no such obstacle in the world");
+  if (!impl_->is_obstacle(number)) return fail(Code::not_found, "there is no such obstacle in the world");
   if (const Status s = impl_->check_room(movers.name(number), movers.body_at(number, X_WO), X_WO); !s)
     return s;
   movers.move(number, X_WO);
@@ -243,8 +243,7 @@ Status World::move_obstacle(ObstacleId obstacle, const Pose2& X_WO) {
 
 Status World::remove_obstacle(ObstacleId obstacle) {
   const auto number = static_cast<std::size_t>(obstacle);
-  if (!impl_->movers.is_obstacle(number))
-    return fail(Code::not_found, "there is no such obstacle in the world");
+  if (!impl_->is_obstacle(number)) return fail(Code::not_found, "there is no such obstacle in the world");
   impl_->movers.remove(number);
   return ok();
 }
@@ -294,12 +293,23 @@ Status World::set_turret_command(RobotId robot, double angle) {
   return ok();
 }
 
+Status World::set_gripper_command(RobotId robot, const GripperOrder& order) {
+  detail::Robot& r = impl_->robot(robot);
+  if (!r.gripper) return fail(Code::failed_precondition, "this robot has no gripper", r.name);
+  r.gripper->order(order);
+  return ok();
+}
+
+// Grippers move after the bodies, so that what they let go stands where the robot has come to. They move before anything
+// senses, so that a reading and the gripper's state of the same tick show the same floor. Robots touch what was let go from
+// the next tick on.
 void World::step() {
   impl_->notes.clear();
   impl_->schedule.run(*this, impl_->notes);
   impl_->drive();
   impl_->report_contacts();
   impl_->move();
+  impl_->items.handle(kTick, impl_->notes);
   impl_->sense();
 }
 
@@ -307,6 +317,11 @@ TimePoint World::time() const { return impl_->now; }
 Pose2 World::pose(RobotId robot) const { return impl_->robot(robot).pose; }
 Pose2 World::body_pose(RobotId robot) const { return impl_->robot(robot).body; }
 std::optional<TurretReading> World::turret(RobotId robot) const { return impl_->robot(robot).turret(); }
+std::optional<GripperReading> World::gripper(RobotId robot) const {
+  if (!impl_->robot(robot).gripper) return std::nullopt;
+  return impl_->items.reading(index(robot), impl_->now);
+}
+std::optional<Pose2> World::item_pose(std::string_view name) const { return impl_->items.pose(name); }
 Twist2 World::velocity(RobotId robot) const { return impl_->robot(robot).velocity; }
 double World::clearance(RobotId robot, double limit) const {
   return impl_->physics.clearance(index(robot), limit);
@@ -346,6 +361,7 @@ void World::keep_trajectory(RobotId robot) { impl_->robot(robot).keep_trail(); }
 Snapshot World::snapshot() const {
   Snapshot snapshot = snapshot_of(impl_->model);
   impl_->movers.draw(snapshot);
+  impl_->items.draw(snapshot);
   for (const detail::Robot& r : impl_->robots) snapshot.robots.push_back(r.drawn());
   return snapshot;
 }
@@ -355,6 +371,7 @@ std::uint64_t World::state_hash() const {
   hash.add_u64(static_cast<std::uint64_t>(impl_->now.time_since_epoch().count()));
   for (const detail::Robot& r : impl_->robots) r.add_to(hash);
   impl_->movers.add_to(hash);
+  impl_->items.add_to(hash);
   return hash.value();
 }
 

@@ -12,6 +12,7 @@ namespace orca::sim::detail {
 
 void read_drive(const xml::Attributes& e, RobotModel& model);
 void read_turret(const xml::Attributes& e, RobotModel& model);
+void read_gripper(const xml::Attributes& e, RobotModel& model);
 void read_sonar_ring(const xml::Attributes& e, RobotModel& model);
 void read_laser(const xml::Attributes& e, RobotModel& model);
 void read_infrared_ring(const xml::Attributes& e, RobotModel& model);

@@ -57,9 +57,21 @@ void check_upright(const UrdfBody& body, const xml::Attributes& e) {
   if (link == body.links.end()) return;
   const Pose3& X = link->second;
   if (1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy) < kUpright)
-    e.error_at("link", robot_codes::kContradiction,
-               "the link " + in_quotes(a->value) +
-                   " is tilted: sensors of the simulator look horizontally, their z axis points up");
+    e.error_at(
+        "link", robot_codes::kContradiction,
+        "the link " + in_quotes(a->value) +
+            " is tilted: sensors and grippers of the simulator look horizontally, their z axis points up");
+}
+
+Pose2 flat(const Pose3& X) {
+  const double yaw =
+      portable::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
+  return {X.x, X.y, yaw};
+}
+
+// Returns whether the link turns with the turret. @param turret  its joint, or null.
+bool is_on(const UrdfJoint* turret, const std::string& link) {
+  return turret != nullptr && std::ranges::find(turret->links, link) != turret->links.end();
 }
 
 // @tparam Sensor  has link, center, height and on_turret.
@@ -68,14 +80,30 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
   for (Sensor& sensor : sensors) {
     const auto link = body.links.find(sensor.link);
     if (link == body.links.end()) continue;
-    const Pose3& X = link->second;
-    const double yaw =
-        portable::atan2(2.0 * (X.qw * X.qz + X.qx * X.qy), 1.0 - 2.0 * (X.qy * X.qy + X.qz * X.qz));
-    sensor.center = {X.x, X.y, yaw};
-    sensor.height = X.z;
-    sensor.on_turret =
-        turret != nullptr && std::ranges::find(turret->links, sensor.link) != turret->links.end();
+    sensor.center = flat(link->second);
+    sensor.height = link->second.z;
+    sensor.on_turret = is_on(turret, sensor.link);
   }
+}
+
+// What paddles hold would stand in the body if their root did.
+void mount_gripper(RobotModel& model, const UrdfBody& body, const UrdfJoint* turret,
+                   const xml::Attributes& e) {
+  constexpr double kOut =
+      0.001;  // [m] From a root on the edge of the body to a point that is clearly outside.
+  Gripper& gripper = *model.gripper;
+  const auto link = body.links.find(gripper.link);
+  if (link == body.links.end()) return;
+  gripper.mount = flat(link->second);
+  if (is_on(turret, gripper.link))
+    return e.error_at(
+        "link", robot_codes::kContradiction,
+        "a gripper sits on the body; the link " + in_quotes(gripper.link) + " turns with the turret");
+  if (!model.parts.empty() && contains(model.footprint, gripper.mount * Vec2{kOut, 0.0}))
+    e.error_at(
+        "link", robot_codes::kContradiction,
+        "the link " + in_quotes(gripper.link) +
+            " lies inside the body, seen from above; the paddles begin at its edge and point away from it");
 }
 
 }  // namespace
@@ -97,6 +125,9 @@ void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& 
   mount(model.sonars, body, turns);
   mount(model.lasers, body, turns);
   mount(model.infrareds, body, turns);
+  const xml::Element* gripper = only_child(orca, "gripper");
+  if (gripper != nullptr && model.gripper)
+    mount_gripper(model, body, turns, {*gripper, kRobotFile, reporter});
 }
 
 }  // namespace orca::sim::detail

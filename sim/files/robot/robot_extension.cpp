@@ -21,6 +21,7 @@ struct PartKind {
 constexpr std::array kPartKinds{
     PartKind{&kDriveRule, true, read_drive},
     PartKind{&kTurretRule, true, read_turret},
+    PartKind{&kGripperRule, true, read_gripper},
     PartKind{&kSonarRingRule, false, read_sonar_ring},
     PartKind{&kLaserRule, false, read_laser},
     PartKind{&kInfraredRingRule, false, read_infrared_ring},
@@ -40,7 +41,7 @@ void read_robot_attributes(const xml::Attributes& e, RobotModel& model) {
 
 // Sensors without a robot need no drive.
 void check_fixed(const xml::Attributes& orca, const std::set<const xml::ElementRule*>& parts) {
-  for (const xml::ElementRule* const rule : {&kOdometryRule, &kTurretRule})
+  for (const xml::ElementRule* const rule : {&kOdometryRule, &kTurretRule, &kGripperRule})
     if (parts.contains(rule))
       orca.error(robot_codes::kMissing,
                  "<orca> needs the element <drive>, because it has <" + std::string(rule->name) + ">");

@@ -44,6 +44,13 @@ constexpr std::array kTurret{required("joint", kText),
                              optional("vendor", kText),
                              optional("model", kText),
                              optional("port", kText)};
+constexpr ValueRule kReach = positive("m", 2.0);
+constexpr ValueRule kWholeWay = positive("s", 3600.0);
+constexpr std::array kGripper{
+    required("link", kText),     required("opening", kReach),        required("depth", kReach),
+    required("lift", kReach),    required("paddle_time", kWholeWay), required("lift_time", kWholeWay),
+    required("period", kPeriod), optional("vendor", kText),          optional("model", kText),
+    optional("port", kText)};
 // Directions are given by `angles`, or else by `first_angle` and `pitch`.
 constexpr std::array kSonarRing{required("name", kName),
                                 required("count", kDevices),
@@ -120,6 +127,7 @@ constexpr std::array kInRangeSensor{&kRangeErrorsRule};
 
 constexpr ElementRule kDriveRule{.name = "drive", .attributes = kDrive};
 constexpr ElementRule kTurretRule{.name = "turret", .attributes = kTurret};
+constexpr ElementRule kGripperRule{.name = "gripper", .attributes = kGripper};
 constexpr ElementRule kSonarRingRule{
     .name = "sonar_ring", .attributes = kSonarRing, .children = kInRangeSensor};
 constexpr ElementRule kLaserRule{.name = "laser", .attributes = kLaser, .children = kInRangeSensor};
@@ -130,8 +138,8 @@ constexpr ElementRule kOdometryRule{.name = "odometry", .attributes = kOdometry,
 
 namespace {
 
-constexpr std::array kInOrca{&kDriveRule,        &kTurretRule,     &kSonarRingRule, &kLaserRule,
-                             &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
+constexpr std::array kInOrca{&kDriveRule, &kTurretRule,       &kGripperRule,    &kSonarRingRule,
+                             &kLaserRule, &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
 
 }  // namespace
 
@@ -144,9 +152,9 @@ namespace {
 constexpr std::array kInRobot{&kOrcaRule};
 constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 
-constexpr std::array kRobotElements{&kRobotRule,     &kOrcaRule,        &kDriveRule,        &kTurretRule,
-                                    &kSonarRingRule, &kLaserRule,       &kInfraredRingRule, &kBumperRingRule,
-                                    &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
+constexpr std::array kRobotElements{&kRobotRule,      &kOrcaRule,      &kDriveRule,       &kTurretRule,
+                                    &kGripperRule,    &kSonarRingRule, &kLaserRule,       &kInfraredRingRule,
+                                    &kBumperRingRule, &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
 
 }  // namespace
 

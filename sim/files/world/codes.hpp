@@ -28,5 +28,6 @@ inline constexpr const char* kUnreadableMesh = "W021";
 inline constexpr const char* kBottomAboveTop = "W022";
 inline constexpr const char* kScaleOfPicture = "W023";
 inline constexpr const char* kBadEvent = "W024";
+inline constexpr const char* kBadItem = "W025";
 
 }  // namespace orca::sim::detail::world_codes

@@ -66,12 +66,13 @@ std::optional<Opening> opening_of(const xml::Attributes& door) {
 constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
+constexpr std::size_t kMaxItems = 200;
 constexpr std::size_t kMaxEvents = 1000;
 constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
 }  // namespace
 
-constexpr std::array<WorldReader::Reader, 15> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
+constexpr std::array<WorldReader::Reader, 16> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
                                                                      {&kRoomRule, &WorldReader::room},
                                                                      {&kBoxRule, &WorldReader::box},
                                                                      {&kCylinderRule, &WorldReader::cylinder},
@@ -81,6 +82,7 @@ constexpr std::array<WorldReader::Reader, 15> WorldReader::kReaders{{{&kWallRule
                                                                      {&kPlaceRule, &WorldReader::place},
                                                                      {&kGenerateRule, &WorldReader::generate},
                                                                      {&kWalkerRule, &WorldReader::walker},
+                                                                     {&kItemRule, &WorldReader::item},
                                                                      {&kSillRule, &WorldReader::sill},
                                                                      {&kWetRule, &WorldReader::wet},
                                                                      {&kMoveRule, &WorldReader::move},
@@ -100,6 +102,7 @@ WorldModel WorldReader::read(const xml::Element& root) {
   check_seed();
   check_places();
   check_walkers();
+  check_items();
   world_.events = events_.take();
   return std::move(world_);
 }
@@ -131,9 +134,10 @@ bool WorldReader::within_limits(const Attributes& world, const Elements& element
   const bool obstacles = too_many(elements.size() - count(kPlaceRule), "obstacles", kMaxObstacles);
   const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
   const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
+  const bool items = too_many(count(kItemRule), "items", kMaxItems);
   const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule),
                                "moves, kidnaps and outages", kMaxEvents);
-  return !obstacles && !places && !walkers && !events;
+  return !obstacles && !places && !walkers && !items && !events;
 }
 
 std::optional<double> WorldReader::height(const Attributes& element) const {
@@ -326,6 +330,18 @@ void WorldReader::walker(const Attributes& element) {
   walker_positions_.push_back(element.element().position());
 }
 
+void WorldReader::item(const Attributes& element) {
+  const auto name = element.name("name");
+  const auto x = element.number("x");
+  const auto y = element.number("y");
+  const auto radius = element.number("radius");
+  const auto tall = element.number("height");
+  if (name) claim(element, "obstacle", *name);
+  if (!name || !x || !y || !radius || !tall) return;
+  world_.items.push_back({*name, *radius, *tall, {*x, *y, 0.0}});
+  item_positions_.push_back(element.element().position());
+}
+
 void WorldReader::sill(const Attributes& element) {
   const auto from = read_point(element, "from");
   const auto to = read_point(element, "to");
@@ -353,6 +369,22 @@ void WorldReader::check_walkers() {
       reporter_.error(world_codes::kBadWalker, walker_positions_[i],
                       "\"" + world_.walkers[i].name + "\" would walk through obstacle \"" + o->name +
                           "\"; lead its track around");
+}
+
+void WorldReader::check_items() {
+  for (std::size_t i = 0; i < world_.items.size(); ++i) {
+    const Item& item = world_.items[i];
+    const auto stands_in = [&](const std::string& what) {
+      reporter_.error(world_codes::kBadItem, item_positions_[i],
+                      "item \"" + item.name + "\" stands in " + what + "; put it on free floor");
+    };
+    const Circle plan{item.pose.position(), item.radius};
+    if (const Obstacle* o = world_.obstacle_at(plan, 0.0, item.height))
+      stands_in("obstacle \"" + o->name + "\"");
+    for (std::size_t k = 0; k < i; ++k)
+      if (overlap(plan, Circle{world_.items[k].pose.position(), world_.items[k].radius}))
+        stands_in("item \"" + world_.items[k].name + "\"");
+  }
 }
 
 void WorldReader::check_seed() {

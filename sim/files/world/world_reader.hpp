@@ -33,7 +33,7 @@ class WorldReader {
     const xml::ElementRule* rule;
     void (WorldReader::*read)(const Attributes&);
   };
-  static const std::array<Reader, 15> kReaders;
+  static const std::array<Reader, 16> kReaders;
 
   void header(const Attributes& world);
   bool within_limits(const Attributes& world, const Elements& elements) const;
@@ -47,6 +47,7 @@ class WorldReader {
   void place(const Attributes& element);
   void generate(const Attributes& element);
   void walker(const Attributes& element);
+  void item(const Attributes& element);
   void sill(const Attributes& element);
   void wet(const Attributes& element);
   void move(const Attributes& element) { events_.move(element); }
@@ -64,6 +65,7 @@ class WorldReader {
   void claim(const Attributes& element, const std::string& kind, const std::string& name);
   void check_places();
   void check_walkers();
+  void check_items();
   void check_seed();
 
   std::string file_name_;
@@ -74,6 +76,7 @@ class WorldReader {
   std::map<std::string, xml::Position> taken_;  // Places of the elements by kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;
+  std::vector<xml::Position> item_positions_;
   std::size_t faces_ = 0;                   // Number of faces of all meshes.
   std::optional<xml::Position> generated_;  // Place of the <generate> element.
 };

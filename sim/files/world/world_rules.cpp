@@ -68,6 +68,8 @@ constexpr std::array kWalker{
     optional("pause", kTime),        optional("start", kTime),    optional("seed", kSeed),
     optional("stops", kLengthOrZero)};
 
+constexpr std::array kItem{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
+                           required("radius", positive("m", 2.0)), required("height", positive("m", 2.0))};
 constexpr std::array kSill{optional("name", kName), required("from", kText), required("to", kText),
                            required("height", positive("m", 0.1))};
 constexpr std::array kWet{
@@ -99,6 +101,7 @@ constexpr ElementRule kMeshRule{.name = "mesh", .attributes = kMesh};
 constexpr ElementRule kPlaceRule{.name = "place", .attributes = kPlace};
 constexpr ElementRule kGenerateRule{.name = "generate", .attributes = kGenerate};
 constexpr ElementRule kWalkerRule{.name = "walker", .attributes = kWalker};
+constexpr ElementRule kItemRule{.name = "item", .attributes = kItem};
 constexpr ElementRule kSillRule{.name = "sill", .attributes = kSill};
 constexpr ElementRule kWetRule{.name = "wet", .attributes = kWet};
 constexpr ElementRule kMoveRule{.name = "move", .attributes = kMove};
@@ -107,9 +110,10 @@ constexpr ElementRule kOutageRule{.name = "outage", .attributes = kOutage};
 
 namespace {
 
-constexpr std::array kInWorld{&kWallRule,   &kRoomRule, &kBoxRule,   &kCylinderRule, &kPolygonRule,
-                              &kBitmapRule, &kMeshRule, &kPlaceRule, &kGenerateRule, &kWalkerRule,
-                              &kSillRule,   &kWetRule,  &kMoveRule,  &kKidnapRule,   &kOutageRule};
+constexpr std::array kInWorld{&kWallRule,     &kRoomRule,   &kBoxRule,    &kCylinderRule,
+                              &kPolygonRule,  &kBitmapRule, &kMeshRule,   &kPlaceRule,
+                              &kGenerateRule, &kWalkerRule, &kItemRule,   &kSillRule,
+                              &kWetRule,      &kMoveRule,   &kKidnapRule, &kOutageRule};
 
 }  // namespace
 
@@ -119,8 +123,8 @@ namespace {
 
 constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule, &kBoxRule,
                                     &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule, &kPlaceRule,
-                                    &kGenerateRule, &kWalkerRule,  &kSillRule,   &kWetRule,  &kMoveRule,
-                                    &kKidnapRule,   &kOutageRule};
+                                    &kGenerateRule, &kWalkerRule,  &kItemRule,   &kSillRule, &kWetRule,
+                                    &kMoveRule,     &kKidnapRule,  &kOutageRule};
 
 }  // namespace
 

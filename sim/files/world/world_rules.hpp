@@ -18,6 +18,7 @@ extern const xml::ElementRule kMeshRule;
 extern const xml::ElementRule kPlaceRule;
 extern const xml::ElementRule kGenerateRule;
 extern const xml::ElementRule kWalkerRule;
+extern const xml::ElementRule kItemRule;
 extern const xml::ElementRule kSillRule;
 extern const xml::ElementRule kWetRule;
 extern const xml::ElementRule kMoveRule;

@@ -59,6 +59,61 @@ TEST_CASE("the Pioneer 2-DX has the outline and the sonars of the maker's parame
   CHECK(ring.transducer(12).position() == Vec2{-0.255, 0.027});
 }
 
+TEST_CASE("the Pioneer with a gripper has it at the front edge of a Pioneer 2-DX, below its sensors",
+          "[sim][robots]") {
+  const RobotModel robot = shipped("pioneer_2dx_gripper");
+  REQUIRE(robot.gripper);
+  const Gripper& gripper = *robot.gripper;
+  CHECK(gripper.mount.x == Approx(bounds_of(robot.footprint).high.x));
+  CHECK(gripper.mount.y == 0.0);
+  CHECK(gripper.mount.yaw == 0.0);
+  CHECK(gripper.link == "gripper_link");
+  CHECK(gripper.opening == Approx(0.22));
+  CHECK(gripper.depth == Approx(0.1));
+  CHECK(gripper.lift == Approx(0.08));
+  CHECK(gripper.paddle_time == std::chrono::seconds(1));
+  CHECK(gripper.lift_time == std::chrono::milliseconds(1500));
+  CHECK(gripper.period == std::chrono::milliseconds(100));
+  CHECK(gripper.label.vendor == "ActivMedia Robotics");
+  const RobotModel plain = shipped("pioneer_2dx");
+  CHECK_FALSE(plain.gripper);
+  CHECK(robot.parts.size() == plain.parts.size());
+  CHECK(robot.mass == plain.mass);
+  CHECK(robot.drive.track == plain.drive.track);
+  CHECK(robot.sonars.at(0).positions == plain.sonars.at(0).positions);
+  CHECK(robot.sonars.at(0).height > shipped_world("store").items.at(0).height);
+}
+
+TEST_CASE("the Pioneer with a gripper fetches the can of the store by its beams, and carries it away",
+          "[sim][robots]") {
+  const WorldModel store = shipped_world("store");
+  World world(store, {.seed = 1, .realism = Realism::nominal});
+  const RobotId id =
+      world.add_robot("dewey", shipped("pioneer_2dx_gripper"), store.place("shelf")->pose).value();
+  const auto run_until = [&](auto done) {
+    for (int i = 0; i < 1000 && !done(*world.gripper(id)); ++i) {
+      world.step();
+      REQUIRE(world.contacts().empty());
+    }
+    REQUIRE(done(*world.gripper(id)));
+  };
+  REQUIRE(world.set_velocity_command(id, 0.1, 0.0));
+  run_until([](const GripperReading& g) { return g.inner_beam; });
+  world.emergency_stop(id);
+  REQUIRE(world.set_gripper_command(id, {Paddles::close, Lift::stay}));
+  run_until([](const GripperReading& g) { return g.holds; });
+  REQUIRE(world.set_gripper_command(id, {Paddles::stay, Lift::up}));
+  run_until([](const GripperReading& g) { return g.lift == 1.0; });
+  REQUIRE(world.set_velocity_command(id, -0.2, 0.0));
+  run_until([&](const GripperReading&) { return world.pose(id).x < 5.0; });
+  world.emergency_stop(id);
+  REQUIRE(world.set_gripper_command(id, {Paddles::stay, Lift::down}));
+  run_until([](const GripperReading& g) { return g.lift == 0.0; });
+  REQUIRE(world.set_gripper_command(id, {Paddles::open, Lift::stay}));
+  run_until([](const GripperReading& g) { return g.is_open; });
+  CHECK(store.items.at(0).pose.x - world.item_pose("can")->x > 1.0);
+}
+
 TEST_CASE("the Create 2 has the size of the maker's data sheet, and a laser that looks all around clockwise",
           "[sim][robots]") {
   const RobotModel create = shipped("create2");

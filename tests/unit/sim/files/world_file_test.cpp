@@ -79,6 +79,19 @@ TEST_CASE("boxes, cylinders, polygons and places take units and angles", "[sim][
   CHECK(w.place("goal")->pose.yaw == Approx(-0.5 * std::numbers::pi));
 }
 
+TEST_CASE("items take units, and may stand below a table top", "[sim][world_file]") {
+  const WorldModel w = good(R"(
+    <box name="table" x="2" y="1" length="1.6 m" width="80 cm" height="0.74 m" bottom="0.7 m"/>
+    <item name="can" x="200 cm" y="1 m" radius="33 mm" height="12 cm"/>
+    <item name="tin" x="2.2" y="1" radius="0.05" height="0.1"/>)");
+  REQUIRE(w.items.size() == 2);
+  CHECK(w.items[0].name == "can");
+  CHECK(w.items[0].pose == orca::Pose2{2.0, 1.0, 0.0});
+  CHECK(w.items[0].radius == Approx(0.033));
+  CHECK(w.items[0].height == Approx(0.12));
+  CHECK(w.items[1].name == "tin");
+}
+
 TEST_CASE("a file that is not a world is reported as that", "[sim][world_file]") {
   CHECK(errors_of_world("<graph/>") ==
         "w.xml:1:1: error W001: the root element is <graph>; a world file begins with <world name=\"...\" "

@@ -266,6 +266,12 @@ const std::vector<Unknown> kUnknown{
     {"pioneer_2dx", "sonar", "vendor", kMakerUnnamed},
     {"pioneer_2dx", "sonar", "model", kMakerUnnamed},
 
+    {"pioneer_2dx_gripper", "drive", "model", kPartOfTheBase},
+    {"pioneer_2dx_gripper", "bumper", "model", kPartOfTheBase},
+    {"pioneer_2dx_gripper", "odometry", "model", kPartOfTheBase},
+    {"pioneer_2dx_gripper", "sonar", "vendor", kMakerUnnamed},
+    {"pioneer_2dx_gripper", "sonar", "model", kMakerUnnamed},
+
     {"nomad_xr4000", "drive", "model", kPartOfTheBase},
     {"nomad_xr4000", "bumper", "model", kPartOfTheBase},
     {"nomad_xr4000", "odometry", "model", kPartOfTheBase},

@@ -66,6 +66,22 @@ struct TurretReading {
   double turn_rate = 0.0;  ///< [rad/s] Turn rate relative to the robot's frame.
 };
 
+/// The state of a gripper.
+struct GripperReading {
+  TimePoint stamp;
+  /// Share of the gap between the open paddles, 0 (closed) to 1 (open). Paddles that hold an item stop at its width.
+  double opening = 1.0;
+  bool is_open = false;       ///< The paddles are open as far as they go.
+  bool is_closed = false;     ///< The paddles meet; false if they have stopped at an item.
+  bool paddles_move = false;  ///< The paddles are on their way to one of their ends.
+  double lift = 0.0;          ///< Share of the lift's way, 0 (down) to 1 (up).
+  bool lift_moves = false;    ///< The lift is on its way to one of its ends.
+  /// An item interrupts the beam from paddle to paddle at a quarter of their depth from the root.
+  bool inner_beam = false;
+  bool outer_beam = false;  ///< The same at three quarters of the depth.
+  bool holds = false;       ///< The paddles hold an item.
+};
+
 /// The beginning of a touch between a robot and something else.
 struct ContactEvent {
   std::string robot;

@@ -81,6 +81,22 @@ struct Turret {
   DeviceLabel label{};
 };
 
+/// A gripper of two paddles that a lift raises. It carries the world's items (world_model.hpp).
+///
+/// The paddles themselves are not solid in the simulation: nothing touches or sees them. Only the item that they hold, or that
+/// their beams see, matters.
+struct Gripper {
+  std::string link;         ///< The URDF link at the root of the paddles.
+  Pose2 mount;              ///< Pose of that link in the base frame; its x axis points out of the gripper.
+  double opening = 0.0;     ///< [m] Gap between the open paddles, > 0.
+  double depth = 0.0;       ///< [m] Length of the paddles, along x from the root, > 0.
+  double lift = 0.0;        ///< [m] How high the lift raises them, > 0.
+  Duration paddle_time{0};  ///< Time from open to closed and back, > 0.
+  Duration lift_time{0};    ///< Time from the floor to the top and back, > 0.
+  Duration period{0};       ///< Time from one reading of its state to the next.
+  DeviceLabel label{};
+};
+
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
 /// `radius` from it in that direction. An uneven ring lists the directions of all, and may list their places.
 struct SonarRing {
@@ -140,6 +156,7 @@ struct RobotModel {
   bool fixed = false;
   Drive drive;
   std::optional<Turret> turret;
+  std::optional<Gripper> gripper{};
   std::vector<SonarRing> sonars;
   std::vector<LaserScanner> lasers;
   std::vector<InfraredRing> infrareds;

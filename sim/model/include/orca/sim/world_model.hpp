@@ -40,8 +40,16 @@ struct Place {
   Pose2 pose;
 };
 
-/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, and what happens in it. A plain
-/// value.
+/// A thing that a gripper can carry: an upright cylinder that stands on the floor.
+struct Item {
+  std::string name;     ///< Name that contacts report; not that of another item or of a walker.
+  double radius = 0.0;  ///< [m]
+  double height = 0.0;  ///< [m]
+  Pose2 pose;           ///< Where it stands at first, in the world frame.
+};
+
+/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, things to carry, and what
+/// happens in it. A plain value.
 struct WorldModel {
   std::string name;
   std::vector<Obstacle> obstacles;
@@ -49,6 +57,7 @@ struct WorldModel {
   std::vector<Walker> walkers{};
   Floor floor{};
   Events events{};
+  std::vector<Item> items{};
 
   /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;

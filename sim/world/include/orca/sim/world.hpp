@@ -12,6 +12,7 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/sim/caster.hpp"
+#include "orca/sim/gripper_order.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
@@ -63,7 +64,7 @@ class World {
 
   /// Adds an obstacle that stands on the floor. Sensors see it and robots touch it from the next tick on.
   ///
-  /// @param name    name that contacts report; not empty, not that of another such obstacle or of a walker.
+  /// @param name    name that contacts report; not empty, not that of another such obstacle, an item or a walker.
   /// @param shape   plan, in the obstacle's own frame.
   /// @param height  [m] height of its top above the floor.
   /// @param X_WO    pose of that frame in the world.
@@ -79,7 +80,7 @@ class World {
   /// Removes such an obstacle. @errors  not_found: it was removed already.
   Status remove_obstacle(ObstacleId obstacle);
 
-  /// Puts a robot elsewhere at once, at rest. Its odometry does not notice; its command stays.
+  /// Puts a robot elsewhere at once, at rest. Its odometry does not notice; its command stays. What it holds goes along.
   /// @errors  invalid_argument: the pose is not finite. failed_precondition: something stands there; the text says what.
   Status place_robot(RobotId robot, const Pose2& X_WB);
 
@@ -106,6 +107,16 @@ class World {
   /// @errors  failed_precondition if the robot has no turret, invalid_argument if the angle is not finite.
   Status set_turret_command(RobotId robot, double angle);
 
+  /// Orders the gripper from now on. Each part of the order that is not `stay` replaces the former order of that part.
+  ///
+  /// Paddles that close with the lift in the lower half of its way hold an item whose centre is between them, as soon as the
+  /// gap is as narrow as the item. Of several they hold the widest, of equal ones the nearest to their root; one that is wider
+  /// than the gap does not stop them. A held item goes along, and nothing sees or touches it. Paddles that open put it on the
+  /// floor where it is, or drop it there from a raised lift. If something is there, they stay closed. happened() tells all of
+  /// this.
+  /// @errors  failed_precondition if the robot has no gripper.
+  Status set_gripper_command(RobotId robot, const GripperOrder& order);
+
   /// Advances the time by exactly one tick.
   void step();
 
@@ -120,6 +131,10 @@ class World {
   [[nodiscard]] Pose2 body_pose(RobotId robot) const;
   /// Returns the present angle of the turret; nothing if the robot has none.
   [[nodiscard]] std::optional<TurretReading> turret(RobotId robot) const;
+  /// Returns the present state of the gripper; nothing if the robot has none.
+  [[nodiscard]] std::optional<GripperReading> gripper(RobotId robot) const;
+  /// Returns where the model's item of that name is in the world, also while a gripper holds it; nothing if there is none.
+  [[nodiscard]] std::optional<Pose2> item_pose(std::string_view name) const;
   /// Returns the true velocity in the last tick, in the robot's frame.
   [[nodiscard]] Twist2 velocity(RobotId robot) const;
 
@@ -130,7 +145,7 @@ class World {
   /// apart again. If two robots collide, both report it.
   [[nodiscard]] const std::vector<ContactEvent>& contacts() const;
 
-  /// Returns what happened in the last tick of the model's events, in words.
+  /// Returns what happened in the last tick, in words: the model's events, and what grippers have taken or let go.
   [[nodiscard]] const std::vector<std::string>& happened() const;
 
   /// Returns the round that the robot's sonar ring number `ring` completed in the last tick, if it did.
@@ -160,7 +175,7 @@ class World {
   /// Returns a picture of the world, with the trajectories that are kept.
   [[nodiscard]] Snapshot snapshot() const;
 
-  /// Returns an FNV-1a hash over the bits of time, poses, velocities and odometry: equal for equal runs.
+  /// Returns an FNV-1a hash over the bits of time, poses, velocities, odometry, grippers and items: equal for equal runs.
   [[nodiscard]] std::uint64_t state_hash() const;
 
  private:
