@@ -28,7 +28,9 @@ class EmulatedHardware final : public SimulatedRobot {
 
  private:
   std::vector<orca::HardwareFault> declare() override {
-    body_.emplace(robot(), [this](const orca::Twist2& velocity) { (void)command({.velocity = velocity}); });
+    body_.emplace(robot(), WorldBody::Motors{
+                               .wheels = [this](const orca::Twist2& v) { (void)command({.velocity = v}); },
+                               .gripper = [this](const GripperOrder& order) { (void)move_gripper(order); }});
     add_sensor(truth_);
     const auto wishes = read_devices(*lines_text_);
     if (!wishes) return {{"lines", wishes.error().message}};

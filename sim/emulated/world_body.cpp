@@ -8,8 +8,25 @@
 
 namespace orca::sim {
 
-WorldBody::WorldBody(const RobotModel& robot, Wheels wheels)
-    : robot_(robot), wheels_(std::move(wheels)), sonars_(robot.sonars.empty() ? 0 : robot.sonars[0].count) {}
+namespace {
+
+GripperOrder order_for(emulators::GripperMove move) {
+  using Move = emulators::GripperMove;
+  switch (move) {
+    case Move::open: return {.paddles = Paddles::open};
+    case Move::close: return {.paddles = Paddles::close};
+    case Move::stop: return {.paddles = Paddles::halt};
+    case Move::up: return {.lift = Lift::up};
+    case Move::down: return {.lift = Lift::down};
+    case Move::stop_lift: return {.lift = Lift::halt};
+  }
+  return {};
+}
+
+}  // namespace
+
+WorldBody::WorldBody(const RobotModel& robot, Motors motors)
+    : robot_(robot), motors_(std::move(motors)), sonars_(robot.sonars.empty() ? 0 : robot.sonars[0].count) {}
 
 void WorldBody::sense(const SharedWorld::Inbox& inbox) {
   for (const auto& [ring, scan] : inbox.sonar)
@@ -18,6 +35,7 @@ void WorldBody::sense(const SharedWorld::Inbox& inbox) {
     if (ring == 0) feel(robot_.bumpers[0], reading);
   for (const auto& [laser, scan] : inbox.laser)
     if (laser == 0) see(scan);
+  if (!inbox.gripper.empty()) gripper_ = inbox.gripper.back();
   for (const OdometryReading& reading : inbox.odometry) {
     if (stall_.look(reading)) stalled_ = true;
     if (!stall_.is_slow(reading)) stalled_ = false;
@@ -49,12 +67,34 @@ void WorldBody::see(LaserScan scan) {
 
 void WorldBody::drive(const Twist2& velocity) {
   stall_.driven(velocity, odometry_.stamp);
-  wheels_(velocity);
+  motors_.wheels(velocity);
 }
 
 std::optional<double> WorldBody::sonar(int number) const {
   const auto at = static_cast<std::size_t>(number);
   return number >= 0 && at < sonars_.size() ? sonars_[at] : std::nullopt;
+}
+
+void WorldBody::move_gripper(emulators::GripperMove move) {
+  if (robot_.gripper) motors_.gripper(order_for(move));
+}
+
+// Before its first reading it looks as it does at the start.
+std::optional<emulators::GripperLook> WorldBody::gripper() const {
+  if (!robot_.gripper) return std::nullopt;
+  GripperReading reading;
+  reading.is_open = true;
+  if (gripper_) reading = *gripper_;
+  return emulators::GripperLook{.open = reading.is_open,
+                                .closed = reading.is_closed,
+                                .paddles_move = reading.paddles_move,
+                                .up = reading.lift == 1.0,
+                                .down = reading.lift == 0.0,
+                                .lift_moves = reading.lift_moves,
+                                .inner_beam = reading.inner_beam,
+                                .outer_beam = reading.outer_beam,
+                                .left_contact = reading.holds,
+                                .right_contact = reading.holds};
 }
 
 std::optional<emulators::MirrorTurn> WorldBody::last_turn() const {

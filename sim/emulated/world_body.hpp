@@ -17,11 +17,14 @@ namespace orca::sim {
 /// Thread contract: one strand.
 class WorldBody final : public emulators::Body, public emulators::Mirror {
  public:
-  using Wheels = std::function<void(const Twist2&)>;
+  /// What moves the robot of the world.
+  struct Motors {
+    std::function<void(const Twist2&)> wheels;           ///< Gives the wheels a velocity.
+    std::function<void(const GripperOrder&)> gripper{};  ///< Called only if the robot has a gripper.
+  };
 
-  /// @param robot   outlives the object.
-  /// @param wheels  gives the wheels a velocity.
-  WorldBody(const RobotModel& robot, Wheels wheels);
+  /// @param robot  outlives the object.
+  WorldBody(const RobotModel& robot, Motors motors);
 
   /// Takes what the robot has sensed since the last call.
   void sense(const SharedWorld::Inbox& inbox);
@@ -32,6 +35,8 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   [[nodiscard]] std::optional<double> sonar(int number) const override;
   [[nodiscard]] std::uint16_t bumpers() const override { return bumpers_; }
   [[nodiscard]] bool is_stalled() const override { return stalled_; }
+  void move_gripper(emulators::GripperMove move) override;
+  [[nodiscard]] std::optional<emulators::GripperLook> gripper() const override;
   [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override;
 
  private:
@@ -40,13 +45,14 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   void see(LaserScan scan);
 
   const RobotModel& robot_;
-  const Wheels wheels_;
+  const Motors motors_;
   StallWatch stall_;
   OdometryReading odometry_{};
   std::vector<std::optional<double>> sonars_;  // [m] nothing: no echo
   std::uint16_t bumpers_ = 0;
   bool stalled_ = false;
   std::optional<LaserScan> scan_;
+  std::optional<GripperReading> gripper_;  // the last one
 };
 
 }  // namespace orca::sim

@@ -15,6 +15,13 @@ idl::Actuator describe(const Turret& turret) {
   return object;
 }
 
+idl::Actuator describe(const Gripper& gripper) {
+  idl::Actuator object;
+  object.name(gripper.link);
+  label(object, gripper.label);
+  return object;
+}
+
 idl::Drive describe(const Drive& drive) {
   idl::Drive object;
   object.name("drive");
@@ -50,6 +57,15 @@ idl::DriveType type_of(DriveKind kind) {
   return idl::DIFFERENTIAL;
 }
 
+GripperOrder order_of(const idl::GripperCommand& command) {
+  GripperOrder order;
+  if (command.paddles() == idl::PADDLES_OPEN) order.paddles = Paddles::open;
+  if (command.paddles() == idl::PADDLES_CLOSE) order.paddles = Paddles::close;
+  if (command.lift() == idl::LIFT_UP) order.lift = Lift::up;
+  if (command.lift() == idl::LIFT_DOWN) order.lift = Lift::down;
+  return order;
+}
+
 hw::DriveLimits limits_of(const RobotModel& robot) {
   const Drive& drive = robot.drive;
   return {.max_speed = drive.max_speed,
@@ -83,7 +99,8 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
   robot.length(size.x);
   robot.width(size.y);
   if (!model.fixed) robot.drives({describe(model.drive)});
-  if (model.turret) robot.actuators({describe(*model.turret)});
+  if (model.turret) robot.actuators().push_back(describe(*model.turret));
+  if (model.gripper) robot.actuators().push_back(describe(*model.gripper));
   describe_sensors(model, robot);
   return robot;
 }

@@ -7,6 +7,7 @@
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/idl/hardware.hpp"
+#include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/sim/world.hpp"
 #include "shared_world.hpp"
@@ -21,6 +22,7 @@ void fill(idl::BumperReadings& object, const BumperReading& reading, const Bumpe
 /// @param covariance [m2, m rad, rad2]  of x, y and orientation, row by row; all zero: not known.
 void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance);
 void fill(idl::TurretAngle& object, const TurretReading& reading);
+void fill(idl::GripperState& object, const GripperReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 
 /// Returns the readings of sensors without a robot, in whose frame nobody lives: seen from the world's.
@@ -29,6 +31,9 @@ void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 
 /// Returns the framework's word for a kind of drive.
 [[nodiscard]] idl::DriveType type_of(DriveKind kind);
+
+/// Returns what a command asks of the simulated gripper.
+[[nodiscard]] GripperOrder order_of(const idl::GripperCommand& command);
 
 /// Returns the limits of the commands that the robot's base accepts.
 [[nodiscard]] hw::DriveLimits limits_of(const RobotModel& robot);

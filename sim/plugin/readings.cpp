@@ -69,6 +69,19 @@ void fill(idl::TurretAngle& object, const TurretReading& reading) {
   object.stamp(to_time_value(reading.stamp));
 }
 
+void fill(idl::GripperState& object, const GripperReading& reading) {
+  object.open(reading.is_open);
+  object.closed(reading.is_closed);
+  object.paddles_move(reading.paddles_move);
+  object.up(reading.lift == 1.0);
+  object.down(reading.lift == 0.0);
+  object.lift_moves(reading.lift_moves);
+  object.inner_beam(reading.inner_beam);
+  object.outer_beam(reading.outer_beam);
+  object.holds(reading.holds);
+  object.stamp(to_time_value(reading.stamp));
+}
+
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
   object.x(truth.pose.x);
   object.y(truth.pose.y);

@@ -53,6 +53,8 @@ void describe_sensors(const RobotModel& model, idl::Robot& robot) {
   if (model.odometer) robot.sensors().push_back(named<idl::Sensor>(*model.odometer, "odometry", "Odometry"));
   if (model.turret)
     robot.sensors().push_back(named<idl::Sensor>(*model.turret, model.turret->joint, "TurretAngle"));
+  if (model.gripper)
+    robot.sensors().push_back(named<idl::Sensor>(*model.gripper, model.gripper->link, "GripperState"));
 }
 
 }  // namespace orca::sim

@@ -51,8 +51,10 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
   const std::lock_guard lock(mutex_);
   const Result<RobotId> robot = world_.add_robot(name, model, X_WB);
   const TimePoint next_turret = model.turret ? world_.time() + model.turret->period : kForever;
+  const TimePoint next_gripper = model.gripper ? world_.time() + model.gripper->period : kForever;
   const TimePoint now = world_.time();
-  if (robot) members_.push_back({*robot, name, truth_period, now + truth_period, next_turret, now, {}});
+  if (robot)
+    members_.push_back({*robot, name, truth_period, now + truth_period, next_turret, next_gripper, now, {}});
   return robot;
 }
 
@@ -78,6 +80,12 @@ Status SharedWorld::point_turret(RobotId robot, double angle, TimePoint now) {
   const std::lock_guard lock(mutex_);
   catch_up(now);
   return world_.set_turret_command(robot, angle);
+}
+
+Status SharedWorld::move_gripper(RobotId robot, const GripperOrder& order, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  catch_up(now);
+  return world_.set_gripper_command(robot, order);
 }
 
 SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {
@@ -119,6 +127,13 @@ void SharedWorld::collect_turret(Member& member) {
   member.inbox.turret.back().stamp = on_run_clock(world_.time());
 }
 
+void SharedWorld::collect_gripper(Member& member) {
+  if (world_.time() < member.next_gripper) return;
+  member.next_gripper += world_.robot_model(member.robot).gripper->period;
+  member.inbox.gripper.push_back(world_.gripper(member.robot).value());
+  member.inbox.gripper.back().stamp = on_run_clock(world_.time());
+}
+
 void SharedWorld::collect_motion(Member& member) {
   if (!member.next_step || world_.time() < *member.next_step) return;
   *member.next_step += kMotionPeriod;
@@ -129,6 +144,7 @@ void SharedWorld::collect_motion(Member& member) {
 void SharedWorld::collect(Member& member) {
   collect_readings(member);
   collect_turret(member);
+  collect_gripper(member);
   collect_motion(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);

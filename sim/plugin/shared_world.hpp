@@ -44,6 +44,7 @@ class SharedWorld {
     Readings<BumperReading> bumper;
     std::vector<OdometryReading> odometry;
     std::vector<TurretReading> turret;
+    std::vector<GripperReading> gripper;
     std::vector<Truth> truth;
     struct Contact {
       ContactEvent event;
@@ -76,6 +77,9 @@ class SharedWorld {
   /// Points the robot's turret from `now` [run's clock] on.
   /// @errors  as World::set_turret_command().
   Status point_turret(RobotId robot, double angle, TimePoint now);
+  /// Gives the robot's gripper an order at `now` [run's clock].
+  /// @errors  as World::set_gripper_command().
+  Status move_gripper(RobotId robot, const GripperOrder& order, TimePoint now);
 
   /// Simulates up to `now` [run's clock] and returns what the robot has sensed since its last call, stamped by
   /// the run's clock.
@@ -101,6 +105,7 @@ class SharedWorld {
     Duration truth_period{0};
     TimePoint next_truth;
     TimePoint next_turret;
+    TimePoint next_gripper;
     TimePoint seen;  // World's clock when it last polled.
     Inbox inbox;
     std::optional<TimePoint> next_step{};  // Only if its motion is kept.
@@ -114,6 +119,7 @@ class SharedWorld {
   void collect(Member& member);
   void collect_readings(Member& member);
   void collect_turret(Member& member);
+  void collect_gripper(Member& member);
   void collect_motion(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 

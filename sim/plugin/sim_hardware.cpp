@@ -19,6 +19,7 @@ using orca::TimePoint;
 
 // Longest time that a motion command holds (DESIGN 11).
 constexpr orca::Duration kMaxCommandAge = std::chrono::milliseconds(200);
+constexpr GripperOrder kHaltGripper{Paddles::halt, Lift::halt};
 
 /// A robot in the simulated world, behind the same interface as real hardware.
 class SimHardware final : public SimulatedRobot {
@@ -27,6 +28,7 @@ class SimHardware final : public SimulatedRobot {
 
  private:
   using Turret = orca::hw::ActuatorHW<orca::idl::TurretCommand>;
+  using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
 
   std::vector<orca::HardwareFault> declare() override {
     std::vector<orca::HardwareFault> faults;
@@ -43,10 +45,20 @@ class SimHardware final : public SimulatedRobot {
     motion_ = std::make_unique<orca::hw::MotionHW>(limits_of(robot()), kMaxCommandAge);
     set_motion(*motion_);
     if (*stop_on_touch_) guard_.emplace(robot(), *motion_);
+    declare_actuators();
+  }
+
+  void declare_actuators() {
     if (robot().turret) {
       turret_ = std::make_unique<Turret>(Turret::Driver{
           .act = [this](const orca::idl::TurretCommand& turret) { return point_turret(turret.angle()); }});
       add_actuator(*turret_);
+    }
+    if (robot().gripper) {
+      gripper_ = std::make_unique<Gripper>(Gripper::Driver{
+          .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(order_of(command)); },
+          .halt = [this] { return move_gripper(kHaltGripper); }});
+      add_actuator(*gripper_);
     }
   }
 
@@ -84,6 +96,7 @@ class SimHardware final : public SimulatedRobot {
   std::unique_ptr<SimSensors> sensors_;
   std::unique_ptr<orca::hw::MotionHW> motion_;
   std::unique_ptr<Turret> turret_;
+  std::unique_ptr<Gripper> gripper_;
   std::optional<TouchGuard> guard_;
 };
 

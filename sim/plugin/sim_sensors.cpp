@@ -55,6 +55,7 @@ SimSensors::SimSensors(const RobotModel& robot, Realism realism) : realism_(real
   make(infrareds_, robot.infrareds);
   make(bumpers_, robot.bumpers);
   if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
+  if (robot.gripper) gripper_ = std::make_unique<hw::SensorHW<idl::GripperState>>(robot.gripper->period);
   if (!robot.odometer) return;
   odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
   uncertainty_.emplace(type_of(robot.drive.kind), robot.drive.track, robot.odometer->errors.at(realism));
@@ -68,6 +69,7 @@ std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
   list(bumpers_, all);
   if (odometry_) all.push_back(odometry_.get());
   if (turret_) all.push_back(turret_.get());
+  if (gripper_) all.push_back(gripper_.get());
   all.push_back(&truth_);
   return all;
 }
@@ -82,6 +84,7 @@ void SimSensors::publish(const SharedWorld::Inbox& inbox) {
     publish_one(*odometry_, reading, uncertainty_->covariance());
   }
   for (const TurretReading& reading : inbox.turret) publish_one(*turret_, reading);
+  for (const GripperReading& reading : inbox.gripper) publish_one(*gripper_, reading);
   for (const auto& truth : inbox.truth) publish_one(truth_, truth);
 }
 

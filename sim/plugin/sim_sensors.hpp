@@ -52,6 +52,7 @@ class SimSensors {
   std::unique_ptr<hw::SensorHW<idl::Odometry>> odometry_;
   std::optional<OdometryUncertainty> uncertainty_;
   std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;
+  std::unique_ptr<hw::SensorHW<idl::GripperState>> gripper_;
   hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
 };
 

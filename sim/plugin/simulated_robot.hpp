@@ -46,6 +46,8 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   Status command(const hw::DriveSetpoint& setpoint) { return shared_->command(id_, setpoint, host().now()); }
   /// Points the robot's turret, from now on. @param angle [rad]  in the robot's frame.
   Status point_turret(double angle) { return shared_->point_turret(id_, angle, host().now()); }
+  /// Gives the robot's gripper an order.
+  Status move_gripper(const GripperOrder& order) { return shared_->move_gripper(id_, order, host().now()); }
   [[nodiscard]] TimePoint next_tick() const { return shared_->next_tick(id_); }
   /// Advances the world, even if nobody listens.
   void go_on();

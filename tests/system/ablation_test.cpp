@@ -97,6 +97,15 @@ const std::vector<Case> kCases{
     {"courier_depot", "lasers", How::crashed, Worse::nowhere},
     {"courier_depot", "localizer", How::crashed, Worse::nowhere},
 
+    {"pioneer_fetch", "command", How::silent, Worse::stands},
+    {"pioneer_fetch", "porter", How::silent, Worse::stands},
+    {"pioneer_fetch", "goto", How::silent, Worse::nowhere},
+    {"pioneer_fetch", "avoid", How::removed, Worse::contact},
+    {"pioneer_fetch", "fuser", How::silent, Worse::stands},
+    {"pioneer_fetch", "base", How::silent, Worse::stands},
+    {"pioneer_fetch", "laser", How::crashed, Worse::nowhere},
+    {"pioneer_fetch", "localizer", How::crashed, Worse::nowhere},
+
     {"random_walk", "walk", How::silent, Worse::stands},
     {"random_walk", "avoid", How::removed, Worse::contact},
     {"random_walk", "fuser", How::silent, Worse::stands},

@@ -38,6 +38,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
     {"courier_depot", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
+    {"pioneer_fetch", "", {"goto", "avoid", "porter"}},
     {"create2_rplidar", "", {"goto", "avoid"}},
     {"player_robot", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},

@@ -14,6 +14,7 @@ constexpr double kAhead = 0.03;     // [rad] so exactly it looks at the place be
 constexpr double kTurnGain = 1.5;   // [1/s]
 constexpr double kSlowTurn = 0.1;   // [rad/s] turned at least, so that the turn ends
 constexpr double kOvershoot = 0.1;  // [m] driven beyond the place where the thing should have been
+constexpr double kCrawl = 0.25;     // share of the speed once the thing is between the tips of the paddles
 constexpr double kSayAgain = 1.0;   // [s]
 
 double distance_to(Vec2 place, const Pose2& pose) {
@@ -82,7 +83,8 @@ Step Errand::approach_thing(const Scene& now) {
   if (now.gripper.inner_beam()) return enter(Stage::close);
   if (distance_to(place_, now.pose) < now.manner.reach - kOvershoot)
     return failure("nothing came between the paddles where the thing should stand");
-  return drive(bearing_of(place_, now.pose), now.manner.approach_speed);
+  const double share = now.gripper.outer_beam() ? kCrawl : 1.0;
+  return drive(bearing_of(place_, now.pose), share * now.manner.approach_speed);
 }
 
 Step Errand::approach_place(const Scene& now) {

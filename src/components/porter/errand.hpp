@@ -13,7 +13,7 @@ namespace orca::porter {
 
 /// How the robot works with its gripper.
 struct Manner {
-  double reach = 0.0;           ///< [m] from the middle of the robot to the middle of the open paddles.
+  double reach = 0.0;  ///< [m] from the middle of the robot to the inner beam, where the paddles hold things.
   double approach_speed = 0.0;  ///< [m/s]
   double turn_rate = 0.0;       ///< [rad/s] of turns on the spot.
   double back_off = 0.0;        ///< [m] by which it drives back from what it has put down.

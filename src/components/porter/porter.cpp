@@ -194,8 +194,10 @@ class Porter final : public orca::Component {
   orca::Param<double> reach_{
       *this,
       "reach",
-      0.32,
-      {.unit = "m", .min = 0.0, .text = "From the middle of the robot to the middle of its open paddles."}};
+      0.26,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "From the middle of the robot to the inner beam of its gripper, where it holds things."}};
   orca::Param<double> standoff_{
       *this,
       "standoff",

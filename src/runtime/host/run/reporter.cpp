@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "orca/host/alarm.hpp"
+#include "orca/host/passed_on.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
@@ -72,12 +73,14 @@ void Reporter::follow_mission(std::string_view component, std::string_view port,
 
 void Reporter::hear(const idl::Arrived& arrived) {
   const std::lock_guard lock(mutex_);
+  if (is_passed_on(arrivals_, arrived)) return;
   arrivals_.push_back(arrived);
   listener_.arrived(arrived);
 }
 
 void Reporter::hear(const idl::GoalFailed& failed) {
   const std::lock_guard lock(mutex_);
+  if (is_passed_on(failures_, failed)) return;
   failures_.push_back(failed);
   listener_.goal_failed(failed);
 }

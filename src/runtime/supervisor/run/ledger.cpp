@@ -9,6 +9,7 @@
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/alarm.hpp"
+#include "orca/host/passed_on.hpp"
 #include "orca/host/robot_finder.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/time.hpp"
@@ -107,12 +108,14 @@ Status Ledger::take_object(const Report& report, const std::string& process) {
   if (const auto* arrived = std::get_if<ArrivedReport>(&report)) {
     Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
     if (!object) return object.error();
+    if (host::is_passed_on(so_far_.arrivals, *object)) return ok();
     listener_.arrived(*object);
     missions_.note(*object);
     so_far_.arrivals.push_back(std::move(object).value());
   } else if (const auto* failed = std::get_if<GoalFailedReport>(&report)) {
     Result<idl::GoalFailed> object = read<idl::GoalFailed>(*failed);
     if (!object) return object.error();
+    if (host::is_passed_on(so_far_.failures, *object)) return ok();
     listener_.goal_failed(*object);
     missions_.note(*object);
     so_far_.failures.push_back(std::move(object).value());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lines that the runtime writes about connections in trouble.
+// The lines that the runtime writes about connections in trouble, and the results of missions that it reports.
 #include "run/reporter.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,6 +7,8 @@
 #include <cstdlib>
 
 #include "executives.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/time.hpp"
 
 using namespace orca;
 using namespace orca::host;
@@ -20,9 +22,21 @@ struct Log final : RunListener {
     CHECK(level == log::Level::warning);
     lines.push_back(std::string(who) + ": " + std::string(text));
   }
+  void arrived(const idl::Arrived& arrived) override { results.push_back("arrived " + arrived.name()); }
+  void goal_failed(const idl::GoalFailed& failed) override { results.push_back("failed " + failed.name()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
   Lines lines;
+  Lines results;
 };
+
+template <class Result>
+ObjectRef result_of(std::uint64_t mission, const std::string& name, Duration stamp) {
+  auto result = make_object<Result>();
+  result->mission(mission);
+  result->name() = name;
+  result->stamp(to_time_value(TimePoint{stamp}));
+  return ObjectLoan(std::move(result)).seal();
+}
 
 // Runs `body` in virtual time with a reporter and its log.
 void with_reporter(const std::function<void(Executive&, Reporter&, Log&)>& body) {
@@ -74,5 +88,25 @@ TEST_CASE("trouble of one connection is one line in 10 s, which says how many we
                              "a: a.out to c.in: refused (2 more such lines were left out before)",
                              "b: b.out to c.in: refused",
                              "a: a.out to c.in: refused (1 more such line was left out before)"});
+  });
+}
+
+TEST_CASE("a result that a component passes on is reported once", "[host][missions]") {
+  with_reporter([](Executive&, Reporter& reporter, Log& log) {
+    reporter.pushed("goto", "ArrivedPush", result_of<idl::Arrived>(1, "shelf", 5s));
+    reporter.pushed("porter", "ArrivedPush", result_of<idl::Arrived>(1, "shelf", 5s));
+    reporter.pushed("goto", "GoalFailedPush", result_of<idl::GoalFailed>(2, "table", 9s));
+    reporter.pushed("porter", "GoalFailedPush", result_of<idl::GoalFailed>(2, "table", 9s));
+    CHECK(log.results == Lines{"arrived shelf", "failed table"});
+  });
+}
+
+TEST_CASE("results of two missions, places or moments are two", "[host][missions]") {
+  with_reporter([](Executive&, Reporter& reporter, Log& log) {
+    reporter.pushed("goto", "ArrivedPush", result_of<idl::Arrived>(1, "shelf", 5s));
+    reporter.pushed("goto", "ArrivedPush", result_of<idl::Arrived>(2, "shelf", 5s));
+    reporter.pushed("goto", "ArrivedPush", result_of<idl::Arrived>(2, "table", 5s));
+    reporter.pushed("goto", "ArrivedPush", result_of<idl::Arrived>(2, "table", 6s));
+    CHECK(log.results.size() == 4);
   });
 }

@@ -35,7 +35,7 @@ SonarReading no_echo(std::size_t transducer) { return {transducer, {}, {}, 5.0, 
 struct Bench {
   RobotModel robot = small_robot();
   std::vector<Twist2> driven{};
-  WorldBody body{robot, [this](const Twist2& velocity) { driven.push_back(velocity); }};
+  WorldBody body{robot, {.wheels = [this](const Twist2& velocity) { driven.push_back(velocity); }}};
 
   void sense(const SharedWorld::Inbox& inbox) { body.sense(inbox); }
   void turn_wheels(TimePoint at, const Twist2& velocity) {

@@ -31,9 +31,9 @@ class RunListener {
   /// Reports that all components and hardware are constructed, if RunOptions::looks_on.
   /// @param view  may be used until ended() or abandon() returns.
   virtual void built(const RunView& /*view*/) {}
-  /// Reports that a component has pushed an Arrived, once for each object, however many components take it.
+  /// Reports that a component has pushed an Arrived, once for each object, however many components take it or pass it on.
   virtual void arrived(const idl::Arrived& /*arrived*/) {}
-  /// Reports that a component has pushed a GoalFailed.
+  /// Reports that a component has pushed a GoalFailed, likewise.
   virtual void goal_failed(const idl::GoalFailed& /*failed*/) {}
   /// Reports that a robot touched something.
   virtual void contact(const idl::Contact& /*contact*/) {}
