@@ -79,22 +79,24 @@ void WorldBody::move_gripper(emulators::GripperMove move) {
   if (robot_.gripper) motors_.gripper(order_for(move));
 }
 
-// Before its first reading it looks as it does at the start.
+// Before its first reading it looks as it does at the start. Its controller takes paddles as closed that have closed on something, and
+// those that meet press on each other.
 std::optional<emulators::GripperLook> WorldBody::gripper() const {
   if (!robot_.gripper) return std::nullopt;
   GripperReading reading;
   reading.is_open = true;
   if (gripper_) reading = *gripper_;
+  const bool closed = reading.is_closed || reading.holds;
   return emulators::GripperLook{.open = reading.is_open,
-                                .closed = reading.is_closed,
+                                .closed = closed,
                                 .paddles_move = reading.paddles_move,
                                 .up = reading.lift == 1.0,
                                 .down = reading.lift == 0.0,
                                 .lift_moves = reading.lift_moves,
                                 .inner_beam = reading.inner_beam,
                                 .outer_beam = reading.outer_beam,
-                                .left_contact = reading.holds,
-                                .right_contact = reading.holds};
+                                .left_contact = closed,
+                                .right_contact = closed};
 }
 
 std::optional<emulators::MirrorTurn> WorldBody::last_turn() const {

@@ -42,14 +42,14 @@ unsigned code_of(std::uint32_t baud) {
 }  // namespace
 
 // Of what a robot in the simulator does not have, gains and limits of motor power, it says 0.
-std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, bool has_gripper) {
+std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, unsigned gripper) {
   const bool has_rear = settings.sonars > 8;
   Fields fields;
   fields.text(settings.robot_class).text(settings.subclass).text("ORCA");
   fields.byte(0).words({500, 2200, 300, 2000, 500});  // tops: deg/s, mm/s, deg/s2, mm/s2; PWM
   fields.text(settings.name).byte(milliseconds(settings.cycle)).byte(code_of(settings.baud)).byte(0);
-  fields.word(has_gripper ? 1 : 0).word(1).byte(has_rear ? 1 : 0);  // gripper, front and rear sonars
-  fields.word(110).word(0).word(milliseconds(settings.watchdog));   // low battery 11 V, RevCount
+  fields.word(gripper).word(1).byte(has_rear ? 1 : 0);             // gripper, front and rear sonars
+  fields.word(110).word(0).word(milliseconds(settings.watchdog));  // low battery 11 V, RevCount
   fields.byte(0).words({0, 0, 0, 0});           // two SIPs; stall value and count; joystick
   fields.words({100, 400, 100, 100, 0, 0, 0});  // turning: deg/s, mm/s, deg/s2 twice; gains
   fields.words({300, 300, 0, 0, 0});            // driving: mm/s2 twice; gains

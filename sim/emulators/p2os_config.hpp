@@ -9,7 +9,8 @@
 namespace orca::emulators {
 
 /// Returns the body of the packet with which a controller tells what it is and how it is set.
+/// @param gripper  Kind of gripper; 0: none.
 /// @source  ARCOS, "Configuration packet".
-[[nodiscard]] std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, bool has_gripper);
+[[nodiscard]] std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, unsigned gripper);
 
 }  // namespace orca::emulators

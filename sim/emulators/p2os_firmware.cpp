@@ -40,7 +40,6 @@ enum Number {
   kSonar = 28,
   kStop = 29,
   kVel2 = 32,
-  kGripper = 33,
   kBumpstall = 44,
   kHostbaud = 50,
   kEstop = 55,
@@ -115,7 +114,8 @@ P2osFirmware::P2osFirmware(Body& body, P2osSettings settings)
       settings_(std::move(settings)),
       scanner_({.look = find_packet, .longest = kLongest}),
       baud_(settings_.baud),
-      servo_(std::make_unique<P2osServo>()) {}
+      servo_(std::make_unique<P2osServo>()),
+      gripper_(std::make_unique<P2osGripper>(body)) {}
 
 P2osFirmware::~P2osFirmware() = default;
 
@@ -133,7 +133,8 @@ void P2osFirmware::obey(Bytes body, TimePoint now) {
   const int number = body[0];
   if (!open_) return shake_hands(number, now);
   note_command(commands_, number);
-  carry_out(number, argument_of(body), now);
+  const int value = argument_of(body);
+  if (!gripper_->take(number, value, now)) carry_out(number, value, now);
 }
 
 // SYNC0, SYNC1, SYNC2 are sent back, the last one with the names of the robot; then OPEN, which is 1 like SYNC1.
@@ -161,7 +162,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
   switch (number) {
     case kClose:
       stop();
-      halt_gripper(body_);
+      gripper_->halt();
       power_ = sonar_ = open_ = false;
       syncs_ = 0;
       return;
@@ -169,11 +170,10 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
     case kSetv: return servo_->set_speed(0.001 * std::abs(value));
     case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
     case kSeto: origin_ = body_.odometry(); return;
-    case kConfig: return send(p2os_config(settings_, body_.gripper().has_value()), now);
+    case kConfig: return send(p2os_config(settings_, gripper_->kind()), now);
     case kSonar: sonar_ = value != 0; return;
     case kStop:
     case kEstop: return stop();
-    case kGripper: return move_gripper(body_, value);
     case kBumpstall: bumpers_stall_ = value; return;
     case kHostbaud: return set_baud(value);
     case kReset: return restart();
@@ -221,7 +221,7 @@ void P2osFirmware::reset(TimePoint) { restart(); }
 
 void P2osFirmware::restart() {
   stop();
-  halt_gripper(body_);
+  gripper_->halt();
   power_ = sonar_ = open_ = false;
   bumpers_stall_ = 0;
   origin_ = body_.odometry();
@@ -233,7 +233,7 @@ void P2osFirmware::restart() {
 void P2osFirmware::press_button(bool pressed) {
   button_ = pressed;
   if (pressed) power_ = false;
-  if (pressed) halt_gripper(body_);
+  gripper_->lock(pressed);
   drive();
 }
 
@@ -247,8 +247,9 @@ std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
     fed_ = false;
     if (!(wanted_ == Twist2{})) ++watchdog_stops_;
     stop();
-    halt_gripper(body_);
+    gripper_->halt();
   }
+  gripper_->advance(now);
   if (servo_->works()) {
     wanted_ = servo_->velocity(body_.odometry());
     drive();
@@ -298,9 +299,8 @@ void P2osFirmware::send_information(TimePoint now) {
   body.push_back(0);  // no compass
   const std::vector<std::uint8_t> heard = echoes();
   body.insert(body.end(), heard.begin(), heard.end());
-  const GripperBytes gripper = gripper_bytes(body_);
-  body.insert(body.end(), {0, gripper.state, 0, gripper.inputs,
-                           0});  // first, third and last: analog port, its value, outputs
+  // Analog port, gripper, analog, digital in and out.
+  body.insert(body.end(), {0, gripper_->state(), 0, gripper_->digital_in(), 0});
   send(std::move(body), now);
 }
 

@@ -1,52 +1,105 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "p2os_gripper.hpp"
 
-#include <initializer_list>
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 namespace orca::emulators {
 namespace {
 
-using Move = GripperMove;
+constexpr int kMostCarrySteps = 255;
+constexpr Duration kCarryStep = 20ms;
 
-// Bit 0 is the first.
-std::uint8_t byte_of(std::initializer_list<bool> bits) {
-  unsigned byte = 0;
-  unsigned bit = 0;
-  for (const bool set : bits) byte |= (set ? 1U : 0U) << bit++;
-  return static_cast<std::uint8_t>(byte);
-}
+constexpr int kGripper = 33;
+constexpr int kGripperval = 36;
 
-void move(Body& body, std::initializer_list<Move> moves) {
-  for (const Move one : moves) body.move_gripper(one);
-}
+enum class GripperAction {
+  open = 1,
+  close = 2,
+  stop = 3,
+  up = 4,
+  down = 5,
+  stop_lift = 6,
+  store = 7,
+  deploy = 8,
+  halt = 15,
+  carry = 17
+};
+
+unsigned bit(bool value, int number) { return (value ? 1U : 0U) << number; }
 
 }  // namespace
 
-void move_gripper(Body& body, int action) {
-  switch (action) {
-    case 1: return move(body, {Move::open});
-    case 2: return move(body, {Move::close});
-    case 3: return move(body, {Move::stop});
-    case 4: return move(body, {Move::up});
-    case 5: return move(body, {Move::down});
-    case 6: return move(body, {Move::stop_lift});
-    case 7: return move(body, {Move::close, Move::up});
-    case 8: return move(body, {Move::open, Move::down});
-    case 15: return halt_gripper(body);
+bool P2osGripper::take(int number, int value, TimePoint now) {
+  const bool is_time = std::exchange(awaits_time_, false);
+  if (number != kGripper && number != kGripperval) return false;
+  if (locked_) return true;
+  if (number == kGripper) {
+    act(value);
+  } else if (is_time) {
+    carry(value, now);
+  }
+  return true;
+}
+
+void P2osGripper::act(int action) {
+  switch (static_cast<GripperAction>(action)) {
+    case GripperAction::open: return body_.move_gripper(GripperMove::open);
+    case GripperAction::close: return body_.move_gripper(GripperMove::close);
+    case GripperAction::stop: return body_.move_gripper(GripperMove::stop);
+    case GripperAction::up: return move_lift(GripperMove::up);
+    case GripperAction::down: return move_lift(GripperMove::down);
+    case GripperAction::stop_lift: return move_lift(GripperMove::stop_lift);
+    case GripperAction::store: body_.move_gripper(GripperMove::close); return move_lift(GripperMove::up);
+    case GripperAction::deploy: body_.move_gripper(GripperMove::open); return move_lift(GripperMove::down);
+    case GripperAction::halt: return halt();
+    case GripperAction::carry: awaits_time_ = true; return;
     default: return;
   }
 }
 
-void halt_gripper(Body& body) { move(body, {Move::stop, Move::stop_lift}); }
+void P2osGripper::move_lift(GripperMove move) {
+  carry_end_.reset();
+  body_.move_gripper(move);
+}
 
-// The inputs of ends and contacts are low when they are made, those of interrupted beams high.
-GripperBytes gripper_bytes(const Body& body) {
-  const auto look = body.gripper();
-  if (!look) return {};
-  return {
-      byte_of({look->open, look->closed, look->paddles_move, false, look->up, look->down, look->lift_moves}),
-      byte_of({!look->open, !(look->up || look->down), look->outer_beam, look->inner_beam,
-               !look->left_contact, !look->right_contact})};
+void P2osGripper::carry(int steps, TimePoint now) {
+  if (steps == 0) return;
+  move_lift(steps > 0 ? GripperMove::up : GripperMove::down);
+  carry_end_ = now + std::min(std::abs(steps), kMostCarrySteps) * kCarryStep;
+}
+
+void P2osGripper::halt() {
+  awaits_time_ = false;
+  body_.move_gripper(GripperMove::stop);
+  move_lift(GripperMove::stop_lift);
+}
+
+void P2osGripper::lock(bool locked) {
+  locked_ = locked;
+  if (locked) halt();
+}
+
+void P2osGripper::advance(TimePoint now) {
+  if (carry_end_ && now >= *carry_end_) move_lift(GripperMove::stop_lift);
+}
+
+std::uint8_t P2osGripper::state() const {
+  const std::optional<GripperLook> look = body_.gripper();
+  if (!look) return 0;
+  return static_cast<std::uint8_t>(bit(look->open, 0) | bit(look->closed, 1) | bit(look->paddles_move, 2) |
+                                   bit(look->up, 4) | bit(look->down, 5) | bit(look->lift_moves, 6));
+}
+
+// Beams are 1 when they are interrupted; switches are 0 when they are pressed: those at the open end of the paddles, at either
+// end of the lift, and on the paddles.
+std::uint8_t P2osGripper::digital_in() const {
+  const std::optional<GripperLook> look = body_.gripper();
+  if (!look) return 0;
+  return static_cast<std::uint8_t>(bit(!look->open, 0) | bit(!look->up && !look->down, 1) |
+                                   bit(look->outer_beam, 2) | bit(look->inner_beam, 3) |
+                                   bit(!look->left_contact, 4) | bit(!look->right_contact, 5));
 }
 
 }  // namespace orca::emulators

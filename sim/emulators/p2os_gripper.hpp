@@ -2,21 +2,50 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
 
 namespace orca::emulators {
 
-// Carries out the argument of a gripper command; one that is not known moves nothing.
-void move_gripper(Body& body, int action);
-// Stops paddles and lift where they are.
-void halt_gripper(Body& body);
+/// What a Pioneer's controller does with a gripper at its user ports: it moves paddles and lift, ends a lift's carry after
+/// its time, and tells their state in two bytes of an information packet.
+///
+/// Thread contract: not synchronised.
+/// @source  Pioneer Gripper manual, "AROS Gripper client command set", "Gripper state byte" and "User I/O DIGIN bits".
+class P2osGripper {
+ public:
+  static constexpr unsigned kKind = 1;  ///< In the configuration; 0: no gripper.
 
-// The state of the gripper in an information packet. Without a gripper both are 0.
-struct GripperBytes {
-  std::uint8_t state = 0;
-  std::uint8_t inputs = 0;  // Digital ones.
+  /// @param body  outlives the object.
+  explicit P2osGripper(Body& body) : body_(body) {}
+
+  /// Carries out a command if it is one of the gripper. It must see all others too: the time of a carry is the next command
+  /// behind it, or none.
+  /// @return  whether it was one of the gripper.
+  bool take(int number, int value, TimePoint now);
+  /// Stops paddles and lift.
+  void halt();
+  /// Stops both and lets no command move them, or lets commands move them again.
+  void lock(bool locked);
+  /// Stops the lift at the end of a carry.
+  void advance(TimePoint now);
+
+  /// Each of these is 0 if the body has no gripper.
+  [[nodiscard]] std::uint8_t state() const;
+  [[nodiscard]] std::uint8_t digital_in() const;
+  [[nodiscard]] unsigned kind() const { return body_.gripper() ? kKind : 0; }
+
+ private:
+  void act(int action);
+  void move_lift(GripperMove move);
+  void carry(int steps, TimePoint now);
+
+  Body& body_;
+  bool locked_ = false;
+  bool awaits_time_ = false;  // of a carry
+  std::optional<TimePoint> carry_end_;
 };
-[[nodiscard]] GripperBytes gripper_bytes(const Body& body);
 
 }  // namespace orca::emulators

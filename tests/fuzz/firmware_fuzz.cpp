@@ -8,6 +8,7 @@
 
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/player_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
@@ -30,9 +31,14 @@ class FuzzedBody final : public emulators::Body {
     if (number < 0 || number > 47) std::abort();
     return 0.1 * number;
   }
+  void move_gripper(emulators::GripperMove move) override { last_move_ = move; }
+  [[nodiscard]] std::optional<emulators::GripperLook> gripper() const override {
+    return emulators::GripperLook{.paddles_move = last_move_ == emulators::GripperMove::open};
+  }
 
  private:
   Twist2 velocity_;
+  emulators::GripperMove last_move_ = emulators::GripperMove::stop;
 };
 
 class FuzzedMirror final : public emulators::Mirror {
@@ -68,6 +74,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   talk(scout, {data, size}, 38400);
   emulators::Create2Firmware create(body);
   talk(create, {data, size}, 115200);
+  emulators::P2osFirmware pioneer(body);
+  talk(pioneer, {data, size}, 9600);
   FuzzedMirror mirror;
   emulators::RplidarFirmware laser(mirror, {.boot = 0s, .spin_up = 1ms});
   talk(laser, {data, size}, 115200, 300ms);  // it may send 2000 points a second

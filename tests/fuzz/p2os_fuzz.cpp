@@ -6,6 +6,7 @@
 #include "frame_stream.hpp"
 #include "orca/hw/p2os/command.hpp"
 #include "orca/hw/p2os/config.hpp"
+#include "orca/hw/p2os/gripper.hpp"
 #include "orca/hw/p2os/reports.hpp"
 #include "orca/hw/p2os/sip.hpp"
 #include "orca/hw/p2os/sync.hpp"
@@ -30,6 +31,7 @@ void read_sip(Bytes body) {
     const auto sip = p2os::parse_sip(body, p2os::choose_model(subclass).model);
     require(sip.has_value() || !sip.error().message.empty());
     if (sip) require(sip->x < 32768 && sip->echoes.size() <= p2os::Sip::kMostEchoes);
+    if (sip && sip->ports) (void)p2os::gripper_of(*sip->ports);
   }
 }
 

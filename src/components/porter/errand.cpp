@@ -39,26 +39,31 @@ Step Errand::step(const Pose2& pose, const idl::GripperState& gripper, double ti
     told_.reset();
     from_ = pose.position();
   }
-  Step step = go_on(now);
+  Step step = kind_ == Kind::fetch ? fetch(now) : put(now);
   const bool late = began_ && time - *began_ > manner.patience;
   return late && step.kind == Step::Kind::goes_on ? failure(this->late()) : step;
 }
 
-Step Errand::go_on(const Scene& now) {
+Step Errand::fetch(const Scene& now) {
   const idl::GripperState& gripper = now.gripper;
   switch (stage_) {
-    case Stage::open:
-      if (gripper.open() && gripper.down()) return enter(Stage::turn);
-      return tell(now, idl::PADDLES_OPEN, idl::LIFT_DOWN);
-    case Stage::look:
-      if (!gripper.holds()) return failure("there is nothing between the paddles to be put down");
-      return enter(Stage::turn);
     case Stage::turn: return turn(now);
-    case Stage::approach: return kind_ == Kind::fetch ? approach_thing(now) : approach_place(now);
+    case Stage::approach: return approach_thing(now);
     case Stage::close: return close(now);
     case Stage::lift:
       if (gripper.up()) return {.kind = Step::Kind::done};
       return tell(now, idl::PADDLES_STAY, idl::LIFT_UP);
+    default:
+      if (gripper.open() && gripper.down()) return enter(Stage::turn);
+      return tell(now, idl::PADDLES_OPEN, idl::LIFT_DOWN);
+  }
+}
+
+Step Errand::put(const Scene& now) {
+  const idl::GripperState& gripper = now.gripper;
+  switch (stage_) {
+    case Stage::turn: return turn(now);
+    case Stage::approach: return approach_place(now);
     case Stage::lower:
       if (gripper.down()) return enter(Stage::let_go);
       return tell(now, idl::PADDLES_STAY, idl::LIFT_DOWN);
@@ -66,8 +71,10 @@ Step Errand::go_on(const Scene& now) {
       if (gripper.open()) return enter(Stage::back_off);
       return tell(now, idl::PADDLES_OPEN, idl::LIFT_STAY);
     case Stage::back_off: return back_off(now);
+    default:
+      if (!gripper.holds()) return failure("there is nothing between the paddles to be put down");
+      return enter(Stage::turn);
   }
-  return {};
 }
 
 // It turns more slowly the less is left.

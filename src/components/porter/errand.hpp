@@ -62,7 +62,7 @@ class Errand {
   auto state() { return std::tie(kind_, place_, stage_, began_, told_, from_); }
 
  private:
-  /// In their order; a thing is fetched without the last, and put down without the first two.
+  /// To fetch: open, turn, approach, close, lift. To put down: look, turn, approach, lower, let_go, back_off.
   enum class Stage { open, look, turn, approach, close, lift, lower, let_go, back_off };
 
   struct Scene {
@@ -72,7 +72,8 @@ class Errand {
     const Manner& manner;
   };
 
-  [[nodiscard]] Step go_on(const Scene& now);
+  [[nodiscard]] Step fetch(const Scene& now);
+  [[nodiscard]] Step put(const Scene& now);
   [[nodiscard]] Step turn(const Scene& now);
   [[nodiscard]] Step approach_thing(const Scene& now);
   [[nodiscard]] Step approach_place(const Scene& now);

@@ -49,7 +49,7 @@ void HardwareContainer::watch(Strand& strand, bool on) {
 }
 
 Status HardwareContainer::check_active() const {
-  if (motion_ == nullptr) return fail(Code::failed_precondition, host_.name() + " has nothing that moves");
+  if (motion() == nullptr) return fail(Code::failed_precondition, host_.name() + " has nothing that moves");
   if (state() != HardwareState::active)
     return fail(Code::unavailable,
                 host_.name() + " is " + to_string(state()) + ", not Active: nobody has started it");
@@ -63,14 +63,14 @@ Status HardwareContainer::command(ActuatorEndpoint& actuator, ObjectRef command)
 }
 
 void HardwareContainer::hold(const std::string& reason) {
-  for (ActuatorEndpoint* const actuator : actuators_) actuator->hold(reason);
-  if (motion_ != nullptr) motion_->hold(reason);
+  for (ActuatorEndpoint* const actuator : actuators()) actuator->hold(reason);
+  if (motion() != nullptr) motion()->hold(reason);
   wake();
 }
 
 bool HardwareContainer::let_go() {
-  bool was_held = motion_ != nullptr && motion_->let_go();
-  for (ActuatorEndpoint* const actuator : actuators_) was_held = actuator->let_go() || was_held;
+  bool was_held = motion() != nullptr && motion()->let_go();
+  for (ActuatorEndpoint* const actuator : actuators()) was_held = actuator->let_go() || was_held;
   return was_held;
 }
 

@@ -4,23 +4,26 @@
 #include "orca/hw/p2os/command.hpp"
 
 namespace orca::hw::p2os {
+namespace {
+
+bool is_set(unsigned bits, unsigned number) { return ((bits >> number) & 1U) != 0; }
+
+}  // namespace
 
 Packet encode_gripper(GripperAction action) { return encode(Command::gripper, static_cast<int>(action)); }
 
-// A paddle with contact pulls its input down.
 GripperState gripper_of(const PortState& ports) {
-  const auto state = [&](unsigned bit) { return ((ports.gripper >> bit) & 1U) != 0; };
-  const auto input = [&](unsigned bit) { return ((ports.digital_in >> bit) & 1U) != 0; };
-  return {.open = state(0),
-          .closed = state(1),
-          .paddles_move = state(2),
-          .up = state(4),
-          .down = state(5),
-          .lift_moves = state(6),
-          .inner_beam = input(3),
-          .outer_beam = input(2),
-          .left_contact = !input(4),
-          .right_contact = !input(5)};
+  return {.open = is_set(ports.gripper, 0),
+          .closed = is_set(ports.gripper, 1),
+          .paddles_move = is_set(ports.gripper, 2),
+          .up = is_set(ports.gripper, 4),
+          .down = is_set(ports.gripper, 5),
+          .lift_moves = is_set(ports.gripper, 6),
+          .inner_beam = is_set(ports.digital_in, 3),
+          .outer_beam = is_set(ports.digital_in, 2),
+          .left_contact =
+              !is_set(ports.digital_in, 4),  // the switches of the paddles are 0 when they are pressed
+          .right_contact = !is_set(ports.digital_in, 5)};
 }
 
 }  // namespace orca::hw::p2os

@@ -8,10 +8,15 @@
 #include "pioneer_line.hpp"
 
 using namespace orca;
-using namespace orca::emulators::test;
 using namespace std::chrono_literals;
-using emulators::P2osFirmware;
 using emulators::P2osSettings;
+using emulators::test::kAhead;
+using emulators::test::kEnable;
+using emulators::test::kStop;
+using emulators::test::kSync0;
+using emulators::test::kSync1;
+using emulators::test::kSync2;
+using emulators::test::PioneerLine;
 using hw::test::Bytes;
 using hw::test::hex;
 using hw::test::text_of;

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <string>
+
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/hw/p2os/packet.hpp"
 #include "robot_line.hpp"

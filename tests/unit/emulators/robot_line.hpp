@@ -27,7 +27,7 @@ struct ScriptedBody final : Body {
   [[nodiscard]] bool is_stalled() const override { return stalled; }
   [[nodiscard]] std::uint8_t cliffs() const override { return no_floor; }
   [[nodiscard]] bool is_lifted() const override { return lifted; }
-  void move_gripper(GripperMove move) override { moves.push_back(move); }
+  void move_gripper(GripperMove move) override { gripper_moves.push_back(move); }
   [[nodiscard]] std::optional<GripperLook> gripper() const override { return look; }
 
   Twist2 told;
@@ -38,8 +38,8 @@ struct ScriptedBody final : Body {
   std::uint8_t no_floor = 0;
   bool stalled = false;
   bool lifted = false;
-  std::optional<GripperLook> look{};  // nothing: it has no gripper
-  std::vector<GripperMove> moves{};
+  std::vector<GripperMove> gripper_moves;
+  std::optional<GripperLook> look;
 };
 
 /// A robot's controller and its host, which hears everything that it sends.

@@ -44,6 +44,11 @@ class P2osBase final : public orca::hw::LineDriver {
     if (!choice.is_known)
       faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
     for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
+    if (has_gripper() && choice.model.name.find("PeopleBot") != std::string_view::npos)
+      faults.push_back(
+          {"robot",
+           "its gripper is that of a PeopleBot, which is at ports that this driver does not know; only "
+           "grippers of Pioneers are known"});
     if (!faults.empty()) return faults;
     model_ = &choice.model;
     declare_endpoints();
@@ -156,7 +161,7 @@ class P2osBase final : public orca::hw::LineDriver {
     }
     if (command.lift() == orca::idl::LIFT_STAY) return orca::ok();
     const bool up = command.lift() == orca::idl::LIFT_UP;
-    return send({encode_gripper(up ? GripperAction::lift_up : GripperAction::lift_down)});
+    return send({encode_gripper(up ? GripperAction::up : GripperAction::down)});
   }
 
   // Of some models the limit is not known.

@@ -4,6 +4,7 @@
 #include "allocation_counter.hpp"
 #include "hex_bytes.hpp"
 #include "orca/hw/p2os/command.hpp"
+#include "orca/hw/p2os/gripper.hpp"
 #include "orca/hw/p2os/sip.hpp"
 
 using namespace orca::hw;
@@ -16,7 +17,10 @@ TEST_CASE("what a Pioneer's driver does in each cycle takes no memory", "[hw][p2
   const auto sip = p2os::parse_sip(body, model);
   const p2os::Packet wheels = p2os::encode_wheels(p2os::wheel_steps({.forward = 0.2}, model));
   const p2os::Packet speed = p2os::encode_speed(0.2);
+  const p2os::Packet grip = p2os::encode_gripper(p2os::GripperAction::close);
+  const p2os::GripperState gripper = p2os::gripper_of({.gripper = 1});
   CHECK(orca::test::allocations() == before);
   CHECK(sip->echoes.size() == 4);
-  CHECK(wheels.size() + speed.size() == 18);
+  CHECK(wheels.size() + speed.size() + grip.size() == 27);
+  CHECK(gripper.open);
 }

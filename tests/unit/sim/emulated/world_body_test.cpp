@@ -130,3 +130,42 @@ TEST_CASE("wheels that do not turn for half a second though they should are stal
   bench.turn_wheels(TimePoint{800ms}, {0.4, 0.0, 0.0});
   CHECK_FALSE(bench.body.is_stalled());
 }
+
+TEST_CASE("firmware moves the gripper of the world, and sees of it what its switches and beams would say",
+          "[emulated][gripper]") {
+  RobotModel robot = small_robot();
+  robot.gripper.emplace();
+  std::vector<GripperOrder> orders;
+  WorldBody body(robot, {.wheels = [](const Twist2&) {},
+                         .gripper = [&](const GripperOrder& order) { orders.push_back(order); }});
+  body.move_gripper(emulators::GripperMove::close);
+  body.move_gripper(emulators::GripperMove::stop_lift);
+  REQUIRE(orders.size() == 2);
+  CHECK(orders[0].paddles == Paddles::close);
+  CHECK(orders[0].lift == Lift::stay);
+  CHECK(orders[1].paddles == Paddles::stay);
+  CHECK(orders[1].lift == Lift::halt);
+
+  CHECK(body.gripper()->open);
+  CHECK(body.gripper()->down);
+  SharedWorld::Inbox inbox;
+  GripperReading reading;
+  reading.opening = 0.3;
+  reading.lift = 1.0;
+  reading.inner_beam = true;
+  reading.holds = true;
+  inbox.gripper.push_back(reading);
+  body.sense(inbox);
+  const auto look = body.gripper();
+  CHECK_FALSE(look->open);
+  CHECK(look->closed);  // on something
+  CHECK(look->up);
+  CHECK(look->inner_beam);
+  CHECK((look->left_contact && look->right_contact));
+}
+
+TEST_CASE("a robot of the world without a gripper shows none, and moves none", "[emulated][gripper]") {
+  Bench bench;
+  bench.body.move_gripper(emulators::GripperMove::open);
+  CHECK_FALSE(bench.body.gripper());
+}

@@ -11,21 +11,28 @@
 
 namespace orca::emulators {
 
-/// What a gripper with two paddles on a lift is to do. It goes on until it is at the end, meets something or is told to stop.
-enum class GripperMove { open, close, stop, up, down, stop_lift };
-
-/// What the switches and beams of a gripper say.
+/// What a gripper of two paddles on a lift tells of itself.
 struct GripperLook {
-  bool open = false;           ///< The paddles are as far apart as they can be.
-  bool closed = false;         ///< The paddles are together.
-  bool paddles_move = false;   ///< They are on their way.
+  bool open = false;           ///< The paddles are at their open end.
+  bool closed = false;         ///< The paddles are closed, on each other or on something.
+  bool paddles_move = false;   ///< The paddles open or close.
   bool up = false;             ///< The lift is at its upper end.
   bool down = false;           ///< The lift is at its lower end.
-  bool lift_moves = false;     ///< It is on its way.
-  bool inner_beam = false;     ///< Something is in the beam near the robot.
-  bool outer_beam = false;     ///< Something is in the beam near the tips.
-  bool left_contact = false;   ///< Something presses on the left paddle.
-  bool right_contact = false;  ///< Something presses on the right paddle.
+  bool lift_moves = false;     ///< The lift goes up or down.
+  bool inner_beam = false;     ///< Something interrupts the beam near the robot.
+  bool outer_beam = false;     ///< Something interrupts the beam near the tips of the paddles.
+  bool left_contact = false;   ///< The left paddle is pressed against something.
+  bool right_contact = false;  ///< The right paddle is pressed against something.
+};
+
+/// What the motors of a gripper begin to do. Paddles and lift move each for itself, and stop at their ends.
+enum class GripperMove {
+  open,       ///< Open the paddles.
+  close,      ///< Close the paddles.
+  stop,       ///< Stop the paddles.
+  up,         ///< Raise the lift.
+  down,       ///< Lower the lift.
+  stop_lift,  ///< Stop the lift.
 };
 
 /// The body of a robot, as its controller drives and senses it. The simulator is one; a test may have a simpler one.
@@ -50,9 +57,9 @@ class Body {
   [[nodiscard]] virtual std::uint8_t cliffs() const { return 0; }
   /// Returns whether the wheels hang, because the robot was lifted.
   [[nodiscard]] virtual bool is_lifted() const { return false; }
-  /// Moves the gripper, if there is one.
-  virtual void move_gripper(GripperMove /*move*/) {}
-  /// Returns what the gripper looks like; nothing if there is none.
+  /// Makes the gripper move, from now on. A body without one passes it over.
+  virtual void move_gripper(GripperMove) {}
+  /// Returns what the gripper tells of itself; nothing if the body has none. It has one all the time, or never.
   [[nodiscard]] virtual std::optional<GripperLook> gripper() const { return std::nullopt; }
 };
 

@@ -18,6 +18,7 @@
 
 namespace orca::emulators {
 
+class P2osGripper;
 class P2osServo;
 
 struct P2osSettings {
@@ -47,12 +48,17 @@ struct P2osSettings {
 /// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate.
 ///
 /// It sets its odometry to 0, drives ways and turns to headings by itself (MOVE, HEAD, DHEAD), tells its configuration, and
-/// lets bumpers raise a stall. A gripper of the body goes as it is told, with or without the motors' power; when the connection
-/// ends, the watchdog bites or the red button is pressed, it halts (own choice: the manual does not say). Passed over are how hard
-/// it presses, lifting for a time, gyros and serial ports of its own, and gains and accelerations, which the body has.
+/// lets bumpers raise a stall. What has no use for a body without gyros and serial ports of its own is
+/// passed over, as are gains and accelerations, which the body has.
+///
+/// It moves the gripper of a body that has one, tells its state in information packets, and kind 1, which is at the user ports, in
+/// its configuration. Paddles and lift are stopped at CLOSE and at a reset, by the watchdog, and by the emergency button, which also
+/// lets no command move them while it is pressed: no source says what a controller does then; this is the safe side. Nor is it
+/// known whether the motors' power matters to a gripper: here it does not. Passed over are the pressure of the paddles, which
+/// the body has, and the packets that tell of a gripper alone. The two bits that tell of its faults are never set.
 ///
 /// Thread contract: not synchronised.
-/// @source  Pioneer 2 operations manual, "Client commands" and "Server information packet".
+/// @source  Pioneer 2 operations manual, "Client commands" and "Server information packet"; Pioneer Gripper manual.
 class P2osFirmware final : public Firmware {
  public:
   /// @param body  outlives the object.
@@ -108,6 +114,7 @@ class P2osFirmware final : public Firmware {
   int next_sonar_ = 0;
   Twist2 wanted_{};
   const std::unique_ptr<P2osServo> servo_;
+  const std::unique_ptr<P2osGripper> gripper_;
   Pose2 origin_{};         // of its odometry, as the body counts
   int bumpers_stall_ = 0;  // bit 0: those in front, bit 1: those behind
   TimePoint last_command_{};

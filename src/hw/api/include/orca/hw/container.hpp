@@ -9,9 +9,8 @@
 #include "orca/base/strand.hpp"
 #include "orca/component/host.hpp"
 #include "orca/component/param.hpp"
-#include "orca/hw/actuator.hpp"
 #include "orca/hw/drawable.hpp"
-#include "orca/hw/endpoints.hpp"
+#include "orca/hw/endpoint_list.hpp"
 #include "orca/hw/hardware_state.hpp"
 #include "orca/hw/line_counts.hpp"
 #include "orca/idl/hardware.hpp"
@@ -86,7 +85,7 @@ class DriverFunctions {
 /// and opens nothing, so a graph can be checked without the device.
 ///
 /// Thread contract: the public functions from any strand.
-class HardwareContainer : public DriverFunctions {
+class HardwareContainer : public DriverFunctions, public EndpointList {
  public:
   explicit HardwareContainer(HardwareHost& host);
   /// May throw, because a plugin author's destructor may throw; the runtime contains it.
@@ -110,11 +109,6 @@ class HardwareContainer : public DriverFunctions {
     return {};
   }
 
-  [[nodiscard]] const std::vector<SensorEndpoint*>& sensors() const { return sensors_; }
-  /// Returns the motion of its base; null if it has none.
-  [[nodiscard]] MotionHW* motion() const { return motion_; }
-  /// Returns what else moves.
-  [[nodiscard]] const std::vector<ActuatorEndpoint*>& actuators() const { return actuators_; }
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
   /// Returns the line to the device, as its parameter `device` in the graph names it; empty: it has none.
@@ -143,7 +137,7 @@ class HardwareContainer : public DriverFunctions {
   template <class Command>
   Status command(const Command& command) {
     if (Status able = check_active(); !able.ok()) return able;
-    const Status taken = motion_->command(command, host_.now());
+    const Status taken = motion()->command(command, host_.now());
     if (taken.ok()) wake();
     return taken;
   }
@@ -166,10 +160,6 @@ class HardwareContainer : public DriverFunctions {
   void watch(Strand& strand, bool on = true);
 
  protected:
-  /// @pre  called from prepare(); the endpoints live as long as the container.
-  void add_sensor(SensorEndpoint& sensor) { sensors_.push_back(&sensor); }
-  void set_motion(MotionHW& motion) { motion_ = &motion; }
-  void add_actuator(ActuatorEndpoint& actuator) { actuators_.push_back(&actuator); }
   void set_line_name(std::string name) { line_name_ = std::move(name); }
 
   /// Notes that the device has said something that makes sense.
@@ -187,9 +177,6 @@ class HardwareContainer : public DriverFunctions {
   void wake();
 
   HardwareHost& host_;
-  std::vector<SensorEndpoint*> sensors_;
-  MotionHW* motion_ = nullptr;
-  std::vector<ActuatorEndpoint*> actuators_;
   std::string line_name_;
   // Everything that changes while the container runs; drivers are compiled without knowing it.
   const std::unique_ptr<HardwareLoop> loop_;

@@ -39,9 +39,9 @@ enum class Command : std::uint8_t {
   stop = 29,        ///< Stops; the motors stay enabled. No argument.
   digout = 30,      ///< High byte: lines to change; low byte: their states.
   vel2 = 32,        ///< Speeds of both wheels: see encode_wheels().
-  gripper = 33,     ///< Gripper command.
+  gripper = 33,     ///< A GripperAction: see encode_gripper().
   adsel = 35,       ///< Analog port that SIPs report.
-  gripperval = 36,  ///< Argument of a gripper command.
+  gripperval = 36,  ///< Argument of the gripper command before.
   iorequest = 40,   ///< IO packets: 1 one, 2 continuously, 0 none.
   tty2 = 42,        ///< Bytes for the first auxiliary port.
   getaux = 43,      ///< Asks for 1 to 200 bytes of the first auxiliary port; 0 discards what it has received.

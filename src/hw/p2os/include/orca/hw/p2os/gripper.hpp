@@ -8,46 +8,48 @@
 
 namespace orca::hw::p2os {
 
-/// What the gripper of a Pioneer 2 can be told: the argument of Command::gripper. Paddles and lift go on until they are at their
-/// ends, or meet something, or are told to stop.
-/// @source  gripper commands of the vendor, as the public drivers Player (p2os) and ARIA (ArGripper) name them.
+/// What Command::gripper makes the gripper do: two paddles, on a lift. Both stop by themselves at their ends.
+///
+/// `store` and `deploy` are not for an object: they lift before the paddles hold it, and let it go above the floor.
+/// `pressure` and `carry` take their times, in steps of 20 ms, from Command::gripperval, which must be the next command.
+/// @source  Pioneer Gripper manual, "AROS Gripper client command set".
 enum class GripperAction : std::uint8_t {
-  open = 1,        ///< Opens the paddles.
-  close = 2,       ///< Closes the paddles.
-  stop = 3,        ///< Stops the paddles.
-  lift_up = 4,     ///< Lifts.
-  lift_down = 5,   ///< Lowers.
-  lift_stop = 6,   ///< Stops the lift.
-  store = 7,       ///< Closes the paddles and lifts.
-  deploy = 8,      ///< Opens the paddles and lowers.
-  halt = 15,       ///< Stops paddles and lift.
-  press = 16,      ///< Sets how hard the paddles press, to the value of Command::gripperval.
-  lift_carry = 17  ///< Moves the lift for the time of Command::gripperval.
+  open = 1,       ///< Opens the paddles.
+  close = 2,      ///< Closes the paddles, on each other or on what is between them.
+  stop = 3,       ///< Stops the paddles where they are.
+  up = 4,         ///< Raises the lift to its upper end.
+  down = 5,       ///< Lowers the lift to its lower end.
+  stop_lift = 6,  ///< Stops the lift where it is.
+  store = 7,      ///< Closes the paddles and raises the lift, both at once.
+  deploy = 8,     ///< Opens the paddles and lowers the lift, both at once.
+  halt = 15,      ///< Stops paddles and lift where they are.
+  pressure = 16,  ///< How long the paddles close on after they touch something: 1 to 100 steps.
+  carry = 17,     ///< How long the lift moves, from now on: 1 to 255 steps, negative: down.
 };
 
 /// Returns Command::gripper.
 [[nodiscard]] Packet encode_gripper(GripperAction action);
 
-/// What a gripper tells of itself.
+/// State of a gripper at the user ports, as Pioneers have it. That of a PeopleBot is at other ports.
 ///
 /// A plain value.
-/// @source  the bits of the state byte by Player's p2os driver; those of the digital inputs by ARIA's ArGripper, with which Player's
-/// clients agree on the beams.
 struct GripperState {
-  bool open = false;           ///< The paddles are as far apart as they can be.
-  bool closed = false;         ///< The paddles are together.
-  bool paddles_move = false;   ///< They are on their way.
-  bool up = false;             ///< The lift is at its upper end.
+  bool open = false;    ///< The paddles are open. If it equals `closed`, it is not known where they are.
+  bool closed = false;  ///< The paddles are closed.
+  bool paddles_move = false;  ///< The paddles open or close.
+  bool up = false;  ///< The lift is at its upper end. If it equals `down`, it is not known where the lift is.
   bool down = false;           ///< The lift is at its lower end.
-  bool lift_moves = false;     ///< It is on its way.
-  bool inner_beam = false;     ///< Something is in the beam near the robot.
-  bool outer_beam = false;     ///< Something is in the beam near the tips.
+  bool lift_moves = false;     ///< The lift goes up or down.
+  bool inner_beam = false;     ///< Something interrupts the beam near the robot.
+  bool outer_beam = false;     ///< Something interrupts the beam near the tips of the paddles.
   bool left_contact = false;   ///< Something presses on the left paddle.
   bool right_contact = false;  ///< Something presses on the right paddle.
   friend bool operator==(const GripperState&, const GripperState&) = default;
 };
 
-/// Returns the state of the gripper that is connected to these ports. @pre  one is; without one the bits mean nothing.
+/// Returns the state of the gripper.
+/// @pre  The robot has a gripper. Without one the inputs mean something else: where all are 0, both paddles seem to be pressed.
+/// @source  Pioneer Gripper manual, "Gripper state byte" and "User I/O DIGIN bits".
 [[nodiscard]] GripperState gripper_of(const PortState& ports);
 
 }  // namespace orca::hw::p2os
