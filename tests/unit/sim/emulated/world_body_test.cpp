@@ -92,7 +92,7 @@ TEST_CASE("of a bumper that goes all around, each bit is a switch, counted from 
   RobotModel robot = small_robot();
   robot.bumpers[0].angles.clear();
   robot.bumpers[0].pitch = 60 * kDegree;
-  WorldBody body(robot, [](const Twist2&) {});
+  WorldBody body(robot, {.wheels = [](const Twist2&) {}});
   SharedWorld::Inbox inbox;
   inbox.bumper.push_back({0, {{}, {true, false, false, true, false, true}, {}}});
   body.sense(inbox);
