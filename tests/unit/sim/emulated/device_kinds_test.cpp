@@ -44,7 +44,7 @@ TEST_CASE("what is no list of devices is refused with what is wrong", "[emulated
 
 TEST_CASE("a device of an unknown kind or model is refused with those that there are", "[emulated]") {
   const RobotModel robot;
-  WorldBody body(robot, [](const Twist2&) {});
+  WorldBody body(robot, {.wheels = [](const Twist2&) {}});
   CHECK(make_firmware({"p2os", "", "x"}, body));
   CHECK(make_firmware({"p2os", "p2pb", "x"}, body));
   for (const char* const kind : {"create2", "nomad_scout", "rplidar", "sick_lms"}) {
