@@ -208,6 +208,7 @@ Fields expected(const PlainFile& file) {
   const std::vector<std::string> lasers = file.names("laser");
   for (std::size_t i = 0; i < lasers.size(); ++i) all.merge(laser(file, i, lasers[i]));
   if (file.has("turret")) all.merge(device(file, "actuators.0.", "turret", file.get("turret", "joint")));
+  if (file.has("gripper")) all.merge(device(file, "actuators.0.", "gripper", file.get("gripper", "link")));
   int k = 0;
   const auto add = [&](const std::string& element, const std::string& name, const std::string& type) {
     if (file.has(element))
@@ -217,6 +218,7 @@ Fields expected(const PlainFile& file) {
   add("bumper_ring", file.get("bumper_ring", "name"), "BumperReadings");
   add("odometry", "odometry", "Odometry");
   add("turret", file.get("turret", "joint"), "TurretAngle");
+  add("gripper", file.get("gripper", "link"), "GripperState");
   return all;
 }
 
