@@ -31,3 +31,4 @@ template class orca::Param<std::string>;
 template class orca::Param<std::vector<std::string>>;
 template class orca::Result<orca::ObjectRef>;
 template class orca::hw::SensorHW<MotionCommand>;
+template class orca::hw::ActuatorHW<MotionCommand>;

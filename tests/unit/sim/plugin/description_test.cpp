@@ -273,6 +273,7 @@ const std::vector<Unknown> kUnknown{
     {"pioneer_2dx_gripper", "odometry", "model", kPartOfTheBase},
     {"pioneer_2dx_gripper", "sonar", "vendor", kMakerUnnamed},
     {"pioneer_2dx_gripper", "sonar", "model", kMakerUnnamed},
+    {"pioneer_2dx_gripper", "gripper_link", "model", kPartOfTheBase},
 
     {"nomad_xr4000", "drive", "model", kPartOfTheBase},
     {"nomad_xr4000", "bumper", "model", kPartOfTheBase},
