@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -14,22 +15,29 @@
 #include "orca/hw/link/make_link.hpp"
 
 namespace orca::sim {
+namespace {
+
+constexpr std::size_t kMostHosts = 16;
+
+}  // namespace
 
 DeviceLine::DeviceLine(const std::string& place, std::unique_ptr<emulators::Firmware> firmware)
-    : name_(place), firmware_(std::move(firmware)) {
+    : name_(place) {
   if (place.starts_with(kListens)) {
-    link_ = std::move(hw::link::make_link(place)).value();
+    auto link = std::move(hw::link::make_link(place)).value();
+    port_ = dynamic_cast<hw::link::ListenLink*>(link.get());
+    seats_.push_back({std::move(link), std::move(firmware)});
     return;
   }
   auto terminal = std::make_unique<hw::link::PtyLink>(hw::link::emulated_path(place));
   terminal_ = terminal.get();
-  link_ = std::move(terminal);
+  seats_.push_back({std::move(terminal), std::move(firmware)});
 }
 
 Status DeviceLine::open() {
   if (terminal_ != nullptr)
     if (Status locked = lock_name(); !locked.ok()) return locked;
-  const Result<hw::link::Opening> opened = link_->open();
+  const Result<hw::link::Opening> opened = seats_.front().link->open();
   if (!opened) return opened.error();
   return terminal_ != nullptr ? terminal_->await_driver() : ok();
 }
@@ -52,22 +60,35 @@ Status DeviceLine::lock_name() {
 }
 
 void DeviceLine::close() {
-  link_->close();
+  for (const Seat& seat : seats_) seat.link->close();
+  seats_.resize(1);
   lock_.reset();
 }
 
-// While no driver has the line open there is nothing to read, and what the device says is lost.
 bool DeviceLine::exchange(TimePoint now) {
-  std::array<std::uint8_t, 512> bytes{};
   const auto set = terminal_ != nullptr ? terminal_->line() : std::nullopt;
-  const std::uint32_t baud = set ? set->baud : 0;
-  auto count = link_->read(bytes);
-  firmware_->note_host(static_cast<bool>(count), now);
-  for (; count && *count > 0; count = link_->read(bytes)) firmware_->take({bytes.data(), *count}, baud, now);
-  const std::vector<std::uint8_t> sent = firmware_->advance(now);
-  if (!sent.empty()) (void)link_->write(sent);
-  (void)link_->flush();
-  return static_cast<bool>(count);
+  for (Seat& seat : seats_) exchange(seat, set ? set->baud : 0, now);
+  if (port_ != nullptr && std::ranges::all_of(seats_, &Seat::is_taken)) add_seat();
+  return std::ranges::any_of(seats_, &Seat::is_taken);
+}
+
+// While no driver has the line open there is nothing to read, and what the device says is lost.
+void DeviceLine::exchange(Seat& seat, std::uint32_t baud, TimePoint now) {
+  std::array<std::uint8_t, 512> bytes{};
+  auto count = seat.link->read(bytes);
+  seat.firmware->note_host(static_cast<bool>(count), now);
+  for (; count && *count > 0; count = seat.link->read(bytes))
+    seat.firmware->take({bytes.data(), *count}, baud, now);
+  const std::vector<std::uint8_t> sent = seat.firmware->advance(now);
+  if (!sent.empty()) (void)seat.link->write(sent);
+  (void)seat.link->flush();
+  seat.is_taken = static_cast<bool>(count);
+}
+
+void DeviceLine::add_seat() {
+  if (seats_.size() == kMostHosts) return;
+  if (auto firmware = seats_.front().firmware->for_another_host())
+    seats_.push_back({port_->another(), std::move(firmware)});
 }
 
 }  // namespace orca::sim

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
 #include "orca/emulators/firmware.hpp"
 #include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
 
 namespace orca::sim {
@@ -17,7 +20,7 @@ namespace orca::sim {
 inline constexpr std::string_view kListens = "listen:";
 
 /// An emulated device with its line, which a driver opens as emulated:NAME, or with the port at which it listens, which a driver opens as
-/// emulated:tcp:PORT, and programs of others as tcp:HOST:PORT.
+/// emulated:tcp:PORT, and programs of others as tcp:HOST:PORT. A device that has several hosts at once serves up to 16 there.
 ///
 /// Thread contract: one strand.
 class DeviceLine {
@@ -29,17 +32,26 @@ class DeviceLine {
   Status open();
   void close();
   /// Passes bytes on, as the line's rate allows.
-  /// @return whether a driver has the line open.
+  /// @return whether a driver, or any host, has the line open.
   bool exchange(TimePoint now);
 
  private:
+  /// The place of one host: its connection, and what talks to it.
+  struct Seat {
+    std::unique_ptr<hw::link::ByteLink> link;
+    std::unique_ptr<emulators::Firmware> firmware;
+    bool is_taken = false;
+  };
+
   [[nodiscard]] Status lock_name();
+  void exchange(Seat& seat, std::uint32_t baud, TimePoint now);
+  void add_seat();
 
   const std::string name_;
-  std::unique_ptr<hw::link::ByteLink> link_;
-  hw::link::PtyLink* terminal_ = nullptr;  // the link, if it is one
+  std::vector<Seat> seats_;                // at least one
+  hw::link::PtyLink* terminal_ = nullptr;  // the first seat's link, if it is one
+  hw::link::ListenLink* port_ = nullptr;   // likewise
   Descriptor lock_;                        // of the terminal's name, while it is open
-  std::unique_ptr<emulators::Firmware> firmware_;
 };
 
 }  // namespace orca::sim

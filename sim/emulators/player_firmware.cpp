@@ -28,9 +28,16 @@ PlayerWriter written_address(std::uint32_t port, std::uint32_t interface, std::u
 }  // namespace
 
 PlayerFirmware::PlayerFirmware(Body& body, PlayerSettings settings, const Mirror* mirror)
-    : settings_(std::move(settings)), robot_(std::make_unique<PlayerRobot>(body, mirror, settings_)) {}
+    : PlayerFirmware(std::make_shared<PlayerRobot>(body, mirror, std::move(settings))) {}
+
+PlayerFirmware::PlayerFirmware(std::shared_ptr<PlayerRobot> robot)
+    : robot_(std::move(robot)), settings_(robot_->settings()) {}
 
 PlayerFirmware::~PlayerFirmware() = default;
+
+std::unique_ptr<Firmware> PlayerFirmware::for_another_host() {
+  return std::unique_ptr<Firmware>(new PlayerFirmware(robot_));
+}
 
 bool PlayerFirmware::has_power() const { return robot_->has_power(); }
 
@@ -149,14 +156,16 @@ void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
     access = kAccessRefused;
   else if (open_.empty())
     next_cycle_ = now_ + settings_.cycle;
-  if (access == kAccessOpen) open_.insert(interface);
+  if (access == kAccessOpen && open_.insert(interface).second) {
+    robot_->open(interface);
+    if (interface == kPlayerLaser) scans_ = robot_->scans();
+  }
   PlayerWriter out = written_address(settings_.port, interface, 0);
   answer(header, kPlayerAck, out.word(access).text(driver_of(interface)).bytes());
 }
 
-// A base that nobody has open is stopped by its driver.
 void PlayerFirmware::close(std::uint32_t interface) {
-  if (open_.erase(interface) > 0 && interface == kPlayerPosition) robot_->rest();
+  if (open_.erase(interface) > 0) robot_->close(interface);
   queue_.erase(interface);
 }
 
@@ -189,8 +198,11 @@ std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
   for (; !open_.empty() && now >= next_cycle_; next_cycle_ += settings_.cycle)
     for (const std::uint32_t interface : open_)
       if (interface != kPlayerLaser) publish(interface, robot_->data(interface));
-  if (open_.contains(kPlayerLaser))
-    if (const auto scan = robot_->scan(now)) publish(kPlayerLaser, *scan);
+  if (open_.contains(kPlayerLaser)) {
+    robot_->look(now);
+    if (scans_ != robot_->scans()) publish(kPlayerLaser, robot_->scan());
+    scans_ = robot_->scans();
+  }
   return std::exchange(out_, {});
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "player_wire.hpp"
 
@@ -50,8 +51,12 @@ std::vector<Pose2> pioneer_sonars() {
           sonar_at(-157, 136, 90)};
 }
 
-PlayerRobot::PlayerRobot(Body& body, const Mirror* mirror, const PlayerSettings& settings)
-    : body_(body), mirror_(mirror), settings_(settings) {}
+PlayerRobot::PlayerRobot(Body& body, const Mirror* mirror, PlayerSettings settings)
+    : body_(body), mirror_(mirror), settings_(std::move(settings)) {}
+
+void PlayerRobot::close(std::uint32_t interface) {
+  if (--users_[interface] == 0 && interface == kPlayerPosition) rest();
+}
 
 std::vector<std::uint32_t> PlayerRobot::interfaces() const {
   std::vector<std::uint32_t> all;
@@ -190,9 +195,9 @@ PlayerRobot::Bytes PlayerRobot::battery() const {
   return out.word(1).single(settings_.voltage).single(0.0).single(0.0).single(0.0).word(0).bytes();
 }
 
-std::optional<PlayerRobot::Bytes> PlayerRobot::scan(TimePoint now) {
+void PlayerRobot::look(TimePoint now) {
   const std::optional<MirrorTurn> turn = mirror_->last_turn();
-  if (!turn || turn->ranges.empty() || now < next_scan_ || scanned_ == turn->stamp) return std::nullopt;
+  if (!turn || turn->ranges.empty() || now < next_scan_ || scanned_ == turn->stamp) return;
   scanned_ = turn->stamp;
   next_scan_ = now + settings_.scan_period;
   std::vector<double> ranges(turn->ranges.begin(), turn->ranges.end());
@@ -203,7 +208,7 @@ std::optional<PlayerRobot::Bytes> PlayerRobot::scan(TimePoint now) {
   out.single(std::abs(turn->step)).single(settings_.laser_range).count(ranges.size());
   for (const double range : ranges) out.single(std::min(range, settings_.laser_range));
   out.octets(Bytes(ranges.size())).word(scans_++);
-  return out.bytes();
+  scan_ = out.bytes();
 }
 
 }  // namespace orca::emulators

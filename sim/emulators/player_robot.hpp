@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,9 +23,10 @@ class PlayerRobot {
  public:
   using Bytes = std::vector<std::uint8_t>;
 
-  /// @param body, mirror, settings  outlive the object; without a mirror it has no laser.
-  PlayerRobot(Body& body, const Mirror* mirror, const PlayerSettings& settings);
+  /// @param body, mirror  outlive the object; without a mirror it has no laser.
+  PlayerRobot(Body& body, const Mirror* mirror, PlayerSettings settings);
 
+  [[nodiscard]] const PlayerSettings& settings() const { return settings_; }
   [[nodiscard]] std::vector<std::uint32_t> interfaces() const;
   /// Returns whether a device knows a message.
   [[nodiscard]] static bool knows(std::uint32_t interface, std::uint32_t type, std::uint32_t subtype);
@@ -34,15 +36,21 @@ class PlayerRobot {
                                              std::span<const std::uint8_t> payload);
   /// Carries out a command to the base. @return whether it was one.
   bool command(std::uint32_t subtype, std::span<const std::uint8_t> payload);
-  /// The base stands from now on, without power.
-  void rest();
+  /// One more client has a device open.
+  void open(std::uint32_t interface) { ++users_[interface]; }
+  /// One client less has it open. The driver of a base that nobody has open stops it, and takes its power.
+  void close(std::uint32_t interface);
   /// The odometry begins where the robot is.
   void define(const Pose2& pose);
 
   /// Returns what a device other than the laser tells now.
   [[nodiscard]] Bytes data(std::uint32_t interface) const;
-  /// Returns the laser's scan if there is a new one.
-  [[nodiscard]] std::optional<Bytes> scan(TimePoint now);
+  /// The laser makes a scan of what its mirror has shown since the last one, if it is time.
+  void look(TimePoint now);
+  /// Returns how many scans it has made.
+  [[nodiscard]] std::uint32_t scans() const { return scans_; }
+  /// Returns its last scan. @pre  it has made one.
+  [[nodiscard]] const Bytes& scan() const { return scan_; }
 
   [[nodiscard]] bool has_power() const { return power_; }
 
@@ -57,10 +65,12 @@ class PlayerRobot {
   [[nodiscard]] Bytes pressed() const;
   [[nodiscard]] Bytes battery() const;
   void drive();
+  void rest();
 
   Body& body_;
   const Mirror* const mirror_;
-  const PlayerSettings& settings_;
+  const PlayerSettings settings_;
+  std::map<std::uint32_t, int> users_;  // by interface
   bool power_ = false;
   bool may_turn_ = true;  // the wheels, as the last command says
   Twist2 wanted_{};
@@ -69,6 +79,7 @@ class PlayerRobot {
   TimePoint next_scan_{};
   std::optional<TimePoint> scanned_{};  // the turn that was told last
   std::uint32_t scans_ = 0;
+  Bytes scan_;
 };
 
 }  // namespace orca::emulators

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <span>
 
 #include "orca/emulators/create2_firmware.hpp"
@@ -82,6 +83,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   emulators::Xr4000Firmware xr4000(body);
   talk(xr4000, {data, size}, 115200);
   emulators::PlayerFirmware player(body);
+  const auto other_client = player.for_another_host();
   talk(player, {data, size}, 0);
+  talk(*other_client, {data, size}, 0);
   return 0;
 }

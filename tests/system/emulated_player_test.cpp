@@ -114,3 +114,35 @@ TEST_CASE("a program that goes without a word leaves a base that stands, and the
   next.drive(0.3, 0.0);  // its motors are off until it switches them on
   CHECK(std::abs(way_driven(next, 1s)) < 0.05);
 }
+
+TEST_CASE("several programs have one robot: what one of them drives the others see", "[system][player]") {
+  EmulatedServer server;
+  Client driver(server.port());
+  Client watcher(server.port());
+  Client idle(server.port());
+  CHECK(watcher.subscribe(kPosition2d).type == kAck);
+  CHECK(driver.subscribe(kPosition2d).type == kAck);
+  CHECK(driver.ask(kPosition2d, 2, {0, 0, 0, 1}).type == kAck);
+  driver.drive(0.3, 0.0);
+  CHECK(eventually([&] { return speed_of(watcher.receive(kPosition2d, kData).payload) > 0.2; }));
+  CHECK(word_at(idle.ask(kPlayer, 1).payload, 0) == 5);
+}
+
+TEST_CASE("a program of others watches the emulated robot while Orca's own driver drives it to a goal",
+          "[system][player]") {
+  const std::uint16_t port = free_port();
+  Subprocess program(deployer({source_file("graphs/player_robot.xml"), "--profile", "emulate", "--set",
+                               "emulated=" + std::to_string(port), "--set", "goals=door: 3.6 6 > 3.6 7.4"}));
+  const bool connected = program.wait_for_output("connected to a Player server", Seconds(30 * kSlowdown));
+  INFO(program.err());
+  REQUIRE(connected);
+  {
+    Client watcher(port);
+    CHECK(watcher.subscribe(kPosition2d).type == kAck);
+    CHECK(eventually([&] { return speed_of(watcher.receive(kPosition2d, kData).payload) > 0.1; }));
+  }
+  const Run run = finish(program, Seconds(90));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+}

@@ -71,7 +71,7 @@ Result<Opening> ListenLink::open() {
       listen(socket.number(), kBacklog) != 0)
     return refused(errno);
   port_ = port_of(socket.number());
-  listener_ = std::move(socket);
+  listener_ = std::make_shared<const Descriptor>(std::move(socket));
   return Opening::done;
 }
 
@@ -93,6 +93,13 @@ Error ListenLink::refused(int reason) const {
   }
 }
 
+std::unique_ptr<ListenLink> ListenLink::another() const {
+  auto link = std::make_unique<ListenLink>(options_);
+  link->listener_ = listener_;
+  link->port_ = port_;
+  return link;
+}
+
 void ListenLink::close() {
   stream_->drain();  // or the system cuts the connection, and the driver loses what was written last
   stream_->detach();
@@ -104,7 +111,7 @@ void ListenLink::close() {
 Status ListenLink::admit() {
   if (!listener_) return not_open(*this);
   if (stream_->is_attached()) return ok();
-  Descriptor client(accept4(listener_.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  Descriptor client(accept4(listener_->number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!client) {
     if (errno != EAGAIN) throw_if_exhausted(errno);  // which EAGAIN is elsewhere
     return fail(Code::unavailable, "no driver is connected", name());
@@ -142,7 +149,8 @@ void ListenLink::discard_input() {
 void ListenLink::discard_output() { stream_->discard_output(); }
 
 int ListenLink::descriptor() const {
-  return stream_->is_attached() ? stream_->descriptor() : listener_.number();
+  if (stream_->is_attached() || !listener_) return stream_->descriptor();
+  return listener_->number();
 }
 
 std::string ListenLink::name() const { return "listen:" + with_port(options_.address, port_); }

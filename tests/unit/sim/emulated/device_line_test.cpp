@@ -21,7 +21,7 @@ using Catch::Contains;
 namespace {
 
 // Answers every byte with the next one.
-class Counter final : public emulators::Firmware {
+class Counter : public emulators::Firmware {
  public:
   void take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint) override {
     for (const std::uint8_t byte : bytes) answer_.push_back(static_cast<std::uint8_t>(byte + 1));
@@ -33,6 +33,12 @@ class Counter final : public emulators::Firmware {
 
  private:
   std::vector<std::uint8_t> answer_;
+};
+
+// The same, for any number of hosts.
+class Sociable final : public Counter {
+ public:
+  std::unique_ptr<emulators::Firmware> for_another_host() override { return std::make_unique<Sociable>(); }
 };
 
 // The runtime folder of a test, as long as it lives.
@@ -144,4 +150,36 @@ TEST_CASE("a driver finds an emulated device at its port, where no rate is set",
   const Status taken = rival.open();
   REQUIRE_FALSE(taken.ok());
   CHECK_THAT(taken.error().text(), Contains("another program listens there"));
+}
+
+TEST_CASE("a device that has several hosts serves each of them, and another one when one has gone",
+          "[emulated]") {
+  const std::string port = std::to_string(test::free_port());
+  DeviceLine line("listen:" + port, std::make_unique<Sociable>());
+  REQUIRE(line.open().ok());
+  const auto answer_to = [&](hw::link::ByteLink& driver, std::uint8_t said) {
+    REQUIRE(driver.write(std::array<std::uint8_t, 1>{said}).ok());
+    std::array<std::uint8_t, 8> heard{};
+    for (const TimePoint end = steady_now() + 5s; steady_now() < end;) {
+      (void)line.exchange(steady_now());
+      const auto count = driver.read(heard);
+      REQUIRE(count);
+      if (*count > 0) return static_cast<int>(heard[0]);
+    }
+    return -1;
+  };
+  std::vector<std::unique_ptr<hw::link::ByteLink>> drivers;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    drivers.push_back(driver_of(("tcp:127.0.0.1:" + port).c_str()));
+    REQUIRE(open_within(*drivers.back(), 5s).ok());
+    CHECK(answer_to(*drivers.back(), i) == i + 1);
+  }
+  CHECK(answer_to(*drivers[0], 10) == 11);
+  drivers[1]->close();
+  CHECK(answer_to(*drivers[2], 20) == 21);
+  drivers[1] = driver_of(("tcp:127.0.0.1:" + port).c_str());
+  REQUIRE(open_within(*drivers[1], 5s).ok());
+  CHECK(answer_to(*drivers[1], 30) == 31);
+  line.close();
+  CHECK_FALSE(open_within(*driver_of(("tcp:127.0.0.1:" + port).c_str()), 1s).ok());
 }

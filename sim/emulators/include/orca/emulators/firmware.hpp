@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ class Firmware {
   /// Tells whether a host has the line open, at each look at the line. A device on a serial cable cannot know that; what listens in a
   /// network begins with each host anew.
   virtual void note_host(bool /*is_there*/, TimePoint /*now*/) {}
+
+  /// Returns what talks to one more host of the same device, at the same time; null: the device has one host at a time. Each
+  /// may outlive the other, and advance() is called for both.
+  [[nodiscard]] virtual std::unique_ptr<Firmware> for_another_host() { return nullptr; }
 
   /// Switches the device off and on.
   virtual void reset(TimePoint now) = 0;

@@ -47,11 +47,15 @@ struct PlayerSettings {
   std::set<std::uint32_t> silent{};     ///< Interfaces whose requests get no answer.
 };
 
-/// A Player server with one robot and for one client: it lists its devices, lets the client subscribe, answers requests, sends data by
-/// itself or when it is asked, and drives the body as it is commanded.
+/// A Player server with one robot, as one of its clients sees it: it lists its devices, lets the client subscribe, answers requests,
+/// sends data by itself or when it is asked, and drives the body as it is commanded.
 ///
-/// A connection begins when the line says that a host is there, with the banner, and ends when the host has gone: all devices are closed
-/// then, and the base stops. Bytes from a host of which the line has said nothing begin one too. The base has no watchdog: without another
+/// Each client has its own subscriptions and its own way to get data. All drive the same base, of which the last command counts. A
+/// device is closed, and the base stops, when the last client that has it open closes it: until then the base goes on with what a
+/// client has commanded that is gone.
+///
+/// A connection begins when the line says that a host is there, with the banner, and ends when the host has gone: all its devices are
+/// closed then. Bytes from a host of which the line has said nothing begin one too. The base has no watchdog: without another
 /// command it does for ever what it was told. Its motors turn while they have power and the last command says so. Messages to a device that
 /// is not open, or of a kind that is not known, are dropped, as are commands of a wrong size. Of a stream whose header is
 /// nonsense, what has come so far is forgotten.
@@ -67,23 +71,28 @@ class PlayerFirmware final : public Firmware {
   /// @param mirror  of its laser; outlives the object. Null: it has none.
   explicit PlayerFirmware(Body& body, PlayerSettings settings = {}, const Mirror* mirror = nullptr);
   ~PlayerFirmware() override;
+  PlayerFirmware(const PlayerFirmware&) = delete;
+  PlayerFirmware& operator=(const PlayerFirmware&) = delete;
 
   void take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint now) override;
   std::vector<std::uint8_t> advance(TimePoint now) override;
-  /// The connection is lost then, as when the server is started anew. Where the odometry begins is forgotten, too.
+  [[nodiscard]] std::unique_ptr<Firmware> for_another_host() override;
+  /// The connection of this client is lost then, as when the server is started anew. Where the odometry begins is forgotten, too.
   void reset(TimePoint now) override;
   void note_host(bool is_there, TimePoint now) override;
 
   [[nodiscard]] bool has_power() const;
+  /// Returns whether this client has the device open.
   [[nodiscard]] bool is_subscribed(std::uint32_t interface) const { return open_.contains(interface); }
-  /// Returns how many connections there were.
+  /// Returns how many connections this client's place has had.
   [[nodiscard]] int connections() const { return connections_; }
-  /// Returns how many messages were dropped.
+  /// Returns how many messages of them were dropped.
   [[nodiscard]] int dropped() const { return dropped_; }
 
  private:
   using Bytes = std::span<const std::uint8_t>;
 
+  explicit PlayerFirmware(std::shared_ptr<PlayerRobot> robot);
   void connect(TimePoint now);
   void disconnect();
   void greet();
@@ -101,8 +110,8 @@ class PlayerFirmware final : public Firmware {
   void answer(const PlayerHeader& header, std::uint32_t type, Bytes payload);
   void send(const PlayerHeader& header, Bytes payload);
 
-  const PlayerSettings settings_;
-  const std::unique_ptr<PlayerRobot> robot_;
+  const std::shared_ptr<PlayerRobot> robot_;  // that of all clients
+  const PlayerSettings& settings_;            // the robot's
   TimePoint now_{};
   bool has_host_ = false;              // the line says so
   std::optional<TimePoint> greet_at_;  // then the banner is due
@@ -113,6 +122,7 @@ class PlayerFirmware final : public Firmware {
   bool pulls_ = false;
   std::map<std::uint32_t, std::vector<std::uint8_t>> queue_;  // in pull mode, by interface
   TimePoint next_cycle_{};
+  std::uint32_t scans_ = 0;  // of the robot, when the client got one or opened the laser
   int connections_ = 0;
   int dropped_ = 0;
 };

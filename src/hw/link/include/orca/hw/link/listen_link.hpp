@@ -20,8 +20,8 @@ struct ListenOptions {
 
 /// The device's side of connections over TCP, for emulators and tests. A driver connects as to a device or a device server.
 ///
-/// It has one client at a time; others wait until that has gone. As long as there is none, read(), write() and flush() give unavailable; the link
-/// itself stays open.
+/// It has one client at a time; others wait until that has gone, or until another() lets them in. As long as there is none, read(), write() and flush()
+/// give unavailable; the link itself stays open.
 ///
 /// Thread contract: one strand.
 class ListenLink final : public ByteLink {
@@ -47,6 +47,9 @@ class ListenLink final : public ByteLink {
 
   /// Returns the port at which it listens. @pre  it is open.
   [[nodiscard]] std::uint16_t port() const { return port_; }
+  /// Returns an open link for one more client of the same port at the same time. The port is free again when all of them are closed.
+  /// @pre  it is open.
+  [[nodiscard]] std::unique_ptr<ListenLink> another() const;
 
  private:
   Status admit();
@@ -54,7 +57,7 @@ class ListenLink final : public ByteLink {
 
   const ListenOptions options_;
   const std::unique_ptr<Stream> stream_;
-  Descriptor listener_;
+  std::shared_ptr<const Descriptor> listener_;  // that of all links of the port
   std::uint16_t port_;
 };
 
