@@ -50,7 +50,7 @@ Pose2 Items::pose(const Thing& thing) const {
 // gap already does not stop them.
 Items::Thing* Items::between_paddles(std::size_t robot) {
   const GripperModel& paddles = *robots_[robot].gripper;
-  if (!paddles.is_low() || paddles.holds()) return nullptr;
+  if (!paddles.is_low()) return nullptr;
   const Gripper& gripper = *robots_[robot].model.gripper;
   const Pose2 X_WG = gripper_pose(robot);
   Thing* first = nullptr;

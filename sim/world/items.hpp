@@ -60,7 +60,7 @@ class Items {
   // Returns the name of what the item would stand in, with its kind; empty if the place is free.
   [[nodiscard]] std::string in_the_way(const Thing& thing, const Pose2& X_WI) const;
   void take(Thing& thing, std::size_t robot);
-  // Puts what the robot holds on the floor, if there is room. @return  what to note.
+  // Puts what the robot holds on the floor, if there is room. @pre  it holds something. @return  what to note.
   [[nodiscard]] std::string let_go(std::size_t robot);
 
   const WorldModel& world_;

@@ -86,11 +86,10 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
   }
 }
 
-// What paddles hold would stand in the body if their root did.
+// Gives the gripper its place. Reports one whose root is inside the body, where what it holds could not be put down.
 void mount_gripper(RobotModel& model, const UrdfBody& body, const UrdfJoint* turret,
                    const xml::Attributes& e) {
-  constexpr double kOut =
-      0.001;  // [m] From a root on the edge of the body to a point that is clearly outside.
+  constexpr double kOut = 0.001;  // [m] Ahead of a root on the edge of the body is clearly outside.
   Gripper& gripper = *model.gripper;
   const auto link = body.links.find(gripper.link);
   if (link == body.links.end()) return;

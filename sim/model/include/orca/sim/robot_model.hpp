@@ -91,8 +91,8 @@ struct Gripper {
   double opening = 0.0;     ///< [m] Gap between the open paddles, > 0.
   double depth = 0.0;       ///< [m] Length of the paddles, along x from the root, > 0.
   double lift = 0.0;        ///< [m] How high the lift raises them, > 0.
-  Duration paddle_time{0};  ///< Time from open to closed and back, > 0.
-  Duration lift_time{0};    ///< Time from the floor to the top and back, > 0.
+  Duration paddle_time{0};  ///< Time from open to closed, the same back, > 0.
+  Duration lift_time{0};    ///< Time from down to up, the same back, > 0.
   Duration period{0};       ///< Time from one reading of its state to the next.
   DeviceLabel label{};
 };
