@@ -230,6 +230,7 @@ std::vector<orca::HardwareFault> FakeCatalogue::validate_hardware(const graph::H
 
 std::vector<orca::HardwareFault> FakeCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                    const graph::HardwareUse& earlier) {
+  if (use.type != earlier.type) return {};
   if (use.type == "orca.hw.Sim" && use.params.at("world") == earlier.params.at("world"))
     return {{"world",
              "hardware \"" + earlier.name + "\" has this world too, which lives in one process",
