@@ -69,6 +69,6 @@ TEST_CASE("scanners need a localizer, and a graph without it is refused with the
           "[system][scanner]") {
   const Run run = drive(kLocalizer, "");
   INFO(run.err);
-  CHECK(run.exit_code() == 2);
+  CHECK(run.exit_code() == kRefusedByComponent);
   CHECK(run.says("with scanners, connect its port localizer too: they see places of the world"));
 }
