@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/component/state.hpp"
 #include "porter/errand.hpp"
 
 using namespace orca;
@@ -63,16 +64,21 @@ struct Floor {
     return thing && portable::hypot(thing->x - at_paddles().x, thing->y - at_paddles().y) < 0.05;
   }
 
+  /// Does a lap of an errand.
+  Step lap(Errand& errand) {
+    feel();
+    const Step step = errand.step(pose, gripper, time, kManner);
+    if (step.kind != Step::Kind::goes_on) return step;
+    if (step.gripper) obey(*step.gripper);
+    drive(step.wish);
+    return step;
+  }
+
   /// Does an errand until it ends. @return  its last step.
   Step run(Errand errand) {
-    for (int lap = 0; lap < 4000; ++lap) {
-      feel();
-      const Step step = errand.step(pose, gripper, time, kManner);
-      if (step.kind != Step::Kind::goes_on) return step;
-      if (step.gripper) obey(*step.gripper);
-      drive(step.wish);
-    }
-    return {};
+    Step step;
+    for (int laps = 0; laps < 4000 && step.kind == Step::Kind::goes_on; ++laps) step = lap(errand);
+    return step;
   }
 };
 
@@ -153,4 +159,20 @@ TEST_CASE("a gripper that does not move is told again each second, and given up 
   CHECK_THAT(last.reason, Contains("does not open"));
   CHECK(floor.told == Approx(20).margin(1));
   CHECK(floor.time == Approx(kManner.patience).margin(0.2));
+}
+
+TEST_CASE("after an exchange of the code an errand goes on where it was", "[components][errand]") {
+  Floor floor;
+  floor.thing = Vec2{0.7, 0.0};
+  Errand first(Errand::Kind::fetch, {0.7, 0.0});
+  while (floor.pose.x < 0.2 && floor.time < 60.0) REQUIRE(floor.lap(first).kind == Step::Kind::goes_on);
+  CHECK(floor.told == 1);  // to open and go down
+  StateWriter saved;
+  saved.write(first);
+  Errand second;
+  StateReader state({"orca.Porter", 1}, saved.bytes());
+  REQUIRE(state.read(second).ok());
+  CHECK(floor.run(second).kind == Step::Kind::done);
+  CHECK(floor.gripper.holds());
+  CHECK(floor.told == 3);  // to close, and to lift
 }

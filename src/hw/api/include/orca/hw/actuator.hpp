@@ -43,7 +43,8 @@ class ActuatorEndpoint {
   /// commands wait.
   Status command(ObjectRef command);
 
-  /// Stops it where it is, and refuses commands until let_go(): an emergency stop.
+  /// Stops it where it is if the driver can do that, forgets the commands that wait, and refuses others until let_go(): an emergency
+  /// stop.
   /// @param reason  for people, as the error of a refused command gives it.
   void hold(const std::string& reason);
   /// Returns whether it was held.
