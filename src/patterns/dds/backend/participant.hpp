@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -64,6 +65,8 @@ struct TopicOptions {
   /// Is called when a reader or writer at the other side was found. It must not block.
   /// @thread  one of DDS.
   std::function<void()> found{};
+  Duration reminder{
+      std::chrono::milliseconds(50)};  ///< Of a writer, to readers that have not acknowledged a sample.
 };
 
 /// This process's part in DDS.

@@ -6,6 +6,7 @@
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/log/Log.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "orca/base/log.hpp"
@@ -74,12 +75,12 @@ fd::DomainParticipantQos participant_qos(const DdsOptions& options) {
   return qos;
 }
 
-fd::DataWriterQos writer_qos(std::int32_t depth) {
+fd::DataWriterQos writer_qos(const TopicOptions& options) {
   fd::DataWriterQos qos;
-  keep_last(qos, depth);
+  keep_last(qos, options.depth);
   auto& times = qos.reliable_writer_qos().times;
-  times.initialHeartbeatDelay = seconds(0.005);
-  times.heartbeatPeriod = seconds(0.05);
+  times.initialHeartbeatDelay = seconds(std::min(0.005, to_seconds(options.reminder)));
+  times.heartbeatPeriod = seconds(to_seconds(options.reminder));
   times.nackResponseDelay = seconds(0.0);
   // Zero, the default, lets each write wake the thread of events.
   times.nackSupressionDuration = seconds(0.001);

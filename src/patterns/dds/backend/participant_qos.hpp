@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "orca/patterns/dds/dds_backend.hpp"
+#include "participant.hpp"
 
 namespace orca::dds {
 
@@ -17,8 +18,8 @@ void prepare_library();
 /// Returns the settings of a participant: UDP on one interface, without shared memory.
 [[nodiscard]] eprosima::fastdds::dds::DomainParticipantQos participant_qos(const DdsOptions& options);
 
-/// Return the settings of a reliable writer and reader that keep the last `depth` samples.
-[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(std::int32_t depth);
+/// Return the settings of a reliable writer and reader that keep the last samples, as many as the depth is.
+[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(const TopicOptions& options);
 [[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(std::int32_t depth);
 
 }  // namespace orca::dds
