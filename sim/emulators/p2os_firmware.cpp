@@ -162,7 +162,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
   switch (number) {
     case kClose:
       stop();
-      gripper_->halt();
+      gripper_->forget_host();
       power_ = sonar_ = open_ = false;
       syncs_ = 0;
       return;
@@ -221,7 +221,7 @@ void P2osFirmware::reset(TimePoint) { restart(); }
 
 void P2osFirmware::restart() {
   stop();
-  gripper_->halt();
+  gripper_->forget_host();
   power_ = sonar_ = open_ = false;
   bumpers_stall_ = 0;
   origin_ = body_.odometry();
@@ -254,8 +254,10 @@ std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
     wanted_ = servo_->velocity(body_.odometry());
     drive();
   }
-  for (; open_ && now >= next_information_; next_information_ += settings_.cycle)
+  for (; open_ && now >= next_information_; next_information_ += settings_.cycle) {
     send_information(next_information_);
+    if (auto packet = gripper_->take_packet()) send(std::move(*packet), next_information_);
+  }
   return line_.leave(now, host_baud_ == 0 || host_baud_ == baud_);
 }
 

@@ -13,6 +13,8 @@ constexpr Duration kCarryStep = 20ms;
 
 constexpr int kGripper = 33;
 constexpr int kGripperval = 36;
+constexpr int kPacketRequest = 37;
+constexpr std::uint8_t kPacket = 0xE0;
 
 enum class GripperAction {
   open = 1,
@@ -33,6 +35,10 @@ unsigned bit(bool value, int number) { return (value ? 1U : 0U) << number; }
 
 bool P2osGripper::take(int number, int value, TimePoint now) {
   const bool is_time = std::exchange(awaits_time_, false);
+  if (number == kPacketRequest) {
+    packets_ = value;
+    return true;
+  }
   if (number != kGripper && number != kGripperval) return false;
   if (locked_) return true;
   if (number == kGripper) {
@@ -74,6 +80,18 @@ void P2osGripper::halt() {
   awaits_time_ = false;
   body_.move_gripper(GripperMove::stop);
   move_lift(GripperMove::stop_lift);
+}
+
+void P2osGripper::forget_host() {
+  halt();
+  packets_ = 0;
+}
+
+// The grasp time is 0: closing ends as soon as both paddles are touched.
+std::optional<std::vector<std::uint8_t>> P2osGripper::take_packet() {
+  if (packets_ <= 0) return std::nullopt;
+  if (packets_ == 1) packets_ = 0;
+  return std::vector<std::uint8_t>{kPacket, static_cast<std::uint8_t>(kind()), digital_in(), 0};
 }
 
 void P2osGripper::lock(bool locked) {

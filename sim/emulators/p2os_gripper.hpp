@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
@@ -27,6 +28,8 @@ class P2osGripper {
   bool take(int number, int value, TimePoint now);
   /// Stops paddles and lift.
   void halt();
+  /// Stops both; the next host must ask for packets anew.
+  void forget_host();
   /// Stops both and lets no command move them, or lets commands move them again.
   void lock(bool locked);
   /// Stops the lift at the end of a carry.
@@ -37,6 +40,10 @@ class P2osGripper {
   [[nodiscard]] std::uint8_t digital_in() const;
   [[nodiscard]] unsigned kind() const { return body_.gripper() ? kKind : 0; }
 
+  /// Returns the body of the gripper's own packet, if the host has asked for one, or for one with each server information packet. Where
+  /// there is no gripper, it says so.
+  std::optional<std::vector<std::uint8_t>> take_packet();
+
  private:
   void act(int action);
   void move_lift(GripperMove move);
@@ -44,6 +51,7 @@ class P2osGripper {
 
   Body& body_;
   bool locked_ = false;
+  int packets_ = 0;           // that the host awaits: none, one, or more
   bool awaits_time_ = false;  // of a carry
   std::optional<TimePoint> carry_end_;
 };

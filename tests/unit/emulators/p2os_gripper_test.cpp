@@ -258,3 +258,36 @@ TEST_CASE("CONFIG tells kind 1 of a gripper, and 0 of none", "[emulators][p2os][
   CHECK_THAT(text_of(line.pass(400ms)), Catch::Contains(has_gripper ? "00 64 00 00 01 00 01 00 01 6E 00"
                                                                     : "00 64 00 00 00 00 01 00 01 6E 00"));
 }
+
+TEST_CASE("GRIPPERPACREQUEST gets one gripper packet, or one with each information packet, or no more",
+          "[emulators][p2os][gripper]") {
+  GripperLine line;
+  line.open();
+  const std::string packet = "FA FB 06 E0 01 30 00 10 01";  // kind 1; the switches of an open gripper below
+  const auto packets_in = [&](Duration time) {
+    const std::string text = text_of(line.pass(time));
+    int count = 0;
+    for (std::size_t at = 0; (at = text.find(packet, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  CHECK(packets_in(1s) == 0);
+  line.say("FA FB 06 25 3B 01 00 26 3B");
+  CHECK(packets_in(1s) == 1);
+  line.say("FA FB 06 25 3B 02 00 27 3B");
+  CHECK(packets_in(1s) >= 8);  // ten information packets a second
+  line.say("FA FB 06 25 3B 00 00 25 3B");
+  (void)packets_in(100ms);  // what is still on the line
+  CHECK(packets_in(1s) == 0);
+}
+
+TEST_CASE("a gripper's packet says that there is none, and the next host must ask anew",
+          "[emulators][p2os][gripper]") {
+  PioneerLine line;
+  line.open();
+  line.say("FA FB 06 25 3B 02 00 27 3B");
+  CHECK_THAT(text_of(line.pass(400ms)), Catch::Contains("FA FB 06 E0 00 00 00 E0 00"));
+  line.say(kSync2);  // CLOSE
+  (void)line.pass(400ms);
+  line.open();
+  CHECK_THAT(text_of(line.pass(400ms)), !Catch::Contains("FA FB 06 E0"));
+}
