@@ -222,12 +222,15 @@ TEST_CASE(
 TEST_CASE("the same run with Dwa, NdPlus or PotentialField has the same trace, whatever executor runs it",
           "[system][laser][dwa][nd]") {
   for (const Words& avoid : {kDwa, kNdPlus, Words{"--set", "avoid=orca.PotentialField"}}) {
-    const Words run =
-        Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "60 s"} + virtual_clock() + avoid;
-    const Run first = run_deployer(run);
-    REQUIRE(first.trace_hash().has_value());
-    CHECK(first.trace_hash() == run_deployer(run).trace_hash());
-    for (const char* executor : {"fiber", "baton"})
-      CHECK(first.trace_hash() == run_deployer(run + Words{"--executor", executor}).trace_hash());
+    const auto hash_on = [&](const char* executor) {
+      return run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "60 s", "--clock",
+                                "virtual", "--executor", executor} +
+                          avoid)
+          .trace_hash();
+    };
+    const auto first = hash_on("baton");
+    REQUIRE(first.has_value());
+    CHECK(first == hash_on("baton"));
+    if (!kThreadSanitizer) CHECK(first == hash_on("fiber"));  // which it does not support
   }
 }

@@ -341,5 +341,6 @@ TEST_CASE("an XR4000's readings are those of its page", "[system][hardware]") {
   REQUIRE(eventually([&] { return !reading("OdometryQuery").empty(); }));
   CHECK_THAT(reading("SonarRangeReadingsQuery"), Contains("0.991") && Contains("7.62"));
   CHECK_THAT(reading("BumperReadingsQuery"), Contains("set 0 switch 4"));
+  REQUIRE(eventually([&] { return !reading("BatteryQuery").empty(); }));  // it is asked for once a second
   CHECK_THAT(reading("BatteryQuery"), Contains("voltage=\"24") && Contains("channel 2"));
 }
