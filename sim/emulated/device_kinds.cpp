@@ -49,8 +49,10 @@ Made make_p2os(const DeviceWish& wish, WorldBody& body) {
 
 // The whole robot, with its laser.
 Made make_player(const DeviceWish& wish, WorldBody& body) {
-  if (!wish.model.empty()) return only_one_model(wish);
-  return Made(std::make_unique<emulators::PlayerFirmware>(body, emulators::PlayerSettings{}, &body));
+  const bool is_stage = wish.model == "stage";
+  if (!wish.model.empty() && !is_stage) return no_model(wish, {"stage"});
+  return Made(std::make_unique<emulators::PlayerFirmware>(
+      body, emulators::PlayerSettings{.shows_rangers = is_stage}, &body));
 }
 
 // Makes the firmware of a device of which there is one model.

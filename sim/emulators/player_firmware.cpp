@@ -19,10 +19,15 @@ constexpr std::uint32_t kAccessRefused = 3;
 constexpr std::uint32_t kPullMode = 2;
 constexpr std::uint32_t kAskCapability = 255;
 
-PlayerWriter written_address(std::uint32_t port, std::uint32_t interface, std::uint32_t index) {
+PlayerWriter written_address(std::uint32_t port, const PlayerAddress& address) {
   PlayerWriter out;
-  out.word(kLoopback).word(port).word(interface).word(index);
+  out.word(kLoopback).word(port).word(address.interface).word(address.index);
   return out;
+}
+
+// In a payload.
+PlayerAddress read_address(std::span<const std::uint8_t> payload) {
+  return {player_word(payload, 8), player_word(payload, 12)};
 }
 
 }  // namespace
@@ -99,19 +104,19 @@ void PlayerFirmware::take(Bytes bytes, std::uint32_t /*baud*/, TimePoint now) {
 void PlayerFirmware::obey(const PlayerHeader& header, Bytes payload) {
   if (header.interface == kPlayerServer && header.index == 0 && header.type == kPlayerRequest)
     return serve(header, payload);
-  const bool is_open = header.index == 0 && open_.contains(header.interface);
-  if (!is_open || settings_.silent.contains(header.interface)) {
+  const std::optional<std::uint32_t> device = robot_->device_at({header.interface, header.index});
+  if (!device || !open_.contains(*device) || settings_.silent.contains(*device)) {
     ++dropped_;
   } else if (header.type == kPlayerRequest && header.subtype == kAskCapability) {
-    const bool knows = PlayerRobot::knows(header.interface, player_word(payload, 0), player_word(payload, 4));
+    const bool knows = robot_->knows(*device, player_word(payload, 0), player_word(payload, 4));
     answer(header, knows ? kPlayerAck : kPlayerNack, {});
   } else if (header.type == kPlayerRequest) {
-    const auto reply = robot_->request(header.interface, header.subtype, payload);
+    const auto reply = robot_->request(*device, header.subtype, payload);
     if (reply)
       answer(header, kPlayerAck, *reply);
     else
       ++dropped_;
-  } else if (header.type != kPlayerCommand || header.interface != kPlayerPosition ||
+  } else if (header.type != kPlayerCommand || *device != kPlayerPosition ||
              !robot_->command(header.subtype, payload)) {
     ++dropped_;
   }
@@ -132,41 +137,44 @@ void PlayerFirmware::serve(const PlayerHeader& header, Bytes payload) {
 }
 
 void PlayerFirmware::list_devices(const PlayerHeader& header) {
-  const std::vector<std::uint32_t> all = robot_->interfaces();
+  const std::vector<std::uint32_t> all = robot_->devices();
   PlayerWriter list;
   list.count(all.size());
-  for (const std::uint32_t interface : all) list.word(kLoopback).word(settings_.port).word(interface).word(0);
+  for (const std::uint32_t device : all) {
+    const PlayerAddress address = robot_->address_of(device);
+    list.word(kLoopback).word(settings_.port).word(address.interface).word(address.index);
+  }
   answer(header, kPlayerAck, list.bytes());
 }
 
 void PlayerFirmware::tell_driver(const PlayerHeader& header, Bytes payload) {
-  const std::uint32_t interface = player_word(payload, 8);
-  if (!has(interface, player_word(payload, 12))) return answer(header, kPlayerNack, {});
-  PlayerWriter out = written_address(settings_.port, interface, 0);
-  answer(header, kPlayerAck, out.text(driver_of(interface)).bytes());
+  const std::optional<std::uint32_t> device = robot_->device_at(read_address(payload));
+  if (!device) return answer(header, kPlayerNack, {});
+  PlayerWriter out = written_address(settings_.port, read_address(payload));
+  answer(header, kPlayerAck, out.text(driver_of(*device)).bytes());
 }
 
 void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
-  const std::uint32_t interface = player_word(payload, 8);
+  const std::optional<std::uint32_t> device = robot_->device_at(read_address(payload));
   std::uint32_t access = player_word(payload, 16);
-  if (!has(interface, player_word(payload, 12))) return answer(header, kPlayerNack, {});
+  if (!device) return answer(header, kPlayerNack, {});
   if (access == kAccessClose)
-    close(interface);
-  else if (access != kAccessOpen || settings_.refused.contains(interface))
+    close(*device);
+  else if (access != kAccessOpen || settings_.refused.contains(*device))
     access = kAccessRefused;
   else if (open_.empty())
     next_cycle_ = now_ + settings_.cycle;
-  if (access == kAccessOpen && open_.insert(interface).second) {
-    robot_->open(interface);
-    if (interface == kPlayerLaser) scans_ = robot_->scans();
+  if (access == kAccessOpen && open_.insert(*device).second) {
+    robot_->open(*device);
+    if (*device == kPlayerLaser) scans_ = robot_->scans();
   }
-  PlayerWriter out = written_address(settings_.port, interface, 0);
-  answer(header, kPlayerAck, out.word(access).text(driver_of(interface)).bytes());
+  PlayerWriter out = written_address(settings_.port, read_address(payload));
+  answer(header, kPlayerAck, out.word(access).text(driver_of(*device)).bytes());
 }
 
-void PlayerFirmware::close(std::uint32_t interface) {
-  if (open_.erase(interface) > 0) robot_->close(interface);
-  queue_.erase(interface);
+void PlayerFirmware::close(std::uint32_t device) {
+  if (open_.erase(device) > 0) robot_->close(device);
+  queue_.erase(device);
 }
 
 void PlayerFirmware::set_data_mode(const PlayerHeader& header, Bytes payload) {
@@ -179,25 +187,20 @@ void PlayerFirmware::set_data_mode(const PlayerHeader& header, Bytes payload) {
 
 void PlayerFirmware::give_data(const PlayerHeader& header) {
   answer(header, kPlayerAck, {});
-  for (const auto& [interface, payload] : std::exchange(queue_, {}))
-    send({.interface = interface, .type = kPlayerData, .subtype = 1}, payload);
+  for (const auto& [device, payload] : std::exchange(queue_, {})) send_data(device, payload);
   send({.interface = kPlayerServer, .type = kPlayerSynch, .subtype = 1}, {});
 }
 
-bool PlayerFirmware::has(std::uint32_t interface, std::uint32_t index) const {
-  return index == 0 && std::ranges::count(robot_->interfaces(), interface) > 0;
-}
-
-const std::string& PlayerFirmware::driver_of(std::uint32_t interface) const {
-  return interface == kPlayerLaser ? settings_.laser_driver : settings_.base_driver;
+const std::string& PlayerFirmware::driver_of(std::uint32_t device) const {
+  return device == kPlayerLaser ? settings_.laser_driver : settings_.base_driver;
 }
 
 std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
   now_ = now;
   if (greet_at_ && now >= *greet_at_) greet();
   for (; !open_.empty() && now >= next_cycle_; next_cycle_ += settings_.cycle)
-    for (const std::uint32_t interface : open_)
-      if (interface != kPlayerLaser) publish(interface, robot_->data(interface));
+    for (const std::uint32_t device : open_)
+      if (device != kPlayerLaser) publish(device, robot_->data(device));
   if (open_.contains(kPlayerLaser)) {
     robot_->look(now);
     if (scans_ != robot_->scans()) publish(kPlayerLaser, robot_->scan());
@@ -206,11 +209,16 @@ std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
   return std::exchange(out_, {});
 }
 
-void PlayerFirmware::publish(std::uint32_t interface, Bytes payload) {
+void PlayerFirmware::publish(std::uint32_t device, Bytes payload) {
   if (pulls_)
-    queue_[interface].assign(payload.begin(), payload.end());
+    queue_[device].assign(payload.begin(), payload.end());
   else
-    send({.interface = interface, .type = kPlayerData, .subtype = 1}, payload);
+    send_data(device, payload);
+}
+
+void PlayerFirmware::send_data(std::uint32_t device, Bytes payload) {
+  const PlayerAddress address = robot_->address_of(device);
+  send({.interface = address.interface, .index = address.index, .type = kPlayerData, .subtype = 1}, payload);
 }
 
 void PlayerFirmware::answer(const PlayerHeader& header, std::uint32_t type, Bytes payload) {
@@ -220,7 +228,7 @@ void PlayerFirmware::answer(const PlayerHeader& header, std::uint32_t type, Byte
 }
 
 void PlayerFirmware::send(const PlayerHeader& header, Bytes payload) {
-  PlayerWriter out = written_address(settings_.port, header.interface, header.index);
+  PlayerWriter out = written_address(settings_.port, {header.interface, header.index});
   out.word(header.type).word(header.subtype).real(to_seconds(now_));
   out.word(header.sequence).word(static_cast<std::uint32_t>(payload.size()));
   out_.insert(out_.end(), out.bytes().begin(), out.bytes().end());

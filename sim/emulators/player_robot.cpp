@@ -11,7 +11,9 @@
 namespace orca::emulators {
 namespace {
 
-constexpr double kNoEcho = 5.0;  // [m] what a sonar without an echo tells
+constexpr double kNoEcho = 5.0;                            // [m] what a sonar without an echo tells
+constexpr double kLobe = 25.0 * std::numbers::pi / 180.0;  // [rad] in which a sonar hears
+constexpr double kTurns = 75.0;                            // [Hz] of the mirror
 
 struct KnownMessage {
   std::uint32_t interface;
@@ -27,13 +29,21 @@ constexpr KnownMessage kKnownMessages[] = {
     {kPlayerSonar, kPlayerRequest, 2},    {kPlayerLaser, kPlayerData, 1},
     {kPlayerLaser, kPlayerRequest, 1},    {kPlayerLaser, kPlayerRequest, 2},
     {kPlayerLaser, kPlayerRequest, 3},    {kPlayerBumper, kPlayerData, 1},
-    {kPlayerPower, kPlayerData, 1}};
+    {kPlayerPower, kPlayerData, 1},       {kPlayerRanger, kPlayerData, 1},
+    {kPlayerRanger, kPlayerRequest, 1},   {kPlayerRanger, kPlayerRequest, 5}};
 
 // Of requests of the base, by their number.
 constexpr std::size_t kRequestSizes[] = {0, 0, 4, 4, 4, 24, 0};
 
 void write_pose(PlayerWriter& out, const Pose2& pose, double height) {
   out.real(pose.x).real(pose.y).real(height).real(0.0).real(0.0).real(pose.yaw);
+}
+
+std::vector<std::uint8_t> ranger_scan(const std::vector<double>& ranges) {
+  PlayerWriter out;
+  out.count(ranges.size());
+  for (const double range : ranges) out.real(range);
+  return out.bytes();
 }
 
 Pose2 sonar_at(int x_mm, int y_mm, int degrees) {
@@ -54,30 +64,43 @@ std::vector<Pose2> pioneer_sonars() {
 PlayerRobot::PlayerRobot(Body& body, const Mirror* mirror, PlayerSettings settings)
     : body_(body), mirror_(mirror), settings_(std::move(settings)) {}
 
-void PlayerRobot::close(std::uint32_t interface) {
-  if (--users_[interface] == 0 && interface == kPlayerPosition) rest();
+void PlayerRobot::close(std::uint32_t device) {
+  if (--users_[device] == 0 && device == kPlayerPosition) rest();
 }
 
-std::vector<std::uint32_t> PlayerRobot::interfaces() const {
+std::vector<std::uint32_t> PlayerRobot::devices() const {
   std::vector<std::uint32_t> all;
-  for (const std::uint32_t interface :
+  for (const std::uint32_t device :
        {kPlayerPosition, kPlayerSonar, kPlayerBumper, kPlayerPower, kPlayerLaser})
-    if (!settings_.missing.contains(interface) && (interface != kPlayerLaser || mirror_ != nullptr))
-      all.push_back(interface);
+    if (!settings_.missing.contains(device) && (device != kPlayerLaser || mirror_ != nullptr))
+      all.push_back(device);
   return all;
 }
 
-bool PlayerRobot::knows(std::uint32_t interface, std::uint32_t type, std::uint32_t subtype) {
+PlayerAddress PlayerRobot::address_of(std::uint32_t device) const {
+  if (!settings_.shows_rangers || (device != kPlayerSonar && device != kPlayerLaser)) return {device, 0};
+  return {kPlayerRanger, device == kPlayerSonar ? 0U : 1U};
+}
+
+std::optional<std::uint32_t> PlayerRobot::device_at(const PlayerAddress& address) const {
+  for (const std::uint32_t device : devices())
+    if (address_of(device) == address) return device;
+  return std::nullopt;
+}
+
+bool PlayerRobot::knows(std::uint32_t device, std::uint32_t type, std::uint32_t subtype) const {
+  const std::uint32_t interface = address_of(device).interface;
   return std::ranges::any_of(kKnownMessages, [&](const KnownMessage& known) {
     return known.interface == interface && known.type == type && known.subtype == subtype;
   });
 }
 
-std::optional<PlayerRobot::Bytes> PlayerRobot::request(std::uint32_t interface, std::uint32_t subtype,
+std::optional<PlayerRobot::Bytes> PlayerRobot::request(std::uint32_t device, std::uint32_t subtype,
                                                        std::span<const std::uint8_t> payload) {
-  if (!knows(interface, kPlayerRequest, subtype)) return std::nullopt;
-  if (interface == kPlayerPosition) return request_of_base(subtype, payload);
-  if (interface == kPlayerSonar) return subtype == 1 ? sonar_geometry() : Bytes{};
+  if (!knows(device, kPlayerRequest, subtype)) return std::nullopt;
+  if (device == kPlayerPosition) return request_of_base(subtype, payload);
+  if (settings_.shows_rangers) return subtype == 1 ? ranger_geometry(device) : ranger_configuration(device);
+  if (device == kPlayerSonar) return subtype == 1 ? sonar_geometry() : Bytes{};
   return subtype == 1 ? laser_geometry() : laser_configuration();
 }
 
@@ -143,18 +166,48 @@ PlayerRobot::Bytes PlayerRobot::laser_geometry() const {
   return out.bytes();
 }
 
+// What one turn of a mirror sees, counter-clockwise.
+PlayerRobot::Sector PlayerRobot::sector_of(const MirrorTurn& turn) {
+  const double steps = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1) - 1);
+  const double last = turn.first_angle + turn.step * steps;
+  return {std::min(turn.first_angle, last), std::max(turn.first_angle, last), std::abs(turn.step)};
+}
+
 PlayerRobot::Bytes PlayerRobot::laser_configuration() const {
-  const MirrorTurn turn = mirror_->last_turn().value_or(MirrorTurn{});
-  const double last =
-      turn.first_angle + turn.step * (static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1) - 1));
+  const Sector seen = sector_of(mirror_->last_turn().value_or(MirrorTurn{}));
   PlayerWriter out;
-  out.single(std::min(turn.first_angle, last)).single(std::max(turn.first_angle, last));
-  out.single(std::abs(turn.step)).single(settings_.laser_range).single(0.001).word(0).single(75.0);
+  out.single(seen.from).single(seen.to).single(seen.step);
+  out.single(settings_.laser_range).single(0.001).word(0).single(kTurns);
   return out.bytes();
 }
 
-PlayerRobot::Bytes PlayerRobot::data(std::uint32_t interface) const {
-  switch (interface) {
+// Sonars are elements of a device in the robot's middle, and a laser is a device of one element.
+PlayerRobot::Bytes PlayerRobot::ranger_geometry(std::uint32_t device) const {
+  const bool is_laser = device == kPlayerLaser;
+  const std::vector<Pose2> elements = is_laser ? std::vector<Pose2>{{}} : settings_.sonars;
+  PlayerWriter out;
+  write_pose(out, is_laser ? settings_.laser_pose : Pose2{}, is_laser ? settings_.laser_height : 0.24);
+  out.real(settings_.width).real(settings_.length).real(0.0).count(elements.size());
+  for (const Pose2& element : elements) write_pose(out, element, 0.0);
+  out.count(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i) out.real(0.0).real(0.0).real(0.0);
+  return out.bytes();
+}
+
+// What Stage calls the resolution is the angle over the number of beams, not that from beam to beam.
+PlayerRobot::Bytes PlayerRobot::ranger_configuration(std::uint32_t device) const {
+  const bool is_laser = device == kPlayerLaser;
+  const MirrorTurn turn = is_laser ? mirror_->last_turn().value_or(MirrorTurn{}) : MirrorTurn{};
+  const Sector seen = is_laser ? sector_of(turn) : Sector{-0.5 * kLobe, 0.5 * kLobe, kLobe};
+  const double beams = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1));
+  PlayerWriter out;
+  out.real(seen.from).real(seen.to).real((seen.to - seen.from) / beams);
+  out.real(0.0).real(is_laser ? settings_.laser_range : kNoEcho).real(0.001);
+  return out.real(is_laser ? kTurns : 1.0 / to_seconds(settings_.cycle)).bytes();
+}
+
+PlayerRobot::Bytes PlayerRobot::data(std::uint32_t device) const {
+  switch (device) {
     case kPlayerPosition: return state();
     case kPlayerSonar: return sonar_ranges();
     case kPlayerBumper: return pressed();
@@ -174,8 +227,10 @@ PlayerRobot::Bytes PlayerRobot::state() const {
 PlayerRobot::Bytes PlayerRobot::sonar_ranges() const {
   PlayerWriter out;
   out.count(settings_.sonars.size());
-  for (int i = 0; i < static_cast<int>(settings_.sonars.size()); ++i)
-    out.single(body_.sonar(i).value_or(kNoEcho));
+  for (int i = 0; i < static_cast<int>(settings_.sonars.size()); ++i) {
+    const double range = body_.sonar(i).value_or(kNoEcho);
+    settings_.shows_rangers ? out.real(range) : out.single(range);
+  }
   return out.bytes();
 }
 
@@ -200,15 +255,18 @@ void PlayerRobot::look(TimePoint now) {
   if (!turn || turn->ranges.empty() || now < next_scan_ || scanned_ == turn->stamp) return;
   scanned_ = turn->stamp;
   next_scan_ = now + settings_.scan_period;
-  std::vector<double> ranges(turn->ranges.begin(), turn->ranges.end());
-  const double last = turn->first_angle + turn->step * static_cast<double>(ranges.size() - 1);
+  std::vector<double> ranges;
+  for (const double range : turn->ranges) ranges.push_back(std::min(range, settings_.laser_range));
   if (turn->step < 0.0) std::ranges::reverse(ranges);
+  ++scans_;
+  scan_ = settings_.shows_rangers ? ranger_scan(ranges) : laser_scan(sector_of(*turn), ranges);
+}
+
+PlayerRobot::Bytes PlayerRobot::laser_scan(const Sector& seen, const std::vector<double>& ranges) const {
   PlayerWriter out;
-  out.single(std::min(turn->first_angle, last)).single(std::max(turn->first_angle, last));
-  out.single(std::abs(turn->step)).single(settings_.laser_range).count(ranges.size());
-  for (const double range : ranges) out.single(std::min(range, settings_.laser_range));
-  out.octets(Bytes(ranges.size())).word(scans_++);
-  scan_ = out.bytes();
+  out.single(seen.from).single(seen.to).single(seen.step).single(settings_.laser_range).count(ranges.size());
+  for (const double range : ranges) out.single(range);
+  return out.octets(Bytes(ranges.size())).word(scans_ - 1).bytes();
 }
 
 }  // namespace orca::emulators

@@ -15,8 +15,15 @@
 
 namespace orca::emulators {
 
+/// Of a device, as clients name it.
+struct PlayerAddress {
+  std::uint32_t interface = 0;
+  std::uint32_t index = 0;
+  friend bool operator==(const PlayerAddress&, const PlayerAddress&) = default;
+};
+
 /// The devices behind an emulated Player server, as its drivers see them: what they answer, tell and do. Interfaces, types and subtypes have
-/// the numbers of the protocol.
+/// the numbers of the protocol. A device is named by the interface that it has at most servers, even if this one shows it as a ranger.
 ///
 /// Thread contract: not synchronised.
 class PlayerRobot {
@@ -27,24 +34,27 @@ class PlayerRobot {
   PlayerRobot(Body& body, const Mirror* mirror, PlayerSettings settings);
 
   [[nodiscard]] const PlayerSettings& settings() const { return settings_; }
-  [[nodiscard]] std::vector<std::uint32_t> interfaces() const;
+  [[nodiscard]] std::vector<std::uint32_t> devices() const;
+  [[nodiscard]] PlayerAddress address_of(std::uint32_t device) const;
+  /// Returns the device with an address; nothing if it has none.
+  [[nodiscard]] std::optional<std::uint32_t> device_at(const PlayerAddress& address) const;
   /// Returns whether a device knows a message.
-  [[nodiscard]] static bool knows(std::uint32_t interface, std::uint32_t type, std::uint32_t subtype);
+  [[nodiscard]] bool knows(std::uint32_t device, std::uint32_t type, std::uint32_t subtype) const;
 
   /// Carries out a request. @return the answer's payload; nothing if it is not known, or has another size than it must.
-  [[nodiscard]] std::optional<Bytes> request(std::uint32_t interface, std::uint32_t subtype,
+  [[nodiscard]] std::optional<Bytes> request(std::uint32_t device, std::uint32_t subtype,
                                              std::span<const std::uint8_t> payload);
   /// Carries out a command to the base. @return whether it was one.
   bool command(std::uint32_t subtype, std::span<const std::uint8_t> payload);
   /// One more client has a device open.
-  void open(std::uint32_t interface) { ++users_[interface]; }
+  void open(std::uint32_t device) { ++users_[device]; }
   /// One client less has it open. The driver of a base that nobody has open stops it, and takes its power.
-  void close(std::uint32_t interface);
+  void close(std::uint32_t device);
   /// The odometry begins where the robot is.
   void define(const Pose2& pose);
 
   /// Returns what a device other than the laser tells now.
-  [[nodiscard]] Bytes data(std::uint32_t interface) const;
+  [[nodiscard]] Bytes data(std::uint32_t device) const;
   /// The laser makes a scan of what its mirror has shown since the last one, if it is time.
   void look(TimePoint now);
   /// Returns how many scans it has made.
@@ -55,11 +65,22 @@ class PlayerRobot {
   [[nodiscard]] bool has_power() const { return power_; }
 
  private:
+  // [rad] from the first beam to the last, and between two.
+  struct Sector {
+    double from = 0.0;
+    double to = 0.0;
+    double step = 0.0;
+  };
+
+  [[nodiscard]] static Sector sector_of(const MirrorTurn& turn);
   [[nodiscard]] std::optional<Bytes> request_of_base(std::uint32_t subtype,
                                                      std::span<const std::uint8_t> payload);
   [[nodiscard]] Bytes sonar_geometry() const;
   [[nodiscard]] Bytes laser_geometry() const;
   [[nodiscard]] Bytes laser_configuration() const;
+  [[nodiscard]] Bytes ranger_geometry(std::uint32_t device) const;
+  [[nodiscard]] Bytes ranger_configuration(std::uint32_t device) const;
+  [[nodiscard]] Bytes laser_scan(const Sector& seen, const std::vector<double>& ranges) const;
   [[nodiscard]] Bytes state() const;
   [[nodiscard]] Bytes sonar_ranges() const;
   [[nodiscard]] Bytes pressed() const;
@@ -70,7 +91,7 @@ class PlayerRobot {
   Body& body_;
   const Mirror* const mirror_;
   const PlayerSettings settings_;
-  std::map<std::uint32_t, int> users_;  // by interface
+  std::map<std::uint32_t, int> users_;  // by device
   bool power_ = false;
   bool may_turn_ = true;  // the wheels, as the last command says
   Twist2 wanted_{};

@@ -18,7 +18,8 @@ enum PlayerInterface : std::uint32_t {
   kPlayerPosition = 4,
   kPlayerSonar = 5,
   kPlayerLaser = 6,
-  kPlayerBumper = 14
+  kPlayerBumper = 14,
+  kPlayerRanger = 62
 };
 
 enum PlayerType : std::uint32_t {

@@ -29,7 +29,7 @@ struct Answer {
   Bytes payload;
 };
 
-inline constexpr std::uint32_t kPlayer = 1, kPosition2d = 4, kSonar = 5;
+inline constexpr std::uint32_t kPlayer = 1, kPosition2d = 4, kSonar = 5, kRanger = 62;
 inline constexpr std::uint32_t kData = 1, kCommand = 2, kRequest = 3, kAck = 4, kSynch = 5, kNack = 6;
 
 inline void add_word(Bytes& bytes, std::uint32_t value) {

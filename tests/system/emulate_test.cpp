@@ -145,6 +145,31 @@ TEST_CASE("turns of an RPLIDAR that went over the line are those of the world, t
   CHECK(same > 300);
 }
 
+TEST_CASE("scans of a Player server are those of the world, as a laser and as a ranger",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const RecordTable::Row sim = scan_at_start("player_robot", virtual_clock(), folder);
+  const std::vector<double> wanted = numbers(sim, "ranges");
+  REQUIRE(wanted.size() == 181);
+  for (const Words& how : {Words{"emulated_as=player", "uses=sonar laser power"},
+                           Words{"emulated_as=player:stage", "uses=sonar=ranger:0 laser=ranger:1 power"}}) {
+    CAPTURE(how);
+    const RecordTable::Row real =
+        scan_at_start("player_robot",
+                      {"--profile", "emulate", "--set", "emulated=" + std::to_string(free_port()), "--set",
+                       how[0], "--set", how[1]},
+                      folder);
+    const std::vector<double> got = numbers(real, "ranges");
+    REQUIRE(got.size() == 181);
+    CHECK(number(real, "angle_start") == Approx(number(sim, "angle_start")).margin(1e-6));
+    CHECK(number(real, "angle_increment") == Approx(number(sim, "angle_increment")).margin(1e-6));
+    for (const char* const field : {"pose.x", "pose.y", "pose.z"})
+      CHECK(number(real, field) == Approx(number(sim, field)).margin(1e-9));
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      CHECK(std::min(got[i], 8.0) == Approx(std::min(wanted[i], 8.0)).margin(1e-6));
+  }
+}
+
 TEST_CASE("each shipped robot reaches its first goal with its real drivers on emulated devices",
           "[system][hardware]") {
   for (const Robot& robot : kRobots) {

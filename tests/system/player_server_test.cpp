@@ -44,13 +44,14 @@ TEST_CASE("a client of Player finds the robot's devices, subscribes to them and 
   Client client(robot.port);
   CHECK(client.banner().starts_with("Player v."));
   const Answer devices = client.ask(1, 1);
-  REQUIRE(devices.payload.size() == 8 + 2 * 16);
-  CHECK(word_at(devices.payload, 0) == 2);
-  CHECK(word_at(devices.payload, 4) == 2);
+  REQUIRE(devices.payload.size() == 8 + 3 * 16);
+  CHECK(word_at(devices.payload, 0) == 3);
+  CHECK(word_at(devices.payload, 4) == 3);
   CHECK(word_at(devices.payload, 8) == 0x0100007F);  // 127.0.0.1
   CHECK(word_at(devices.payload, 12) == robot.port);
   CHECK(word_at(devices.payload, 16) == kPosition2d);
   CHECK(word_at(devices.payload, 32) == kSonar);
+  CHECK(word_at(devices.payload, 48) == kRanger);
 
   const Answer base = client.subscribe(kPosition2d);
   CHECK(base.type == kAck);
@@ -176,13 +177,33 @@ TEST_CASE("a client that comes at once is told where the sonars sit", "[system][
   CHECK(word_at(poses.payload, 0) == 16);
 }
 
+TEST_CASE("a client of Player that knows rangers finds the sonars as ranger:0", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  CHECK(client.subscribe(kRanger).type == kAck);
+  CHECK(client.subscribe(kSonar).type == kAck);
+  const Answer geometry = client.ask(kRanger, 1);
+  REQUIRE(geometry.payload.size() == 9 * 8 + 8 + 16 * 48 + 8 + 16 * 24);
+  const Answer places = client.ask(kSonar, 1);
+  CHECK(Bytes(geometry.payload.begin() + 72, geometry.payload.begin() + 72 + 8 + 16 * 48) == places.payload);
+  const Answer config = client.ask(kRanger, 5);
+  REQUIRE(config.payload.size() == 7 * 8);
+  CHECK(double_at(config.payload, 8) == -double_at(config.payload, 0));  // what one of them hears
+  CHECK(double_at(config.payload, 32) > 1.0);                            // how far
+  const Answer ranges = client.receive(kRanger, kData);
+  REQUIRE(ranges.payload.size() == 8 + 16 * 8);
+  for (std::size_t i = 0; i < 16; ++i) CHECK(double_at(ranges.payload, 8 + 8 * i) > 0.1);
+  CHECK(client.ask(kRanger, 2, {0, 0, 0, 1}).type == kNack);  // they are always on
+}
+
 TEST_CASE("a system of Orca drives another one's robot by the driver for servers of Player",
           "[system][player]") {
   Robot robot;
   const TempFolder folder;
-  Subprocess program(Words{"/usr/bin/env", "XDG_RUNTIME_DIR=" + folder.path().string()} +
-                     deployer({system_graph("player.xml"), "--set",
-                               "device=tcp:127.0.0.1:" + std::to_string(robot.port), "--set", "uses=sonar"}));
+  Subprocess program(
+      Words{"/usr/bin/env", "XDG_RUNTIME_DIR=" + folder.path().string()} +
+      deployer({system_graph("player.xml"), "--set", "device=tcp:127.0.0.1:" + std::to_string(robot.port),
+                "--set", "uses=sonar=ranger:0"}));
   const Run run = finish(program, Seconds(60));
   INFO(run.err);
   CHECK(run.exit_code() == 0);

@@ -15,6 +15,7 @@
 #include "device_on_desk.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/emulators/player_firmware.hpp"
+#include "record_table.hpp"
 #include "tcp_front.hpp"
 #include "temp_folder.hpp"
 
@@ -227,6 +228,43 @@ TEST_CASE("a device that \"uses\" does not know is found before anything is open
   const Run run = run_deployer(drive("tcp:localhost:1", {"--set", "uses=sonar camera"}), Seconds(60));
   CHECK(run.exit_code() == 2);
   CHECK_THAT(run.err, Contains("\"camera\" is none of sonar, laser, bumper, power"));
+  for (const char* const wrong : {"power=ranger:0", "laser=ranger", "laser=ranger:x", "sonar=laser:0"}) {
+    CAPTURE(wrong);
+    CHECK_THAT(
+        run_deployer(drive("tcp:localhost:1", {"--set", std::string("uses=") + wrong}), Seconds(60)).err,
+        Contains("\"" + std::string(wrong) + "\" is none of") && Contains("laser=ranger:1"));
+  }
+}
+
+TEST_CASE("a robot whose server shows its sonars as a ranger, as Stage does, drives to its goals",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("server");
+  PlayerSettings settings;
+  settings.shows_rangers = true;
+  OnTerminal server(device, settings);
+  const std::string file = folder.file("sonars.csv");
+  const Run run = run_deployer(drive(device, {"--set", "uses=sonar=ranger:0 bumper power", "--record",
+                                              file + "=base.SonarRangeReadingsPush"}),
+                               Seconds(60));
+  check_reaches_goals(server, run);
+  const auto rows = RecordTable(file).rows("base.SonarRangeReadingsPush");
+  REQUIRE(rows.size() > 10);
+  CHECK(numbers(rows.back(), "ranges").size() == 16);
+}
+
+TEST_CASE("who asks a server that has rangers for sonars is told their names", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("server");
+  PlayerSettings settings;
+  settings.shows_rangers = true;
+  OnTerminal server(device, settings);
+  Subprocess program(deployer(drive(device)));
+  const bool told = program.wait_for_output(
+      "the server has no sonar:0; it has ranger:0: if one of them is meant, write e.g. sonar=ranger:0",
+      Seconds(20 * kSlowdown));
+  INFO(program.err());
+  CHECK(told);
 }
 
 TEST_CASE("a bumper that is touched stops a Player base where it drives to", "[system][hardware]") {

@@ -18,6 +18,8 @@ constexpr const char* kDriver = "orca";
 
 Pose2 pose_of(const Planar& planar) { return {planar.x, planar.y, planar.yaw}; }
 
+DeviceName name_of(const Address& address) { return {address.interface, address.index}; }
+
 bool is_finite_twist(const Planar& planar) {
   return std::isfinite(planar.x) && std::isfinite(planar.y) && std::isfinite(planar.yaw);
 }
@@ -43,7 +45,7 @@ void ClientSession::obey(const Message& message, TimePoint now) {
 
 // Only velocities are carried out. A command that cannot be understood is dropped, as a server of Player does.
 void ClientSession::command(const Message& message, TimePoint now) {
-  if (!uses(Interface::position2d) || id_of(message.header) != kPosition2dVelocity) return;
+  if (!uses(kBase) || id_of(message.header) != kPosition2dVelocity) return;
   const Result<VelocityCommand> wanted = decode<VelocityCommand>(message.payload);
   if (!wanted || !is_finite_twist(wanted->velocity)) return;
   wish_.reset();
@@ -69,8 +71,8 @@ void ClientSession::answer_server(const Message& message) {
   const MessageId id = id_of(header);
   if (id == kListDevices) {
     DeviceList list;
-    for (const Interface device : face_.devices())
-      list.devices.push_back({address_.host, address_.robot, device, 0});
+    for (const DeviceName& device : face_.devices())
+      list.devices.push_back({address_.host, address_.robot, device.interface, device.index});
     return accept(header, encode(list));
   }
   if (id == kAskDriver) return tell_driver(message);
@@ -94,13 +96,13 @@ void ClientSession::tell_driver(const Message& message) {
 void ClientSession::subscribe(const Message& message) {
   Result<Subscription> wish = decode<Subscription>(message.payload);
   if (!wish || !has(wish->device)) return refuse(message.header);
-  const Interface device = wish->device.interface;
+  const DeviceName device = name_of(wish->device);
   if (wish->access == Access::open) {
     uses_.insert(device);
   } else {
     uses_.erase(device);
     fresh_.erase(device);
-    if (device == Interface::position2d) wish_.reset();
+    if (device == kBase) wish_.reset();
   }
   wish->device.host = address_.host;
   wish->device.robot = address_.robot;
@@ -122,11 +124,24 @@ void ClientSession::answer_device(const Message& message) {
   if (id == kSonarAskGeometry) return accept(header, encode(face_.sonar_poses));
   if (id == kLaserAskGeometry) return accept(header, encode(Geometry{.pose = face_.laser_pose}));
   if (id == kLaserAskConfig) return accept(header, encode(face_.laser_config));
+  if (answer_ranger(message)) return;
   const bool is_done = id == kSonarPower || id == kPosition2dVelocityMode ||
                        (id == kPosition2dMotorPower && switch_motors(message.payload)) ||
                        (id == kPosition2dResetOdometry && set_odometry(Planar{})) ||
                        (id == kPosition2dSetOdometry && set_odometry(decode<Planar>(message.payload)));
   return is_done ? accept(header) : refuse(header);
+}
+
+bool ClientSession::answer_ranger(const Message& message) {
+  const Header& header = message.header;
+  const MessageId id = id_of(header);
+  if (id == kRangerAskGeometry)
+    accept(header, encode(face_.ranger_geometry(name_of(header.address))));
+  else if (id == kRangerAskConfig)
+    accept(header, encode(face_.ranger_config(name_of(header.address))));
+  else
+    return false;
+  return true;
 }
 
 bool ClientSession::switch_motors(Payload payload) {
@@ -157,20 +172,22 @@ bool ClientSession::knows(const MessageId& id) const {
                                        kSonarPower,
                                        kLaserScan,
                                        kLaserAskGeometry,
-                                       kLaserAskConfig};
+                                       kLaserAskConfig,
+                                       kRangerRanges,
+                                       kRangerAskGeometry,
+                                       kRangerAskConfig};
   for (const MessageId& known : kAll)
     if (known == id) return true;
   return false;
 }
 
 bool ClientSession::has(const Address& device) const {
-  if (device.index != 0) return false;
-  for (const Interface offered : face_.devices())
-    if (offered == device.interface) return true;
+  for (const DeviceName& offered : face_.devices())
+    if (offered == name_of(device)) return true;
   return false;
 }
 
-void ClientSession::offer(Interface device, double stamp) {
+void ClientSession::offer(const DeviceName& device, double stamp) {
   if (!uses(device)) return;
   fresh_[device] = stamp;
   if (pulls_ || output_.size() > kMostUnread) return;
@@ -182,20 +199,26 @@ Planar ClientSession::shown_pose() const {
   return {pose.x, pose.y, pose.yaw};
 }
 
-std::optional<std::vector<std::uint8_t>> ClientSession::data_of(Interface device) const {
-  if (device == Interface::position2d && face_.state) {
+std::optional<std::vector<std::uint8_t>> ClientSession::data_of(const DeviceName& device) const {
+  if (device == kBase && face_.state) {
     Position2dState state = *face_.state;
     state.pose = shown_pose();
     return encode(state);
   }
-  if (device == Interface::sonar && face_.sonar) return encode(*face_.sonar);
-  if (device == Interface::laser && face_.scan) return encode(*face_.scan);
-  return std::nullopt;
+  if (device == kSonar && face_.sonar) return encode(*face_.sonar);
+  if (device == kLaser && face_.scan) return encode(*face_.scan);
+  if (device.interface != Interface::ranger) return std::nullopt;
+  const auto values = face_.ranger_values(device);
+  return values ? std::optional(encode(*values)) : std::nullopt;
 }
 
-void ClientSession::send_data(Interface device, double stamp) {
+void ClientSession::send_data(const DeviceName& device, double stamp) {
   if (const auto data = data_of(device))
-    send({.address = {.interface = device}, .type = MessageType::data, .subtype = 1, .time = stamp}, *data);
+    send({.address = {.interface = device.interface, .index = device.index},
+          .type = MessageType::data,
+          .subtype = 1,
+          .time = stamp},
+         *data);
 }
 
 void ClientSession::accept(const Header& request, Payload payload) {

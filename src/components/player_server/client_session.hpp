@@ -39,7 +39,7 @@ class ClientSession {
   Status take(std::span<const std::uint8_t> bytes, TimePoint now);
 
   /// Notes that there is something new of a device. @param stamp  when it was measured [s].
-  void offer(hw::player::Interface device, double stamp);
+  void offer(const DeviceName& device, double stamp);
 
   /// Returns the bytes that wait to be sent; the caller takes them from the front.
   [[nodiscard]] std::vector<std::uint8_t>& output() { return output_; }
@@ -51,7 +51,7 @@ class ClientSession {
     TimePoint said;
   };
   [[nodiscard]] const std::optional<Wish>& wish() const { return wish_; }
-  [[nodiscard]] bool uses(hw::player::Interface device) const { return uses_.contains(device); }
+  [[nodiscard]] bool uses(const DeviceName& device) const { return uses_.contains(device); }
 
  private:
   using Payload = std::span<const std::uint8_t>;
@@ -61,6 +61,7 @@ class ClientSession {
   void answer(const hw::player::Message& message);
   void answer_server(const hw::player::Message& message);
   void answer_device(const hw::player::Message& message);
+  bool answer_ranger(const hw::player::Message& message);
   bool switch_motors(Payload payload);
   bool set_odometry(const Result<hw::player::Planar>& wanted);
   void subscribe(const hw::player::Message& message);
@@ -68,8 +69,8 @@ class ClientSession {
   void send_round(const hw::player::Header& request);
   [[nodiscard]] bool knows(const hw::player::MessageId& id) const;
   [[nodiscard]] bool has(const hw::player::Address& device) const;
-  [[nodiscard]] std::optional<std::vector<std::uint8_t>> data_of(hw::player::Interface device) const;
-  void send_data(hw::player::Interface device, double stamp);
+  [[nodiscard]] std::optional<std::vector<std::uint8_t>> data_of(const DeviceName& device) const;
+  void send_data(const DeviceName& device, double stamp);
   void send(hw::player::Header header, Payload payload = {});
   void accept(const hw::player::Header& request, Payload payload = {});
   void refuse(const hw::player::Header& request);
@@ -79,9 +80,8 @@ class ClientSession {
   const hw::player::Address address_;
   hw::player::MessageReader reader_{hw::player::MessageReader::Side::server};
   std::vector<std::uint8_t> output_;
-  std::set<hw::player::Interface> uses_;
-  std::map<hw::player::Interface, double>
-      fresh_;  // of each device, when what was not sent yet was measured [s]
+  std::set<DeviceName> uses_;
+  std::map<DeviceName, double> fresh_;  // of each device, when what was not sent yet was measured [s]
   bool pulls_ = false;
   bool motors_on_ = true;
   Pose2 origin_{};  // of the odometry that this client sees

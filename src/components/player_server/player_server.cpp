@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <chrono>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,9 +21,7 @@
 namespace {
 
 using orca::Status;
-using orca::hw::player::Interface;
-using orca::player_server::ClientSession;
-using orca::player_server::Connection;
+using namespace orca::player_server;
 
 constexpr orca::Duration kLap = std::chrono::milliseconds(20);
 constexpr orca::Duration kBaseLimit = std::chrono::seconds(5);  // for the base to say what it is
@@ -38,7 +37,8 @@ const orca::idl::TimeValue& stamp_of(const orca::idl::SonarRangeReadings& readin
   return readings.pose().stamp();
 }
 
-/// A behaviour by which programs written for Player drive the robot, as if it were a server of Player: position2d, sonar and laser.
+/// A behaviour by which programs written for Player drive the robot, as if it were a server of Player: position2d, sonar and laser, the
+/// last two as rangers, too: ranger:0 is the sonars, and ranger:1 is the laser.
 /// Of several clients that send velocities the last one is obeyed. The robot stops when it has sent none for `max_command_age`, and
 /// at once when its connection ends.
 ///
@@ -120,28 +120,29 @@ class PlayerServer final : public orca::Component {
   }
 
   void take_news() {
-    take_news_of(odometry_, Interface::position2d);
-    take_news_of(sonar_, Interface::sonar);
-    take_news_of(laser_, Interface::laser);
+    take_news_of(odometry_, {kBase});
+    take_news_of(sonar_, {kSonar, kSonarRanger});
+    take_news_of(laser_, {kLaser, kLaserRanger});
   }
 
   // What has come since the last lap; the newest is what a client wants.
   template <class Object>
-  void take_news_of(orca::PushProxy<Object>& port, Interface device) {
+  void take_news_of(orca::PushProxy<Object>& port, std::initializer_list<DeviceName> names) {
     orca::ObjectPtr<Object> newest;
     while (port.connected()) {
       orca::ObjectPtr<Object> next = port.get_update_wait_max(orca::Duration{0});
       if (!next) break;
       newest = std::move(next);
     }
-    if (newest) pass_on(device, *newest);
+    if (newest) pass_on(*newest, names);
   }
 
   template <class Object>
-  void pass_on(Interface device, const Object& object) {
+  void pass_on(const Object& object, std::initializer_list<DeviceName> names) {
     face_.take(object);
     const double stamp = orca::to_seconds(orca::to_time_point(stamp_of(object)));
-    for (const auto& client : clients_) client->session().offer(device, stamp);
+    for (const auto& client : clients_)
+      for (const DeviceName& name : names) client->session().offer(name, stamp);
   }
 
   // The last word counts, for a while.
@@ -164,9 +165,9 @@ class PlayerServer final : public orca::Component {
       {.text = "The clients' command, one per lap; full stop while there is none that is fresh."}};
   orca::PushProxy<orca::idl::Odometry> odometry_{*this, "odometry", {.text = "Becomes position2d."}};
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{
-      *this, "sonar", {.text = "Becomes sonar.", .optional = true}};
+      *this, "sonar", {.text = "Becomes sonar and ranger:0.", .optional = true}};
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
-      *this, "laser", {.text = "Becomes laser.", .optional = true}};
+      *this, "laser", {.text = "Becomes laser and ranger:1.", .optional = true}};
   orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
       *this, "robot", {.text = "Base that is asked at the start how large it is.", .optional = true}};
 
@@ -194,8 +195,8 @@ class PlayerServer final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
-  orca::player_server::RobotFace face_;
-  orca::player_server::Listener listener_;
+  RobotFace face_;
+  Listener listener_;
   orca::TimePoint listens_by_{};
   std::vector<std::unique_ptr<Connection>> clients_;
 };

@@ -18,12 +18,39 @@ std::vector<float> shown(const std::vector<double>& ranges, double longest) {
 
 }  // namespace
 
-std::vector<hw::player::Interface> RobotFace::devices() const {
-  using hw::player::Interface;
-  std::vector<Interface> all{Interface::position2d};
-  if (has_sonar) all.push_back(Interface::sonar);
-  if (has_laser) all.push_back(Interface::laser);
+std::vector<DeviceName> RobotFace::devices() const {
+  std::vector<DeviceName> all{kBase};
+  if (has_sonar) all.insert(all.end(), {kSonar, kSonarRanger});
+  if (has_laser) all.insert(all.end(), {kLaser, kLaserRanger});
   return all;
+}
+
+// Sonars are elements of a device in the robot's middle, and a laser is a device of one element.
+hw::player::RangerGeometry RobotFace::ranger_geometry(const DeviceName& ranger) const {
+  if (ranger == kLaserRanger)
+    return {
+        .pose = laser_pose, .element_poses = {hw::player::Pose3{}}, .element_sizes = {hw::player::Size3{}}};
+  return {.element_poses = sonar_poses.poses,
+          .element_sizes = std::vector<hw::player::Size3>(sonar_poses.poses.size())};
+}
+
+hw::player::RangerConfig RobotFace::ranger_config(const DeviceName& ranger) const {
+  if (ranger == kLaserRanger)
+    return {.min_angle = laser_config.min_angle,
+            .max_angle = laser_config.max_angle,
+            .angular_resolution = laser_config.resolution,
+            .max_range = laser_config.max_range};
+  return {.min_angle = -0.5 * sonar_lobe,
+          .max_angle = 0.5 * sonar_lobe,
+          .angular_resolution = sonar_lobe,
+          .max_range = sonar_range};
+}
+
+std::optional<hw::player::RangerValues> RobotFace::ranger_values(const DeviceName& ranger) const {
+  const bool is_laser = ranger == kLaserRanger;
+  if (is_laser ? !scan : !sonar) return std::nullopt;
+  const std::vector<float>& ranges = is_laser ? scan->ranges : sonar->ranges;
+  return hw::player::RangerValues{{ranges.begin(), ranges.end()}};
 }
 
 void RobotFace::take(const idl::Odometry& odometry) {
@@ -35,6 +62,8 @@ void RobotFace::take(const idl::Odometry& odometry) {
 
 void RobotFace::take(const idl::SonarRangeReadings& readings) {
   sonar = hw::player::SonarRanges{shown(readings.ranges(), readings.max_range())};
+  sonar_lobe = 2.0 * readings.half_lobe();
+  sonar_range = readings.max_range();
   sonar_poses.poses.clear();
   for (const idl::Frame3D& mount : readings.poses()) {
     const Pose2 pose = plane_pose(mount);

@@ -167,6 +167,53 @@ TEST_CASE("an emulated Player laser sends each scan once, and what comes back fr
   CHECK(Parts(desk.say("00000006 00000000 00000003 00000001")).tail == "0000002A 00000048");
 }
 
+TEST_CASE("an emulated server like Stage shows sonars and laser as rangers, of 8 bytes a range",
+          "[emulators]") {
+  PlayerSettings settings = with_two_sonars();
+  settings.shows_rangers = true;
+  PlayerDesk desk(settings);
+  (void)desk.connect();
+  const Parts list(desk.say("00000001 00000000 00000003 00000001"));
+  CHECK(list.payload ==
+        "00000005 00000005 "
+        "0100007F 00001A09 00000004 00000000 0100007F 00001A09 0000003E 00000000 "
+        "0100007F 00001A09 0000000E 00000000 0100007F 00001A09 00000002 00000000 "
+        "0100007F 00001A09 0000003E 00000001");
+  CHECK(Parts(desk.open_at(desk.server, "00000005")).head ==
+        "0100007F 00001A09 00000001 00000000 00000006 00000003");  // there is no sonar:0
+
+  SECTION("sonars are the elements of ranger:0") {
+    CHECK(desk.open("0000003E").starts_with("0100007F 00001A09 0000003E 00000000 00000001"));
+    const Parts ranges(desk.pass(100ms));
+    CHECK(ranges.head == "0100007F 00001A09 0000003E 00000000 00000001 00000001");
+    CHECK(ranges.payload == "00000002 00000002 40140000 00000000 3FE00000 00000000");  // 5 m, 0.5 m
+    const Parts places(desk.say("0000003E 00000000 00000003 00000001"));
+    CHECK(places.tail == "0000002A 000000E8");
+    // Each at 0.24 m: the height is that of the device.
+    CHECK(places.payload.substr(0, 53) == "00000000 00000000 00000000 00000000 3FCEB851 EB851EB8");
+    CHECK(
+        places.payload.substr(18 * 9, 107) ==
+        "00000002 00000002 00000000 00000000 3FE00000 00000000 00000000 00000000 00000000 00000000 00000000 "
+        "00000000");
+    CHECK(Parts(desk.say("0000003E 00000000 00000003 00000005")).tail == "0000002A 00000038");
+  }
+  SECTION("the laser is ranger:1") {
+    (void)desk.say("00000001 00000000 00000003 00000003",
+                   "00000000 00000000 0000003E 00000001 00000001 00000000 00000000");
+    desk.mirror.stamp = TimePoint(1s);
+    const Parts scan(desk.pass(100ms));
+    CHECK(scan.head == "0100007F 00001A09 0000003E 00000001 00000001 00000001");
+    CHECK(scan.payload ==
+          "00000003 00000003 3FF00000 00000000 40000000 00000000 40200000 00000000");  // 1, 2, 8 m
+    const Parts config(desk.say("0000003E 00000001 00000003 00000005"));
+    // From -0.5 rad to 0.5 rad. Stage's resolution is this over the number of beams: 0.333 rad.
+    CHECK(config.payload.starts_with("BFE00000 00000000 3FE00000 00000000 3FD55555 55555555"));
+    const Parts place(desk.say("0000003E 00000001 00000003 00000001"));
+    CHECK(place.payload.starts_with(
+        "3F916872 B020C49C 3F80624D D2F1A9FC 3FD33333 33333333"));  // 17, 8 mm, 0.3 m
+  }
+}
+
 TEST_CASE("emulated Player bumpers lie in front first, and a battery tells its voltage", "[emulators]") {
   PlayerDesk desk;
   (void)desk.connect();

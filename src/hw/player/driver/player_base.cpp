@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +14,8 @@
 #include "orca/hw/player/payload.hpp"
 #include "player_senses.hpp"
 #include "player_session.hpp"
+#include "player_uses.hpp"
+#include "ranger_view.hpp"
 
 namespace {
 
@@ -30,15 +31,6 @@ constexpr Duration kSayAgain = 250ms;  // what it is to do; most drivers have no
 constexpr Duration kPowerAnswer = 1s;  // for the answer to the request for power
 constexpr double kSamePlace = 0.01;    // [m] and [rad]
 
-struct Use {
-  const char* word;
-  Interface interface;
-};
-constexpr Use kUses[] = {{"sonar", Interface::sonar},
-                         {"laser", Interface::laser},
-                         {"bumper", Interface::bumper},
-                         {"power", Interface::power}};
-
 /// A robot behind a Player server: its base (position2d), and its sonars, laser, bumpers and battery as far as the server has them.
 ///
 /// Data come by themselves, as they arise. The motors get power with the first command to move, not before, and lose it when nobody uses the
@@ -50,7 +42,7 @@ class PlayerBase final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
-    read_uses(faults);
+    uses_ = read_uses(*uses_text_, faults);
     if (!faults.empty()) return faults;
     senses_.emplace(uses_, PlayerRobotShape{.radius = *radius_, .sonar_range = *sonar_range_});
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
@@ -73,7 +65,7 @@ class PlayerBase final : public orca::hw::LineDriver {
     robot.length(*length_);
     robot.width(*width_);
     robot.drives().push_back(describe_wheels());
-    if (does_use(Interface::laser)) robot.laser_sensors().push_back(describe_laser());
+    if (used_as(Part::laser)) robot.laser_sensors().push_back(describe_laser());
     return robot;
   }
 
@@ -125,29 +117,18 @@ class PlayerBase final : public orca::hw::LineDriver {
   }
 
  private:
-  void read_uses(std::vector<orca::HardwareFault>& faults) {
-    uses_.clear();
-    std::istringstream words(*uses_text_);
-    for (std::string word; words >> word;) {
-      const auto* const use =
-          std::ranges::find_if(kUses, [&](const Use& known) { return known.word == word; });
-      if (use == std::end(kUses))
-        faults.push_back({"uses", orca::in_quotes(word) +
-                                      " is none of sonar, laser, bumper, power; write some "
-                                      "of them with blanks between"});
-      else if (!does_use(use->interface))
-        uses_.push_back(use->interface);
-    }
+  // Returns null if it is not used.
+  [[nodiscard]] const Use* used_as(Part part) const {
+    const auto use = std::ranges::find(uses_, part, &Use::part);
+    return use != uses_.end() ? &*use : nullptr;
   }
-
-  [[nodiscard]] bool does_use(Interface interface) const { return std::ranges::count(uses_, interface) > 0; }
 
   [[nodiscard]] orca::idl::LaserSensor describe_laser() const {
     const double step = *laser_beams_ > 1 ? *laser_angle_ / static_cast<double>(*laser_beams_ - 1) : 0.0;
     orca::idl::LaserSensor laser;
     laser.name("laser");
     laser.vendor("Player");
-    laser.model("laser");
+    laser.model(used_as(Part::laser)->interface == Interface::ranger ? "ranger" : "laser");
     laser.port(device());
     laser.type("LaserRangeReadings");
     laser.update_interval(0.1);
@@ -208,24 +189,43 @@ class PlayerBase final : public orca::hw::LineDriver {
   void warn(const std::string& text) { host().write_log(orca::log::Level::warning, text); }
 
   void take(const Message& message, TimePoint now) {
+    const Address& from = message.header.address;
+    const auto use = std::ranges::find_if(
+        uses_, [&](const Use& used) { return used.interface == from.interface && used.index == from.index; });
+    if (use == uses_.end()) return;
     const MessageId id = id_of(message.header);
-    if (message.header.address.index != 0) return;
     if (id == kPosition2dState) {
       take_state(message, now);
     } else if (id == kSonarRanges) {
-      take_data<SonarRanges>(message, now);
+      pass_on(decode<SonarRanges>(message.payload), now);
     } else if (id == kLaserScan) {
-      take_data<LaserScan>(message, now);
+      pass_on(decode<LaserScan>(message.payload), now);
     } else if (id == kBumperState) {
       take_bumpers(message, now);
     } else if (id == kPowerState) {
-      take_data<PowerState>(message, now);
-    } else if (id.interface == Interface::position2d && id.subtype == kPosition2dMotorPower.subtype &&
-               (id.type == MessageType::ack || id.type == MessageType::nack)) {
-      power_due_ = orca::kForever;
-      if (id.type == MessageType::nack && powered_)
-        warn("the server refuses power for the motors; is an emergency button pressed?");
+      pass_on(decode<PowerState>(message.payload), now);
+    } else if (use->part == Part::base) {
+      take_answer(id);
+    } else if (const auto ranges = read_ranges(message)) {
+      take_ranges(*use, *ranges, now);
     }
+  }
+
+  void take_answer(const MessageId& id) {
+    const bool is_refused = id.type == MessageType::nack;
+    if (id.subtype != kPosition2dMotorPower.subtype || (!is_refused && id.type != MessageType::ack)) return;
+    power_due_ = orca::kForever;
+    if (is_refused && powered_)
+      warn("the server refuses power for the motors; is an emergency button pressed?");
+  }
+
+  void take_ranges(const Use& use, const Result<RangerStamped>& ranger, TimePoint now) {
+    if (!ranger) return session_->note_bad();
+    if (use.part == Part::sonar) return pass_on(Result<SonarRanges>(as_sonar(ranger->ranges)), now);
+    const RangerConfig otherwise{
+        .min_angle = -0.5 * *laser_angle_, .max_angle = 0.5 * *laser_angle_, .max_range = *laser_range_};
+    const auto& config = ranger->config ? ranger->config : session_->facts().angles;
+    pass_on(Result<LaserScan>(as_laser(ranger->ranges, config, otherwise)), now);
   }
 
   [[nodiscard]] bool is_active() const { return state() == orca::hw::HardwareState::active; }
@@ -245,8 +245,7 @@ class PlayerBase final : public orca::hw::LineDriver {
   }
 
   template <class Data>
-  void take_data(const Message& message, TimePoint now) {
-    const Result<Data> data = decode<Data>(message.payload);
+  void pass_on(const Result<Data>& data, TimePoint now) {
     if (!data || !senses_->take(*data, now, is_active())) return session_->note_bad();
     if constexpr (std::is_same_v<Data, LaserScan>) compare_scan(*data);
   }
@@ -270,13 +269,14 @@ class PlayerBase final : public orca::hw::LineDriver {
     const orca::Twist2& velocity = setpoint.velocity;
     return session_->send(
         kPosition2dVelocity,
-        encode(VelocityCommand{.velocity = {velocity.forward, 0.0, velocity.turn_rate}, .motors_on = true}));
+        encode(VelocityCommand{.velocity = {velocity.forward, 0.0, velocity.turn_rate}, .motors_on = true}),
+        uses_.front().index);
   }
 
   Status switch_motors(bool on) {
     powered_ = on;
     power_due_ = on ? host().now() + kPowerAnswer : orca::kForever;
-    return session_->send(kPosition2dMotorPower, encode(Switch{on}));
+    return session_->send(kPosition2dMotorPower, encode(Switch{on}), uses_.front().index);
   }
 
   orca::Param<std::string> name_{*this, "name", "Player", {.text = "Name of this robot, one word."}};
@@ -284,7 +284,10 @@ class PlayerBase final : public orca::hw::LineDriver {
       *this,
       "uses",
       "sonar laser bumper power",
-      {.text = "Devices of the server that are used beside its position2d, with blanks between."}};
+      {.text =
+           "What of the robot is used beside its base, with blanks between. Each is the device 0 of the "
+           "interface of its name, or another one: sonar=ranger:0 laser=ranger:1, as the simulator Stage has "
+           "them, laser=laser:1, base=position2d:1."}};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
   orca::Param<double> max_turn_rate_{
@@ -326,7 +329,7 @@ class PlayerBase final : public orca::hw::LineDriver {
   orca::Param<double> laser_z_{
       *this, "laser_z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
 
-  std::vector<Interface> uses_;
+  std::vector<Use> uses_;  // the base first
   std::optional<PlayerSenses> senses_;
   std::optional<orca::hw::MotionHW> motion_;
   std::optional<PlayerSession> session_;

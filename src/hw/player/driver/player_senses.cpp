@@ -30,7 +30,7 @@ double distance(double range, double longest) { return range >= 0.0 && range < l
 
 }  // namespace
 
-PlayerSenses::PlayerSenses(const std::vector<Interface>& uses, const PlayerRobotShape& shape)
+PlayerSenses::PlayerSenses(const std::vector<Use>& uses, const PlayerRobotShape& shape)
     : shape_(shape),
       odometry_(kDataPeriod),
       sonar_(kDataPeriod),
@@ -38,13 +38,13 @@ PlayerSenses::PlayerSenses(const std::vector<Interface>& uses, const PlayerRobot
       bumpers_(kDataPeriod),
       battery_(kDataPeriod),
       endpoints_{&odometry_} {
-  const auto add = [&](Interface interface, SensorEndpoint& endpoint) {
-    if (std::ranges::count(uses, interface) > 0) endpoints_.push_back(&endpoint);
+  const auto add = [&](Part part, SensorEndpoint& endpoint) {
+    if (std::ranges::count(uses, part, &Use::part) > 0) endpoints_.push_back(&endpoint);
   };
-  add(Interface::sonar, sonar_);
-  add(Interface::laser, laser_);
-  add(Interface::bumper, bumpers_);
-  add(Interface::power, battery_);
+  add(Part::sonar, sonar_);
+  add(Part::laser, laser_);
+  add(Part::bumper, bumpers_);
+  add(Part::power, battery_);
 }
 
 void PlayerSenses::connect(const PlayerRobotFacts& facts) {

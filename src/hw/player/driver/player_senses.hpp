@@ -32,8 +32,8 @@ struct PlayerRobotShape {
 /// Thread contract: not synchronised; the container's strand.
 class PlayerSenses {
  public:
-  /// @param uses  devices beside the base.
-  PlayerSenses(const std::vector<Interface>& uses, const PlayerRobotShape& shape);
+  /// @param uses  devices that are used.
+  PlayerSenses(const std::vector<Use>& uses, const PlayerRobotShape& shape);
 
   [[nodiscard]] const std::vector<SensorEndpoint*>& endpoints() const { return endpoints_; }
 

@@ -10,6 +10,7 @@
 #include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/position2d.hpp"
+#include "ranger_view.hpp"
 
 namespace orca::hw::player {
 namespace {
@@ -25,22 +26,23 @@ std::string request_name(const MessageId& id) {
   return id == kSubscribe ? "to open " : "for the place of ";
 }
 
-}  // namespace
-
-std::string device_name(Interface interface) {
-  switch (interface) {
-    case Interface::position2d: return "position2d:0";
-    case Interface::sonar: return "sonar:0";
-    case Interface::laser: return "laser:0";
-    case Interface::bumper: return "bumper:0";
-    case Interface::power: return "power:0";
-    default: return "interface " + std::to_string(static_cast<std::uint32_t>(interface));
-  }
+// Sonars and lasers that are not there may be rangers.
+std::string missing(const Use& wish, const std::vector<Address>& devices) {
+  std::string rangers;
+  for (const Address& device : devices)
+    if (device.interface == Interface::ranger)
+      rangers += (rangers.empty() ? "" : ", ") + device_name({wish.part, Interface::ranger, device.index});
+  const std::string what = "the server has no " + device_name(wish) + "; ";
+  const bool may_be_ranger = wish.part == Part::sonar || wish.part == Part::laser;
+  if (may_be_ranger && !rangers.empty())
+    return what + "it has " + rangers + ": if one of them is meant, write e.g. " +
+           (wish.part == Part::sonar ? "sonar" : "laser") + "=ranger:0 in \"uses\"";
+  return what + "leave it out of \"uses\", or add it to the server's configuration";
 }
 
-bool PlayerRobotFacts::has(Interface interface) const { return std::ranges::count(open, interface) > 0; }
+}  // namespace
 
-PlayerSession::PlayerSession(link::ByteLink& link, std::vector<Interface> wishes, Duration patience)
+PlayerSession::PlayerSession(link::ByteLink& link, std::vector<Use> wishes, Duration patience)
     : link_(link), wishes_(std::move(wishes)), patience_(patience) {}
 
 Status PlayerSession::begin(TimePoint now) {
@@ -53,14 +55,10 @@ Status PlayerSession::begin(TimePoint now) {
   return ok();
 }
 
-void PlayerSession::add(const MessageId& id, Interface about, std::vector<std::uint8_t> payload) {
-  questions_.push_back({id, std::move(payload), about});
-}
-
 Status PlayerSession::ask(TimePoint now) {
   const Question& question = questions_.front();
   deadline_ = now + (question.id == kSubscribe ? patience_ : kAnswerTime);
-  return send(question.id, question.payload);
+  return send(question.id, question.payload, question.index());
 }
 
 Result<bool> PlayerSession::advance(TimePoint now) {
@@ -73,8 +71,8 @@ Result<bool> PlayerSession::advance(TimePoint now) {
   if (!greeted_ && !reader_.server_version().empty()) {
     greeted_ = true;
     facts_.version = reader_.server_version();
-    add(kSetDataMode, Interface::player, encode(DataMode{DataMode::Mode::push}));
-    add(kListDevices, Interface::player);
+    questions_.push_back({kSetDataMode, encode(DataMode{DataMode::Mode::push})});
+    questions_.push_back({kListDevices, {}});
     if (Status asked = ask(now); !asked.ok()) return asked.error();
   }
   if (greeted_ && questions_.empty()) return true;
@@ -107,8 +105,8 @@ Status PlayerSession::receive(const Take& take) {
   return ok();
 }
 
-Status PlayerSession::send(const MessageId& id, std::span<const std::uint8_t> payload) {
-  const auto message = make_message(header_for(id), payload);
+Status PlayerSession::send(const MessageId& id, std::span<const std::uint8_t> payload, std::uint32_t index) {
+  const auto message = make_message(header_for(id, index), payload);
   return message ? link_.write(*message) : Status(message.error());
 }
 
@@ -117,7 +115,9 @@ Status PlayerSession::take(const Message& message, TimePoint now) {
   const bool is_answer = message.header.type == MessageType::ack || message.header.type == MessageType::nack;
   if (!is_answer || questions_.empty()) return ok();
   const MessageId& asked = questions_.front().id;
-  if (message.header.address.interface != asked.interface || message.header.subtype != asked.subtype)
+  const Address& from = message.header.address;
+  if (from.interface != asked.interface || from.index != questions_.front().index() ||
+      message.header.subtype != asked.subtype)
     return ok();
   if (message.header.type == MessageType::ack && is_late(message)) return ok();
   const Question question = std::move(questions_.front());
@@ -133,43 +133,40 @@ bool PlayerSession::is_late(const Message& message) const {
   const Question& awaited = questions_.front();
   if (awaited.id != kSubscribe) return false;
   const auto answer = decode<Subscription>(message.payload);
-  return answer && answer->device.interface != awaited.about;
+  return answer &&
+         (answer->device.interface != awaited.about.interface || answer->device.index != awaited.about.index);
 }
 
 Status PlayerSession::take_answer(const Question& question, std::span<const std::uint8_t> payload) {
   if (question.id == kSetDataMode) return ok();
   if (question.id == kListDevices) return take_devices(payload);
   if (question.id == kSubscribe) return take_subscription(question.about, payload);
+  if (question.id.interface == Interface::ranger) return take_ranger(question, payload);
   return take_geometry(question, payload);
 }
 
 Status PlayerSession::take_devices(std::span<const std::uint8_t> payload) {
   const auto list = decode<DeviceList>(payload);
   if (!list) return list.error();
-  const auto has = [&](Interface interface) {
-    return std::ranges::any_of(list->devices, [&](const Address& device) {
-      return device.interface == interface && device.index == 0;
+  for (const Use& wish : wishes_) {
+    const bool has = std::ranges::any_of(list->devices, [&](const Address& device) {
+      return device.interface == wish.interface && device.index == wish.index;
     });
-  };
-  if (!has(Interface::position2d))
-    return fail(Code::not_found, link_.name() +
-                                     " is a Player server without a base: position2d:0 is none of its " +
-                                     std::to_string(list->devices.size()) +
-                                     " devices; start it with a configuration that provides one");
-  std::vector<Interface> wanted{Interface::position2d};
-  for (const Interface wish : wishes_) {
-    if (has(wish))
-      wanted.push_back(wish);
+    if (!has && wish.part == Part::base)
+      return fail(Code::not_found, link_.name() + " is a Player server without a base: " + device_name(wish) +
+                                       " is none of its " + std::to_string(list->devices.size()) +
+                                       " devices; start it with a configuration that provides one");
+    const Address device{.interface = wish.interface, .index = wish.index};
+    if (has)
+      questions_.push_back(
+          {kSubscribe, encode(Subscription{.device = device, .access = Access::open}), wish});
     else
-      facts_.shortcomings.push_back("the server has no " + device_name(wish) +
-                                    "; leave it out of \"uses\", or add it to the server's configuration");
+      facts_.shortcomings.push_back(missing(wish, list->devices));
   }
-  for (const Interface device : wanted)
-    add(kSubscribe, device, encode(Subscription{.device = {.interface = device}, .access = Access::open}));
   return ok();
 }
 
-Status PlayerSession::take_subscription(Interface about, std::span<const std::uint8_t> payload) {
+Status PlayerSession::take_subscription(const Use& about, std::span<const std::uint8_t> payload) {
   const auto answer = decode<Subscription>(payload);
   if (!answer) return answer.error();
   if (answer->access != Access::open)
@@ -177,20 +174,43 @@ Status PlayerSession::take_subscription(Interface about, std::span<const std::ui
                                  " does not start; is the device switched on and connected to the server's "
                                  "machine? " +
                                  kSeeServer);
-  facts_.open.push_back(about);
-  if (about == Interface::position2d) {
-    facts_.driver = printable(answer->driver);
-    add(kPosition2dAskGeometry, about);
-  } else if (about == Interface::sonar) {
-    add(kSonarAskGeometry, about);
-  } else if (about == Interface::laser) {
-    add(kLaserAskGeometry, about);
+  if (about.part == Part::base) facts_.driver = printable(answer->driver);
+  ask_place(about);
+  return ok();
+}
+
+// And of a laser that is a ranger, between which angles it sees.
+void PlayerSession::ask_place(const Use& device) {
+  switch (device.interface) {
+    case Interface::position2d: questions_.push_back({kPosition2dAskGeometry, {}, device}); break;
+    case Interface::sonar: questions_.push_back({kSonarAskGeometry, {}, device}); break;
+    case Interface::laser: questions_.push_back({kLaserAskGeometry, {}, device}); break;
+    case Interface::ranger:
+      questions_.push_back({kRangerAskGeometry, {}, device});
+      if (device.part == Part::laser) questions_.push_back({kRangerAskConfig, {}, device});
+      break;
+    default: break;  // it does not matter where the others are
   }
+}
+
+Status PlayerSession::take_ranger(const Question& question, std::span<const std::uint8_t> payload) {
+  if (question.id == kRangerAskConfig) {
+    const auto config = decode<RangerConfig>(payload);
+    if (!config) return config.error();
+    facts_.angles = *config;
+    return ok();
+  }
+  const auto geometry = decode<RangerGeometry>(payload);
+  if (!geometry) return geometry.error();
+  if (question.about.part == Part::sonar)
+    facts_.sonars = as_sonar(*geometry);
+  else
+    facts_.laser = Geometry{geometry->pose, geometry->size};
   return ok();
 }
 
 Status PlayerSession::take_geometry(const Question& question, std::span<const std::uint8_t> payload) {
-  if (question.about == Interface::sonar) {
+  if (question.about.part == Part::sonar) {
     const auto sonars = decode<SonarGeometry>(payload);
     if (!sonars) return sonars.error();
     facts_.sonars = *sonars;
@@ -198,7 +218,7 @@ Status PlayerSession::take_geometry(const Question& question, std::span<const st
   }
   const auto geometry = decode<Geometry>(payload);
   if (!geometry) return geometry.error();
-  (question.about == Interface::laser ? facts_.laser : facts_.base) = *geometry;
+  (question.about.part == Part::laser ? facts_.laser : facts_.base) = *geometry;
   return ok();
 }
 
@@ -215,9 +235,15 @@ Status PlayerSession::refuse(const Question& question) {
 // The server says nothing. Drivers that do not know a request drop it.
 Status PlayerSession::miss(const Question& question) {
   const bool is_about_place = question.id.interface != Interface::player;
+  if (question.id == kRangerAskConfig) {
+    facts_.shortcomings.push_back("the server does not say between which angles " +
+                                  device_name(question.about) + " sees; those of \"laser_angle\" are taken");
+    return ok();
+  }
   if (is_about_place) {
+    const bool is_sonar = question.about.part == Part::sonar;
     facts_.shortcomings.push_back("the server does not say where " + device_name(question.about) + " is" +
-                                  (question.about == Interface::sonar ? ", so the sonars are not used" : ""));
+                                  (is_sonar ? ", so the sonars are not used" : ""));
     return ok();
   }
   if (question.id == kSubscribe)
@@ -230,9 +256,9 @@ Status PlayerSession::miss(const Question& question) {
                                            "; does the server hang? Start it anew");
 }
 
-Status PlayerSession::go_without(Interface about, const std::string& why) {
+Status PlayerSession::go_without(const Use& about, const std::string& why) {
   const std::string what = device_name(about) + " cannot be opened: " + why;
-  if (about == Interface::position2d) return fail(Code::unavailable, what, link_.name());
+  if (about.part == Part::base) return fail(Code::unavailable, what, link_.name());
   facts_.shortcomings.push_back(what);
   return ok();
 }

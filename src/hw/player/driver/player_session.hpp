@@ -15,25 +15,22 @@
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/player/geometry.hpp"
 #include "orca/hw/player/message_reader.hpp"
+#include "orca/hw/player/ranger.hpp"
 #include "orca/hw/player/session.hpp"
 #include "orca/hw/player/sonar.hpp"
+#include "player_uses.hpp"
 
 namespace orca::hw::player {
-
-/// Returns what a device is called in a server's configuration, for people: "position2d:0".
-[[nodiscard]] std::string device_name(Interface interface);
 
 /// What a server has said of its robot.
 struct PlayerRobotFacts {
   std::string version;                    ///< Of the server.
   std::string driver;                     ///< Of the base.
-  std::vector<Interface> open;            ///< Devices that are open.
   std::vector<std::string> shortcomings;  ///< What is missing, for people, with what to do.
   std::optional<Geometry> base;           ///< Nothing: it does not say.
   std::optional<SonarGeometry> sonars;    ///< Likewise.
   std::optional<Geometry> laser;          ///< Likewise.
-
-  [[nodiscard]] bool has(Interface interface) const;
+  std::optional<RangerConfig> angles;     ///< Of a laser that is a ranger; likewise.
 };
 
 /// The connection to a Player server: waits for the banner, lets data come by themselves, asks what devices there are, opens the base and
@@ -48,9 +45,9 @@ class PlayerSession {
   using Take = std::function<void(const Message&)>;
 
   /// @param link      outlives the object.
-  /// @param wishes    devices that are used beside the base, as far as the server has them.
+  /// @param wishes    the base, and other devices that are used as far as the server has them.
   /// @param patience  [s] for the answer when a device is opened, whose driver starts then.
-  PlayerSession(link::ByteLink& link, std::vector<Interface> wishes, Duration patience);
+  PlayerSession(link::ByteLink& link, std::vector<Use> wishes, Duration patience);
 
   /// Begins anew. @pre  the link has just been opened: what it has brought since is not dropped, for that is the banner.
   Status begin(TimePoint now);
@@ -67,9 +64,9 @@ class PlayerSession {
   /// @errors  those of the link and of MessageReader.
   Status receive(const Take& take);
 
-  /// Sends a message to the device 0 of an interface.
+  /// Sends a message to the device of an interface with this number.
   /// @errors  those of ByteLink::write().
-  Status send(const MessageId& id, std::span<const std::uint8_t> payload);
+  Status send(const MessageId& id, std::span<const std::uint8_t> payload, std::uint32_t index = 0);
 
   /// Counts a message that could not be read.
   void note_bad() { ++bad_; }
@@ -81,23 +78,27 @@ class PlayerSession {
   struct Question {
     MessageId id;
     std::vector<std::uint8_t> payload;
-    Interface about;  // which device
+    Use about{};  // which device, unless it is about the server
+
+    // Of the device that is asked, which is the server itself if it is to open one.
+    [[nodiscard]] std::uint32_t index() const { return id.interface == Interface::player ? 0 : about.index; }
   };
 
-  void add(const MessageId& id, Interface about, std::vector<std::uint8_t> payload = {});
+  void ask_place(const Use& device);
   Status ask(TimePoint now);
   Status take(const Message& message, TimePoint now);
   [[nodiscard]] bool is_late(const Message& message) const;
   Status take_answer(const Question& question, std::span<const std::uint8_t> payload);
   Status take_devices(std::span<const std::uint8_t> payload);
-  Status take_subscription(Interface about, std::span<const std::uint8_t> payload);
+  Status take_subscription(const Use& about, std::span<const std::uint8_t> payload);
   Status take_geometry(const Question& question, std::span<const std::uint8_t> payload);
+  Status take_ranger(const Question& question, std::span<const std::uint8_t> payload);
   Status refuse(const Question& question);
   Status miss(const Question& question);
-  Status go_without(Interface about, const std::string& why);
+  Status go_without(const Use& about, const std::string& why);
 
   link::ByteLink& link_;
-  const std::vector<Interface> wishes_;
+  const std::vector<Use> wishes_;
   const Duration patience_;
   MessageReader reader_{MessageReader::Side::client};
   std::deque<Question> questions_;  // the first one was asked

@@ -23,7 +23,7 @@ class PlayerRobot;
 /// Returns where the 16 sonars of a Pioneer 2 are, in the robot frame.
 [[nodiscard]] std::vector<Pose2> pioneer_sonars();
 
-/// What a server has, and how it behaves. Interfaces have their numbers: 2 power, 4 position2d, 5 sonar, 6 laser, 14 bumper.
+/// What a server has, and how it behaves. Devices have the numbers of their interfaces: 2 power, 4 position2d, 5 sonar, 6 laser, 14 bumper.
 struct PlayerSettings {
   std::string version = "3.1.1-dev";  ///< In its banner.
   std::string banner{};               ///< What it sends first instead of a banner, if anything.
@@ -42,9 +42,11 @@ struct PlayerSettings {
   Duration cycle = 100ms;               ///< From data to data, but for the laser.
   Duration scan_period = 25ms;          ///< Least time between two scans.
   Duration accept_time = 50ms;          ///< From the connection to the banner.
-  std::set<std::uint32_t> missing{};    ///< Interfaces that it does not have.
-  std::set<std::uint32_t> refused{};    ///< Interfaces whose driver does not start.
-  std::set<std::uint32_t> silent{};     ///< Interfaces whose requests get no answer.
+  bool shows_rangers =
+      false;  ///< The sonars are ranger:0, and the laser is ranger:1, as the simulator Stage shows them.
+  std::set<std::uint32_t> missing{};  ///< Devices that it does not have.
+  std::set<std::uint32_t> refused{};  ///< Devices whose driver does not start.
+  std::set<std::uint32_t> silent{};   ///< Devices whose requests get no answer.
 };
 
 /// A Player server with one robot, as one of its clients sees it: it lists its devices, lets the client subscribe, answers requests,
@@ -83,7 +85,7 @@ class PlayerFirmware final : public Firmware {
 
   [[nodiscard]] bool has_power() const;
   /// Returns whether this client has the device open.
-  [[nodiscard]] bool is_subscribed(std::uint32_t interface) const { return open_.contains(interface); }
+  [[nodiscard]] bool is_subscribed(std::uint32_t device) const { return open_.contains(device); }
   /// Returns how many connections this client's place has had.
   [[nodiscard]] int connections() const { return connections_; }
   /// Returns how many messages of them were dropped.
@@ -99,14 +101,14 @@ class PlayerFirmware final : public Firmware {
   void obey(const PlayerHeader& header, Bytes payload);
   void serve(const PlayerHeader& header, Bytes payload);
   void subscribe(const PlayerHeader& header, Bytes payload);
-  void close(std::uint32_t interface);
+  void close(std::uint32_t device);
   void list_devices(const PlayerHeader& header);
   void tell_driver(const PlayerHeader& header, Bytes payload);
   void set_data_mode(const PlayerHeader& header, Bytes payload);
   void give_data(const PlayerHeader& header);
-  [[nodiscard]] bool has(std::uint32_t interface, std::uint32_t index) const;
-  [[nodiscard]] const std::string& driver_of(std::uint32_t interface) const;
-  void publish(std::uint32_t interface, Bytes payload);
+  [[nodiscard]] const std::string& driver_of(std::uint32_t device) const;
+  void publish(std::uint32_t device, Bytes payload);
+  void send_data(std::uint32_t device, Bytes payload);
   void answer(const PlayerHeader& header, std::uint32_t type, Bytes payload);
   void send(const PlayerHeader& header, Bytes payload);
 
@@ -118,9 +120,9 @@ class PlayerFirmware final : public Firmware {
   bool connected_ = false;             // the banner was sent
   std::vector<std::uint8_t> heard_;    // of a message whose rest is awaited
   std::vector<std::uint8_t> out_;
-  std::set<std::uint32_t> open_;  // interfaces
+  std::set<std::uint32_t> open_;  // devices
   bool pulls_ = false;
-  std::map<std::uint32_t, std::vector<std::uint8_t>> queue_;  // in pull mode, by interface
+  std::map<std::uint32_t, std::vector<std::uint8_t>> queue_;  // in pull mode, by device
   TimePoint next_cycle_{};
   std::uint32_t scans_ = 0;  // of the robot, when the client got one or opened the laser
   int connections_ = 0;
