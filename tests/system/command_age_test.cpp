@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A commander that has gone: its last command expires in the driver, whose line goes on. The emulated device's own watchdog need not help.
+#include <catch2/catch.hpp>
+
+#include <charconv>
+#include <string>
+#include <thread>
+
+#include "deployer.hpp"
+#include "device_on_desk.hpp"
+#include "orca/emulators/create2_firmware.hpp"
+#include "orca/emulators/nomad_scout_firmware.hpp"
+#include "orca/emulators/p2os_firmware.hpp"
+#include "orca/emulators/player_firmware.hpp"
+#include "orca/emulators/xr4000_firmware.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca;
+using namespace orca::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+template <class Of>
+struct Base {
+  using Firmware = Of;
+};
+struct Pioneer : Base<emulators::P2osFirmware> {
+  static constexpr const char* driver = "orca.hw.P2os";
+};
+struct Scout : Base<emulators::NomadScoutFirmware> {
+  static constexpr const char* driver = "orca.hw.NomadScout";
+};
+struct Create : Base<emulators::Create2Firmware> {
+  static constexpr const char* driver = "orca.hw.Create2";
+};
+struct Nomad : Base<emulators::Xr4000Firmware> {
+  static constexpr const char* driver = "orca.hw.Xr4000";
+};
+struct PlayerRobot : Base<emulators::PlayerFirmware> {
+  static constexpr const char* driver = "orca.hw.Player";
+};
+
+// A base that nobody commands.
+std::string lonely_base(const std::string& driver, const std::string& device) {
+  return R"(<graph name="lonely" version="1"><hardware name="robot" type=")" + driver +
+         R"("><param name="device" value=")" + device +
+         R"("/></hardware><component name="base" type="orca.RobotBaseServer" hardware="robot" autonomous="true"/></graph>)";
+}
+
+long counted(const std::string& what) {
+  const Run run = run_orcactl({"query", "base.DeviceStatisticsQuery", "<Ask/>"});
+  const std::size_t at = run.out.find(" " + what + "=\"");
+  long number = -1;
+  if (at != std::string::npos)
+    std::from_chars(run.out.data() + at + what.size() + 3, run.out.data() + run.out.size(), number);
+  return number;
+}
+
+template <class Firmware>
+int watchdog_stops(Firmware& firmware) {
+  if constexpr (requires { firmware.watchdog_stops(); })
+    return firmware.watchdog_stops();
+  else
+    return 0;  // it has no watchdog, or does not count
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE("a base whose commander says nothing more is told to stand, while its line goes on",
+                   "[system][hardware]", Pioneer, Scout, Create, Nomad, PlayerRobot) {
+  using Firmware = typename TestType::Firmware;
+  const TempFolder folder;
+  const std::string device = folder.file("line");
+  DeviceOnDesk<Firmware, PlainBody> desk(DeskLine{device});
+  Subprocess program(deployer({folder.write("graph.xml", lonely_base(TestType::driver, device))}));
+  const auto way = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.odometry().x; }); };
+  const auto stands = [&] {
+    return desk.with([](Firmware&, PlainBody& body) { return body.velocity() == Twist2{}; });
+  };
+  INFO(program.err());
+  REQUIRE(eventually([&] { return counted("frames") > 0; }));
+  REQUIRE(stands());
+
+  REQUIRE(
+      run_orcactl({"send", "base.MotionCommandSend", R"(<MotionCommand speed="0.3 m/s"/>)"}).exit_code() ==
+      0);
+  REQUIRE(eventually([&] { return way() > 0.01; }));
+  REQUIRE(eventually(stands));
+  CHECK(desk.with([](Firmware& firmware, PlainBody&) { return watchdog_stops(firmware); }) == 0);
+  const double there = way();
+  const long frames = counted("frames");
+  std::this_thread::sleep_for(1s);
+  CHECK(counted("frames") > frames);
+  CHECK(counted("connections") == 1);
+  CHECK(way() == there);
+}
