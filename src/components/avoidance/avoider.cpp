@@ -103,15 +103,12 @@ Status Avoider::start() {
   moved_at_.reset();
   last_direction_ = 0.0;
   body_.reset();
-  sensor_is_elsewhere_ = false;
-  return ask_robot(std::string(sensed().name));
+  return ask_robot();
 }
 
-Status Avoider::ask_robot(const std::string& about) {
+Status Avoider::ask_robot() {
   if (!robot_.connected()) return ok();
-  auto ask = robot_.loan();
-  ask->about() = about;
-  const Result<QueryId> sent = robot_.query_request(std::move(ask));
+  const Result<QueryId> sent = robot_.query_request(robot_.loan());
   if (!sent) return fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
   question_ = *sent;
   return ok();
@@ -121,15 +118,14 @@ Status Avoider::learn_robot() {
   const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
   if (!answer) return ok();
   question_.reset();
-  // A sensor on a line of its own is none of the base's.
-  if (!*answer && answer->error().code == Code::not_found && !std::exchange(sensor_is_elsewhere_, true))
-    return ask_robot("limits");
   if (!*answer)
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;
   body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
+  // A sensor on a line of its own is none of the base's.
   const auto note = [this](const idl::Sensor& sensor) {
-    body_->sensor_interval = std::max(body_->sensor_interval, sensor.update_interval());
+    if (sensor.type() == sensed().name)
+      body_->sensor_interval = std::max(body_->sensor_interval, sensor.update_interval());
   };
   std::ranges::for_each(robot.sonar_rings(), note);
   std::ranges::for_each(robot.laser_sensors(), note);

@@ -46,6 +46,7 @@ TEST_CASE("an edge keeps the latest object and may drop any number; with more ro
   CHECK(QueuePolicy{.overflow = QueuePolicy::Overflow::drop_newest}.accepted_drops() == 0U);
   CHECK(QueuePolicy{.depth = 2, .drop_limit = 3}.accepted_drops() == 3U);
   CHECK(QueuePolicy{.drop_limit = 3}.accepted_drops() == 3U);
+  CHECK(QueuePolicy{.depth = 2, .drop_limit = QueuePolicy::kAnyDrops}.accepted_drops() == std::nullopt);
 }
 
 TEST_CASE("each policy and each type of parameter is called what the graph and the docs call it",

@@ -147,6 +147,7 @@ TEST_CASE("a queue may drop nothing and \"the latest\" any number, unless the gr
   CHECK(drop_limit("queue='2'") == 0);
   CHECK(drop_limit("queue='2' overflow='block'") == 0);
   CHECK(drop_limit("queue='2' drop_limit='30'") == 30);
+  CHECK(drop_limit("queue='2' drop_limit=' any '") == QueuePolicy::kAnyDrops);
   CHECK(drop_limit("queue='latest' drop_limit='0'") == 0);
 }
 

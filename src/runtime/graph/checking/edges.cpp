@@ -189,7 +189,12 @@ class PolicyReader {
       if (edge_.pattern == Pattern::push) edge_.queue.drop_limit = edge_.queue.accepted_drops();
       return true;
     }
-    const auto limit = read_value(*text, rule_of("drop_limit"), "drop_limit", report_);
+    if (text->known && xml::trimmed(text->value) == "any") {
+      edge_.queue.drop_limit = QueuePolicy::kAnyDrops;
+      return true;
+    }
+    const auto limit =
+        read_value(*text, rule_of("drop_limit"), "drop_limit (\"any\" or a number of objects)", report_);
     if (limit) edge_.queue.drop_limit = static_cast<std::uint32_t>(std::get<std::int64_t>(*limit));
     return limit.has_value();
   }

@@ -200,7 +200,7 @@ constexpr std::array kConnect{
                   "Time without an object after which the edge counts a missed deadline and logs it.",
                   seconds(0.0)},
     AttributeRule{"drop_limit", false,
-                  "Number of objects that may be dropped before it is logged; default: any number with "
+                  "Number of objects that may be dropped before it is logged, or any; default: any with "
                   "queue=\"latest\", otherwise 0.",
                   integer(0, 1'000'000'000)},
     AttributeRule{"interval", false, "Time in which at most one object is delivered, for example 1 s.",

@@ -146,7 +146,8 @@ Attributes attributes_of(const Edge& edge) {
   if (edge.pattern == Pattern::push) {
     add(result, "interval", seconds_text(edge.interval));
     add(result, "deadline", seconds_text(edge.queue.deadline));
-    if (edge.queue.drop_limit) add(result, "drop_limit", std::to_string(*edge.queue.drop_limit));
+    if (const auto limit = edge.queue.drop_limit)
+      add(result, "drop_limit", limit == QueuePolicy::kAnyDrops ? "any" : std::to_string(*limit));
   }
   if (edge.queue.confirm == QueuePolicy::Confirm::handled)
     add(result, "confirm", to_string(edge.queue.confirm));

@@ -95,7 +95,7 @@ class RandomGraph {
            connect("base.SonarRangeReadingsPush", name + ".sonar",
                    (by_stamps ? queue(2) : maybe(queue(1))) + maybe(" interval='" + real(0, 10) + "'") +
                        maybe(" deadline='" + real(10, 20) + "'") +
-                       maybe(" drop_limit='" + integer(0, 1000) + "'")) +
+                       maybe(" drop_limit='" + choice({"any", "0", "30"}) + "'")) +
            (late_bound_ ? ""
                         : connect(name + ".motion", "fuser.motion",
                                   pick(2) == 0 ? " queue='latest'"

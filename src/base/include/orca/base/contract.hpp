@@ -58,7 +58,8 @@ struct QueuePolicy {
   Duration min_interval{0};  ///< Push: deliver at most one object per interval [s]; 0: every one.
   Duration deadline{0};      ///< Push: an object is due at least this often [s]; 0: no deadline.
   Duration block_limit{std::chrono::milliseconds(100)};  ///< Longest wait of a sender for room [s].
-  /// Push: objects that may be dropped before the edge reports it; nothing: as many as accepted_drops() says.
+  static constexpr std::uint32_t kAnyDrops = 0xFFFFFFFF;
+  /// Push: objects that may be dropped before the edge reports it, or kAnyDrops; nothing: as many as accepted_drops() says.
   std::optional<std::uint32_t> drop_limit{};
   Confirm confirm = Confirm::accepted;
 
@@ -66,6 +67,7 @@ struct QueuePolicy {
   /// and the graph give no limit, "the latest" may drop any number, because that is its purpose, and other
   /// queues none.
   [[nodiscard]] constexpr std::optional<std::uint32_t> accepted_drops() const {
+    if (drop_limit == kAnyDrops) return std::nullopt;
     const bool is_latest = depth == 1 && overflow == Overflow::drop_oldest;
     return drop_limit || is_latest ? drop_limit : std::optional<std::uint32_t>(0);
   }

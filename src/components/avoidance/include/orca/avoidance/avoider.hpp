@@ -98,7 +98,7 @@ class Avoider : public Component {
   [[nodiscard]] std::uint32_t state_version() const override { return kStateVersion; }
   [[nodiscard]] std::vector<StateTag> accepted_states() const override;
 
-  Status ask_robot(const std::string& about);
+  Status ask_robot();
   Status learn_robot();
   void follow(const idl::Odometry& odometry);
   void advise();
@@ -137,8 +137,7 @@ class Avoider : public Component {
   Param<double> deaf_after_;
   Param<double> goal_max_age_;
 
-  std::optional<QueryId> question_;   // To the base, as long as it has not answered.
-  bool sensor_is_elsewhere_ = false;  // than on the base, which does not know it
+  std::optional<QueryId> question_;  // To the base, as long as it has not answered.
   std::optional<Body> body_;
   EchoMemory memory_;
   Pose2 pose_;    // In the frame of the odometry.
