@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A commander that has gone: its last command expires in the driver, whose line goes on. The emulated device's own watchdog need not help.
+// Bases without a graph around them: commands come one by one from outside, and nobody repeats them.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string>
 #include <thread>
 
@@ -42,10 +44,11 @@ struct PlayerRobot : Base<emulators::PlayerFirmware> {
 };
 
 // A base that nobody commands.
-std::string lonely_base(const std::string& driver, const std::string& device) {
+std::string lonely_base(const std::string& driver, const std::string& device,
+                        const std::string& params = "") {
   return R"(<graph name="lonely" version="1"><hardware name="robot" type=")" + driver +
-         R"("><param name="device" value=")" + device +
-         R"("/></hardware><component name="base" type="orca.RobotBaseServer" hardware="robot" autonomous="true"/></graph>)";
+         R"("><param name="device" value=")" + device + R"("/>)" + params +
+         R"(</hardware><component name="base" type="orca.RobotBaseServer" hardware="robot" autonomous="true"/></graph>)";
 }
 
 long counted(const std::string& what) {
@@ -94,4 +97,52 @@ TEMPLATE_TEST_CASE("a base whose commander says nothing more is told to stand, w
   CHECK(counted("frames") > frames);
   CHECK(counted("connections") == 1);
   CHECK(way() == there);
+}
+
+// Its controller counts less than it drives, and more than it turns.
+TEMPLATE_TEST_CASE(
+    "a calibrated base is told so much less or more, and its odometry tells what it has really done",
+    "[system][hardware]", Pioneer, Scout, Create, Nomad) {
+  using Firmware = typename TestType::Firmware;
+  const TempFolder folder;
+  const std::string device = folder.file("line");
+  DeviceOnDesk<Firmware, PlainBody> desk(DeskLine{device});
+  Subprocess program(deployer({folder.write(
+      "graph.xml",
+      lonely_base(TestType::driver, device,
+                  R"(<param name="distance_scale" value="1.25"/><param name="turn_scale" value="0.8"/>)"))}));
+  INFO(program.err());
+  REQUIRE(eventually([&] { return counted("frames") > 5; }));  // odometry counts from the first
+
+  const auto counts = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.odometry(); }); };
+  Twist2 fastest;
+  const auto look = [&] {
+    const Twist2 velocity = desk.with([](Firmware&, PlainBody& body) { return body.velocity(); });
+    fastest.forward = std::max(fastest.forward, velocity.forward);
+    fastest.turn_rate = std::max(fastest.turn_rate, velocity.turn_rate);
+    return velocity;
+  };
+  // Some controllers take their time to get fast.
+  const auto go_on_with = [&](const std::string& command, double Twist2::*speed, double wanted) {
+    REQUIRE(eventually([&] {
+      REQUIRE(run_orcactl({"send", "base.MotionCommandSend", command}).exit_code() == 0);
+      return look().*speed > 0.97 * wanted;
+    }));
+    REQUIRE(eventually([&] { return look() == Twist2{}; }));
+    CHECK(fastest.*speed == Approx(wanted).margin(0.02));
+  };
+  go_on_with(R"(<MotionCommand speed="0.25 m/s"/>)", &Twist2::forward, 0.2);
+  go_on_with(R"(<MotionCommand steering="BY_TURN_RATE" turn_rate="0.4 rad/s"/>)", &Twist2::turn_rate, 0.5);
+
+  // A base that nobody uses passes no readings on.
+  const auto told = [](const std::string& field) {
+    (void)run_orcactl({"send", "base.MotionCommandSend", "<MotionCommand/>"});
+    const Run run = run_orcactl({"query", "base.OdometryQuery", "<AskReading/>"});
+    const std::size_t at = run.out.find(" " + field + "=\"");
+    return at != std::string::npos ? std::stod(run.out.substr(at + field.size() + 3)) : std::nan("");
+  };
+  CHECK(counts().x > 0.01);
+  CHECK(eventually([&] { return std::abs(told("x") - 1.25 * counts().x) < 0.005; }));
+  CHECK(counts().yaw > 0.01);
+  CHECK(eventually([&] { return std::abs(told("steer_angle") - 0.8 * counts().yaw) < 0.005; }));
 }

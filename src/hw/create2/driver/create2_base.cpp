@@ -41,6 +41,7 @@ class Create2Base final : public orca::hw::LineDriver {
     std::vector<orca::HardwareFault> faults = prepare_line();
     for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
+    senses_.calibrate(base_.calibration());
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,
@@ -154,7 +155,7 @@ class Create2Base final : public orca::hw::LineDriver {
     say_again_ = host().now() + kSayAgain;
     if (!setpoint.stands() && senses_.mode() != Mode::safe)
       if (Status safe = session_->send(encode(Order::safe)); !safe.ok()) return safe;
-    return session_->send(drive_wheels(wheel_speeds(setpoint.velocity)));
+    return session_->send(drive_wheels(wheel_speeds(base_.calibration().to_controller(setpoint.velocity))));
   }
 
   orca::Param<std::string> name_{*this, "name", "Create", {.text = "Name of this robot, one word."}};

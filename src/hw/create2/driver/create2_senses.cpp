@@ -57,14 +57,7 @@ void Create2Senses::publish_odometry() {
   const double time = to_seconds(stamp_ - std::exchange(since_, stamp_).value_or(stamp_));
   const Travel2 travel = std::exchange(travel_, Travel2{});
   const Twist2 velocity = time > 0.0 ? travel / time : Twist2{};
-  auto object = odometry_.loan();
-  object->x(pose_.x);
-  object->y(pose_.y);
-  object->steer_angle(pose_.yaw);
-  object->translational_velocity(velocity.forward);
-  object->steering_velocity(velocity.turn_rate);
-  object->stamp(to_time_value(stamp_));
-  odometry_.publish(std::move(object));
+  odometry_.publish(pose_, velocity, stamp_);
 }
 
 void Create2Senses::publish_bumpers() {

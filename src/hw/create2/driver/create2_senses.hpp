@@ -8,6 +8,7 @@
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/hw/base_odometry.hpp"
 #include "orca/hw/create2/odometry.hpp"
 #include "orca/hw/create2/sensors.hpp"
 #include "orca/hw/endpoints.hpp"
@@ -27,8 +28,12 @@ inline constexpr Duration kPeriod = 45ms;  ///< Between two readings: so many fr
 class Create2Senses {
  public:
   Create2Senses() : odometry_(kPeriod), bumpers_(kPeriod), battery_(kPeriod) {}
+  /// @pre  nothing has been published.
+  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
 
-  [[nodiscard]] std::vector<SensorEndpoint*> endpoints() { return {&odometry_, &battery_, &bumpers_}; }
+  [[nodiscard]] std::vector<SensorEndpoint*> endpoints() {
+    return {&odometry_.endpoint(), &battery_, &bumpers_};
+  }
 
   /// Begins anew with a robot. The pose goes on from where it was.
   void connect();
@@ -50,7 +55,7 @@ class Create2Senses {
   void publish_bumpers();
   void publish_battery();
 
-  SensorHW<idl::Odometry> odometry_;
+  BaseOdometry odometry_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;
 

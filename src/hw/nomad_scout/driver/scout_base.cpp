@@ -50,6 +50,7 @@ class ScoutBase final : public orca::hw::LineDriver {
     for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
     senses_.emplace(track(), kSonars * as_duration(*sonar_interval_));
+    senses_->calibrate(base_.calibration());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,
@@ -196,7 +197,8 @@ class ScoutBase final : public orca::hw::LineDriver {
     said_ = setpoint;
     say_again_ = host().now() + kSayAgain;
     if (setpoint.at_once) return ask(orca::hw::nomad_scout::stop());
-    return ask(orca::hw::nomad_scout::drive(wheels_of(setpoint.velocity, track())));
+    return ask(orca::hw::nomad_scout::drive(
+        wheels_of(base_.calibration().to_controller(setpoint.velocity), track())));
   }
 
   [[nodiscard]] double acceleration() const { return base_.within(*max_acceleration_); }

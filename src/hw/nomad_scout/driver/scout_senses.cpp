@@ -32,7 +32,9 @@ std::string bumper_name(std::size_t number) { return "bumper " + std::to_string(
 ScoutSenses::ScoutSenses(double track, Duration cycle)
     : track_(track), cycle_(cycle), odometry_(kPeriod), sonar_(cycle), bumpers_(kPeriod), battery_(kPeriod) {}
 
-std::vector<SensorEndpoint*> ScoutSenses::endpoints() { return {&odometry_, &battery_, &sonar_, &bumpers_}; }
+std::vector<SensorEndpoint*> ScoutSenses::endpoints() {
+  return {&odometry_.endpoint(), &battery_, &sonar_, &bumpers_};
+}
 
 idl::SonarRing ScoutSenses::describe_sonars() const {
   idl::SonarRing ring;
@@ -93,17 +95,7 @@ void ScoutSenses::publish() {
   publish_bumpers();
 }
 
-void ScoutSenses::publish_odometry() {
-  const Twist2 velocity = twist_of(state_.speeds, track_);
-  auto object = odometry_.loan();
-  object->x(pose_.x);
-  object->y(pose_.y);
-  object->steer_angle(pose_.yaw);
-  object->translational_velocity(velocity.forward);
-  object->steering_velocity(velocity.turn_rate);
-  object->stamp(to_time_value(stamp_));
-  odometry_.publish(std::move(object));
-}
+void ScoutSenses::publish_odometry() { odometry_.publish(pose_, twist_of(state_.speeds, track_), stamp_); }
 
 // Once in a cycle: an old range that is published again would count as another echo.
 void ScoutSenses::publish_sonars() {

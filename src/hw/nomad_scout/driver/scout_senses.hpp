@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/hw/base_odometry.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/nomad_scout/odometry.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
@@ -31,6 +32,8 @@ class ScoutSenses {
   /// @param track  [m] between the wheels.
   /// @param cycle  [s] in which all sonars fire once.
   ScoutSenses(double track, Duration cycle);
+  /// @pre  nothing has been published.
+  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   [[nodiscard]] idl::SonarRing describe_sonars() const;
@@ -67,7 +70,7 @@ class ScoutSenses {
 
   const double track_;
   const Duration cycle_;
-  SensorHW<idl::Odometry> odometry_;
+  BaseOdometry odometry_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

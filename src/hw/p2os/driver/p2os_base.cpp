@@ -128,6 +128,7 @@ class P2osBase final : public orca::hw::LineDriver {
 
   void declare_endpoints() {
     senses_.emplace(*model_, has_gripper());
+    senses_->calibrate(base_.calibration());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
@@ -225,7 +226,8 @@ class P2osBase final : public orca::hw::LineDriver {
 
   Status say(const DriveSetpoint& setpoint) {
     if (setpoint.stands() && setpoint.at_once) return send({encode(Command::estop), encode(Command::stop)});
-    return send({encode_speed(setpoint.velocity.forward), encode_turn_rate(setpoint.velocity.turn_rate)});
+    const orca::Twist2 velocity = base_.calibration().to_controller(setpoint.velocity);
+    return send({encode_speed(velocity.forward), encode_turn_rate(velocity.turn_rate)});
   }
 
   Status send(std::initializer_list<Packet> commands) {

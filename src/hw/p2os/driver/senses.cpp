@@ -48,7 +48,7 @@ Senses::Senses(const Model& model, bool has_gripper)
       stamps_(model.sonar_poses.size()) {}
 
 std::vector<SensorEndpoint*> Senses::endpoints() {
-  std::vector<SensorEndpoint*> all{&odometry_, &battery_};
+  std::vector<SensorEndpoint*> all{&odometry_.endpoint(), &battery_};
   if (!model_.sonar_poses.empty()) all.push_back(&sonar_);
   if (model_.bumpers > 0) all.push_back(&bumpers_);
   if (has_gripper_) all.push_back(&gripper_);
@@ -99,14 +99,9 @@ void Senses::publish() {
 }
 
 void Senses::publish_odometry() {
-  auto object = odometry_.loan();
-  object->x(pose_.x);
-  object->y(pose_.y);
-  object->steer_angle(pose_.yaw);
-  object->translational_velocity(0.5 * (sip_.left_speed + sip_.right_speed));
-  object->steering_velocity(0.5 * (sip_.right_speed - sip_.left_speed) / units_->half_track);
-  object->stamp(to_time_value(stamp_));
-  odometry_.publish(std::move(object));
+  const Twist2 velocity{0.5 * (sip_.left_speed + sip_.right_speed), 0.0,
+                        0.5 * (sip_.right_speed - sip_.left_speed) / units_->half_track};
+  odometry_.publish(pose_, velocity, stamp_);
 }
 
 void Senses::publish_sonars() {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
+#include "orca/hw/base_odometry.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "orca/hw/p2os/odometry.hpp"
@@ -23,6 +24,8 @@ class Senses {
  public:
   /// @param model  decides what there is, besides the gripper.
   Senses(const Model& model, bool has_gripper);
+  /// @pre  nothing has been published.
+  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   /// Returns the description of the sonars; nothing if there are none.
@@ -52,7 +55,7 @@ class Senses {
   const Model& model_;
   const Model* units_;
   const bool has_gripper_;
-  SensorHW<idl::Odometry> odometry_;
+  BaseOdometry odometry_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

@@ -52,6 +52,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     if (!faults.empty()) return faults;
     senses_.emplace(as_duration(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
+    senses_->calibrate(base_.calibration());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,
@@ -297,7 +298,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
   // An emergency brakes with all that the axes can, and so harder than the library's stop mode.
   [[nodiscard]] Frame drive_axes(const DriveSetpoint& setpoint) const {
     return orca::hw::xr4000::drive(
-        speeds_of(setpoint.velocity),
+        speeds_of(base_.calibration().to_controller(setpoint.velocity)),
         setpoint.at_once ? kHardest
                          : accelerations_of(base_.within(*max_acceleration_), *max_turn_acceleration_));
   }

@@ -38,7 +38,7 @@ XrSenses::XrSenses(Duration cycle, const BatteryScale& scale)
       battery_(kBatteryPeriod) {}
 
 std::vector<SensorEndpoint*> XrSenses::endpoints() {
-  std::vector<SensorEndpoint*> all{&odometry_, &sonar_, &bumpers_};
+  std::vector<SensorEndpoint*> all{&odometry_.endpoint(), &sonar_, &bumpers_};
   if (has_battery()) all.push_back(&battery_);
   return all;
 }
@@ -113,19 +113,7 @@ void XrSenses::take_touches(const BumperReadings& readings, const Twist2& told) 
   touches_ = readings;
 }
 
-void XrSenses::publish_state() {
-  const Pose2& pose = integrator_.pose();
-  const Twist2 velocity = velocity_of(state_.speeds);
-  auto object = odometry_.loan();
-  object->x(pose.x);
-  object->y(pose.y);
-  object->steer_angle(pose.yaw);
-  object->translational_velocity(velocity.forward);
-  object->sideways_velocity(velocity.left);
-  object->steering_velocity(velocity.turn_rate);
-  object->stamp(to_time_value(stamp_));
-  odometry_.publish(std::move(object));
-}
+void XrSenses::publish_state() { odometry_.publish(integrator_.pose(), velocity_of(state_.speeds), stamp_); }
 
 // Once in a cycle: an old range that is published again would count as another echo.
 void XrSenses::publish_sonars(TimePoint stamp) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/geometry/twist2.hpp"
+#include "orca/hw/base_odometry.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/xr4000/answers.hpp"
 #include "orca/hw/xr4000/odometry.hpp"
@@ -36,6 +37,8 @@ class XrSenses {
 
   /// @param cycle  [s] in which all sonars fire once.
   XrSenses(Duration cycle, const BatteryScale& scale);
+  /// @pre  nothing has been published.
+  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
 
@@ -75,7 +78,7 @@ class XrSenses {
 
   const Duration cycle_;
   const BatteryScale scale_;
-  SensorHW<idl::Odometry> odometry_;
+  BaseOdometry odometry_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

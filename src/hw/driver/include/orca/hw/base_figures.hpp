@@ -7,12 +7,13 @@
 
 #include "orca/base/time.hpp"
 #include "orca/component/param.hpp"
+#include "orca/hw/base_odometry.hpp"
 #include "orca/hw/endpoints.hpp"
 #include "orca/hw/robot_figures.hpp"
 
 namespace orca::hw {
 
-/// The parameters that the drivers of all bases have: the robot's file, and for how long a command holds.
+/// The parameters that the drivers of all bases have: the robot's file, for how long a command holds, and how far the base goes.
 ///
 /// Thread contract: the driver's.
 class BaseFigures {
@@ -28,7 +29,20 @@ class BaseFigures {
                  "and says how large the robot is. Empty: what the driver knows of such robots."}),
         max_command_age_(
             owner, "max_command_age", 0.2,
-            {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}) {}
+            {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}),
+        distance_scale_(
+            owner, "distance_scale", 1.0,
+            {.min = 0.5,
+             .max = 2.0,
+             .text = "Way that the base drives over the way that its odometry tells with 1; measure it over "
+                     "some metres."}),
+        turn_scale_(
+            owner, "turn_scale", 1.0,
+            {.min = 0.5,
+             .max = 2.0,
+             .text =
+                 "Angle that it turns over the angle that its odometry tells with 1; measure it over some "
+                 "turns."}) {}
 
   /// Reads the file, if there is one. To be called in prepare().
   /// @param type  of the base that the driver drives.
@@ -40,6 +54,7 @@ class BaseFigures {
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
   [[nodiscard]] Duration max_command_age() const { return from_seconds(*max_command_age_); }
+  [[nodiscard]] Calibration calibration() const { return {*distance_scale_, *turn_scale_}; }
   /// Returns the file's figures; null: there is no file.
   [[nodiscard]] const RobotFigures* figures() const { return figures_ ? &*figures_ : nullptr; }
   /// Writes into the description how large the robot is, if the file says so.
@@ -48,6 +63,8 @@ class BaseFigures {
  private:
   Param<std::string> file_;
   Param<double> max_command_age_;
+  Param<double> distance_scale_;
+  Param<double> turn_scale_;
   std::optional<RobotFigures> figures_;
 };
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/geometry/twist2.hpp"
+#include "orca/hw/endpoints.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca::hw {
+
+/// What a base does for what its controller counts: factors that somebody has measured. 1: it is as the controller says. A plain value.
+struct Calibration {
+  double distance = 1.0;  ///< Way driven over way counted.
+  double turn = 1.0;      ///< Angle turned over angle counted.
+
+  /// Returns what the controller is to be told for a velocity of the base.
+  [[nodiscard]] Twist2 to_controller(const Twist2& real) const {
+    return {real.forward / distance, real.left / distance, real.turn_rate / turn};
+  }
+  /// Returns the velocity of the base for what the controller tells.
+  [[nodiscard]] Twist2 to_base(const Twist2& counted) const {
+    return {distance * counted.forward, distance * counted.left, turn * counted.turn_rate};
+  }
+  friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
+/// The odometry of a base, as its clients get it from what its controller counts.
+///
+/// Thread contract: not synchronised; the container's strand.
+class BaseOdometry {
+ public:
+  /// @param period  from reading to reading [s].
+  explicit BaseOdometry(Duration period) : endpoint_(period) {}
+
+  [[nodiscard]] SensorEndpoint& endpoint() { return endpoint_; }
+  /// @pre  nothing has been published.
+  void calibrate(const Calibration& calibration) { calibration_ = calibration; }
+
+  /// Passes a reading on.
+  /// @param pose      as the controller counts it, without jumps, from 0 at first. Without calibration it is passed on as it is. What was
+  ///                  driven since the last reading is taken for a small piece of an arc.
+  /// @param velocity  as the controller tells it.
+  void publish(const Pose2& pose, const Twist2& velocity, TimePoint stamp);
+
+ private:
+  [[nodiscard]] Pose2 calibrated(const Pose2& counted);
+
+  SensorHW<idl::Odometry> endpoint_;
+  Calibration calibration_;
+  Pose2 counted_;  // the last one
+  Pose2 pose_;     // calibrated
+};
+
+}  // namespace orca::hw

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/hw/base_odometry.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "orca/geometry/arc.hpp"
+#include "orca/geometry/objects/plane.hpp"
+
+using namespace orca;
+using namespace orca::hw;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Pose2 published(BaseOdometry& odometry) {
+  return plane_pose(*object_cast<idl::Odometry>(odometry.endpoint().latest()));
+}
+
+// Returns where a base ends whose controller counts an arc in small steps.
+Pose2 end_of(const Calibration& calibration, const Travel2& counted) {
+  constexpr int kSteps = 1000;
+  BaseOdometry odometry(std::chrono::milliseconds(100));
+  odometry.calibrate(calibration);
+  Pose2 pose;
+  odometry.publish(pose, {}, TimePoint{});
+  for (int i = 0; i < kSteps; ++i) {
+    pose = along_arc(pose, {counted.forward / kSteps, 0.0, counted.turn / kSteps});
+    odometry.publish(pose, {}, TimePoint{});
+  }
+  return published(odometry);
+}
+
+void check_near(const Pose2& got, const Pose2& wanted) {
+  CHECK(got.x == Approx(wanted.x).margin(1e-9));
+  CHECK(got.y == Approx(wanted.y).margin(1e-9));
+  CHECK(got.yaw == Approx(wanted.yaw).margin(1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("without calibration odometry is passed on as it is counted", "[hw][odometry]") {
+  BaseOdometry odometry(std::chrono::milliseconds(100));
+  const Pose2 counted{0.1, 0.2, 0.3};
+  odometry.publish(counted, {0.4, 0.5, 0.6}, TimePoint(7s));
+  CHECK(published(odometry) == counted);
+  const auto object = object_cast<idl::Odometry>(odometry.endpoint().latest());
+  CHECK(object->translational_velocity() == 0.4);
+  CHECK(object->sideways_velocity() == 0.5);
+  CHECK(object->steering_velocity() == 0.6);
+  CHECK(to_time_point(object->stamp()) == TimePoint(7s));
+}
+
+TEST_CASE("a calibrated base has driven and turned by the factors more than is counted", "[hw][odometry]") {
+  check_near(end_of({.distance = 1.05}, {2.0, 0.0, 0.0}), {2.1, 0.0, 0.0});
+  check_near(end_of({.turn = 1.1}, {0.0, 0.0, 2.0}), {0.0, 0.0, 2.2});
+  // A quarter of a circle of 1 m, counted.
+  check_near(end_of({.distance = 2.0}, {0.5 * kPi, 0.0, 0.5 * kPi}), {2.0, 2.0, 0.5 * kPi});
+  check_near(end_of({.turn = 0.5}, {0.5 * kPi, 0.0, 0.5 * kPi}),
+             {std::sqrt(2.0), 2.0 - std::sqrt(2.0), 0.25 * kPi});
+}
+
+TEST_CASE("what a calibrated base is told, and what it tells of its velocity, agree", "[hw][odometry]") {
+  const Calibration calibration{.distance = 1.25, .turn = 0.8};
+  const Twist2 told = calibration.to_controller({0.5, 0.25, 0.8});
+  CHECK(told.forward == Approx(0.4));
+  CHECK(told.left == Approx(0.2));
+  CHECK(told.turn_rate == Approx(1.0));
+  const Twist2 real = calibration.to_base(told);
+  CHECK(real.forward == Approx(0.5));
+  CHECK(real.left == Approx(0.25));
+  CHECK(real.turn_rate == Approx(0.8));
+}
