@@ -11,11 +11,13 @@
 namespace orca::hw::player {
 namespace {
 
-// What is too far for a single float is no return, which is what infinite means.
+// A server may say anything: what no float can hold becomes the largest that it is cut to. Not a number stays so.
+float in_single(double value) { return static_cast<float>(std::clamp(value, -1e30, 1e30)); }
+
 std::vector<float> in_single(const std::vector<double>& ranges) {
   std::vector<float> all;
   all.reserve(ranges.size());
-  for (const double range : ranges) all.push_back(static_cast<float>(std::min(range, 1e30)));
+  for (const double range : ranges) all.push_back(in_single(range));
   return all;
 }
 
@@ -52,10 +54,10 @@ LaserScan as_laser(const RangerValues& values, const std::optional<RangerConfig>
   const RangerConfig& angles = config && has_angles(*config) ? *config : otherwise;
   const bool has_limit = config && std::isfinite(config->max_range) && config->max_range > 0.0;
   const double steps = static_cast<double>(std::max<std::size_t>(values.values.size(), 2) - 1);
-  return {.min_angle = static_cast<float>(angles.min_angle),
-          .max_angle = static_cast<float>(angles.max_angle),
-          .resolution = static_cast<float>((angles.max_angle - angles.min_angle) / steps),
-          .max_range = static_cast<float>(has_limit ? config->max_range : otherwise.max_range),
+  return {.min_angle = in_single(angles.min_angle),
+          .max_angle = in_single(angles.max_angle),
+          .resolution = in_single((angles.max_angle - angles.min_angle) / steps),
+          .max_range = in_single(has_limit ? config->max_range : otherwise.max_range),
           .ranges = in_single(values.values)};
 }
 
