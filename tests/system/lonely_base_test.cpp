@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
-#include "deployer.hpp"
 #include "device_on_desk.hpp"
+#include "hosted_system.hpp"
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
@@ -97,6 +97,43 @@ TEMPLATE_TEST_CASE("a base whose commander says nothing more is told to stand, w
   CHECK(counted("frames") > frames);
   CHECK(counted("connections") == 1);
   CHECK(way() == there);
+}
+
+// Its odometry begins anew with the process, and with it what goals mean.
+TEMPLATE_TEST_CASE("a base whose process is killed and started again stands until an operator releases it",
+                   "[system][hardware]", Pioneer, Scout, Create, Nomad, PlayerRobot) {
+  using Firmware = typename TestType::Firmware;
+  const TempFolder folder;
+  const std::string device = folder.file("line");
+  DeviceOnDesk<Firmware, PlainBody> desk(DeskLine{device});
+  System system({folder.write("graph.xml", lonely_base(TestType::driver, device))});
+  const auto velocity = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.velocity(); }); };
+  const auto send = [] {
+    return run_orcactl({"send", "base.MotionCommandSend", R"(<MotionCommand speed="0.3 m/s"/>)"});
+  };
+  REQUIRE(eventually([&] { return counted("frames") > 0; }));
+  const pid_t lost = system.process("main");
+  REQUIRE(send().exit_code() == 0);
+  REQUIRE(eventually([&] { return velocity() != Twist2{}; }));
+  REQUIRE(kill(lost, SIGKILL) == 0);
+  (void)system.process("main", lost);
+
+  system.when("alarm ESTOP: the motors of process main are held, because it had ended", 0);
+  INFO(system.program().err());
+  REQUIRE(eventually([&] { return counted("frames") > 0; }));
+  REQUIRE(eventually([&] { return velocity() == Twist2{}; }));
+  for (int i = 0; i < 10; ++i) {
+    (void)send();
+    std::this_thread::sleep_for(50ms);
+    CHECK(velocity() == Twist2{});
+  }
+
+  const auto alarms = [] { return run_orcactl({"alarms"}).out; };
+  CHECK(alarms().find("ESTOP") != std::string::npos);
+  REQUIRE(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(run_orcactl({"alarms", "ack", "all"}).exit_code() == 0);  // refused while they are held
+  CHECK(velocity() == Twist2{});
+  REQUIRE(eventually([&] { return send().exit_code() == 0 && velocity() != Twist2{}; }));
 }
 
 // Its controller counts less than it drives, and more than it turns.

@@ -160,8 +160,16 @@ void System::stop_hardware(Duration limit) {
     std::this_thread::sleep_for(1ms);
 }
 
-void System::hold(const std::string& reason) {
-  for (const auto& hardware : hardware_) hardware->seat().hold(reason);
+bool System::hold(const std::string& reason, Movers what) {
+  bool are_there = false;
+  for (const auto& hardware : hardware_) {
+    const hw::HardwareContainer& device = hardware->driver().container();
+    const bool moves = device.motion() != nullptr || !device.actuators().empty();
+    if (what == Movers::on_lines && (device.line_name().empty() || !moves)) continue;
+    hardware->seat().hold(reason);
+    are_there = true;
+  }
+  return are_there;
 }
 
 bool System::let_go() {

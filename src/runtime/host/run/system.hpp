@@ -19,6 +19,9 @@
 
 namespace orca::host {
 
+/// Hardware that may move something: all of it, or what is on a line to a device.
+enum class Movers { all, on_lines };
+
 /// The instances of one graph in this process and their wiring.
 ///
 /// Thread contract: one thread, the executive's main task once it runs.
@@ -66,7 +69,8 @@ class System {
 
   /// Stops what moves and refuses commands to move, until let_go().
   /// @thread  any, once the system is built.
-  void hold(const std::string& reason);
+  /// @return whether there is any such hardware.
+  bool hold(const std::string& reason, Movers what);
   /// Returns whether anything was held.
   bool let_go();
 

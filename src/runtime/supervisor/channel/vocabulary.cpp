@@ -16,7 +16,7 @@ void fields(auto& /*archive*/, OpenHardware& /*m*/) {}
 void fields(auto& archive, Configure& m) { transfer(archive, m.component); }
 void fields(auto& /*archive*/, OpenGates& /*m*/) {}
 void fields(auto& archive, TakeDown& m) { transfer(archive, m.keeps_states); }
-void fields(auto& archive, StopMotors& m) { transfer(archive, m.reason); }
+void fields(auto& archive, StopMotors& m) { transfer_all(archive, m.reason, m.only_devices); }
 void fields(auto& archive, Suspend& m) { transfer(archive, m.component); }
 void fields(auto& archive, Resume& m) { transfer(archive, m.component); }
 void fields(auto& archive, SetParams& m) { transfer_all(archive, m.component, m.values); }

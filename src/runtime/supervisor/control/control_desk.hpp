@@ -53,6 +53,8 @@ class ControlDesk {
   void note(const ExchangedCode& code) { exchanging_.note(code); }
   /// Notes that a process has ended, or is about to be started.
   void lose(const Member& member) { applying_.lose(member.name()); }
+  /// Notes that a process was lost: what it moves stands when it is up again, until an operator releases it.
+  void distrust(const Member& member) { motors_.lose(member); }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);
 

@@ -10,6 +10,8 @@
 namespace orca::supervisor {
 namespace {
 
+constexpr const char* kLost =
+    "its process had ended while it may have driven; see where it stands, then orcactl estop --release";
 constexpr const char* kReason = "emergency stop; an operator releases it with: orcactl estop --release";
 
 // Refuses to release what nobody holds, when all processes have said so. A base may also be held because its device had failed.
@@ -50,14 +52,14 @@ void MotorHold::stop(const ReplyPtr& reply) {
 
 void MotorHold::release(const ReplyPtr& reply) {
   const bool was_stopped = std::exchange(holds_, false);
+  lost_.clear();
   const auto refusal = std::make_shared<Refusal>(reply, !was_stopped);
   for (Member* const member : members_)
     if (member->is_built())
       member->ask(ReleaseMotors{}, [refusal](const Status& outcome) { refusal->hear(outcome); });
-  if (!was_stopped) return;
   const std::string text = "the emergency stop is released; motors obey commands again";
-  log::warning(kLogName, text);
-  ledger_.settle(host::AlarmKind::estop, "", text);
+  if (was_stopped) log::warning(kLogName, text);
+  ledger_.settle_all(host::AlarmKind::estop, text);
 }
 
 void MotorHold::recall() {
@@ -68,7 +70,15 @@ void MotorHold::recall() {
 }
 
 void MotorHold::take_in(Member& member) const {
-  if (holds_) member.tell(StopMotors{kReason});
+  if (holds_) return member.tell(StopMotors{kReason});
+  if (!lost_.contains(member.name())) return;
+  member.ask(StopMotors{kLost, true}, [this, name = member.name()](const Status& held) {
+    if (!held.ok()) return;
+    const std::string text = "the motors of process " + name +
+                             " are held, because it had ended while they may have run; see where the robot "
+                             "stands, then orcactl estop --release";
+    ledger_.raise(host::AlarmKind::estop, "", text, name);
+  });
 }
 
 }  // namespace orca::supervisor

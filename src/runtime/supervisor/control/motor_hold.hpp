@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "control/reply.hpp"
@@ -25,7 +27,10 @@ class MotorHold {
   /// Lets them obey commands again. Nothing moves before the next command.
   void release(const ReplyPtr& reply);
 
-  /// Holds the motors of a process that has just been built, if all are held.
+  /// Notes that a process has ended without an order. When it comes up again, its devices are held until release(): a robot
+  /// whose odometry and goals have begun anew must not go on by itself.
+  void lose(const Member& member) { lost_.insert(member.name()); }
+  /// Holds the motors of a process that has just been built, if all are held, or if it was lost.
   void take_in(Member& member) const;
 
   /// Goes on with a stop that an operator has ordered an earlier supervisor.
@@ -39,6 +44,7 @@ class MotorHold {
   const std::vector<Member*>& members_;
   Ledger& ledger_;
   bool holds_ = false;
+  std::set<std::string> lost_;  // processes, by name
 };
 
 }  // namespace orca::supervisor

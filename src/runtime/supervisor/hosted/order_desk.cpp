@@ -179,6 +179,9 @@ void OrderDesk::carry_out(Told told) {
 // Carries out an order that takes no time. Returns nothing if it is none of these.
 std::optional<Answer> OrderDesk::answer_of(Order& order) {
   if (const auto* stop = std::get_if<StopMotors>(&order)) {
+    if (stop->only_devices)
+      return Answer{part_.hold_devices(stop->reason) ? ok()
+                                                     : Status(fail(Code::not_found, "it has no devices"))};
     reports_.remember([](Recollection& all) { all.note_held(true); });
     return part_.hold(stop->reason), Answer{};
   }

@@ -159,6 +159,12 @@ void Ledger::settle(host::AlarmKind kind, const std::string& source, const std::
   note(std::move(settled), "", "");
 }
 
+void Ledger::settle_all(host::AlarmKind kind, const std::string& text) {
+  std::set<std::string> sources;
+  for (const host::KeptAlarm& kept : alarms_.kept()) sources.insert(kept.alarm.source());
+  for (const std::string& source : sources) settle(kind, source, text);
+}
+
 Status Ledger::acknowledge(std::uint64_t number) {
   const auto known = std::ranges::find(alarms_.kept(), number, &host::KeptAlarm::number);
   if (known != alarms_.kept().end() && known->alarm.active() &&

@@ -174,6 +174,7 @@ class SupervisedRun {
     trading_.brief(roster_.all());  // nobody knows any more what they use
     std::erase_if(missing, [this](const Member* member) {
       const Error gone = note_gone(*member, ledger_, policy_);
+      control_.distrust(*member);
       const bool stays_away = policy_.has_finished(member->index());
       if (stays_away && runs_an_end(graph_, *member)) conclusion_.fail_with(gone);
       return stays_away;

@@ -239,7 +239,7 @@ TEST_CASE("a base that an operator has stopped stays stopped under the new drive
   LiveSystem live(ridden());
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     ride(run);
-    run.system().hold("emergency stop");
+    CHECK(run.system().hold("emergency stop", Movers::all));
     REQUIRE(swap(run, next_cart("test_cart_2")));
     run.sleep(200ms);
     CHECK(beginning(run.news(), "cart 2 moves").empty());

@@ -345,7 +345,13 @@ void HostedPart::order(PartOrder order) { inside_->order(std::move(order)); }
 
 void HostedPart::stop_motors() { inside_->watched().stop_motors(); }
 
-void HostedPart::hold(const std::string& reason) { inside_->watched().system().hold(reason); }
+void HostedPart::hold(const std::string& reason) {
+  (void)inside_->watched().system().hold(reason, Movers::all);
+}
+
+bool HostedPart::hold_devices(const std::string& reason) {
+  return inside_->watched().system().hold(reason, Movers::on_lines);
+}
 
 bool HostedPart::let_go() { return inside_->watched().system().let_go(); }
 

@@ -30,7 +30,7 @@ enum class AlarmKind {
   process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
   gave_up,        ///< Processes were restarted too often; the run ends.
   machine_lost,   ///< Another machine of the system is silent, or could not start again.
-  estop,          ///< An operator has stopped all motors.
+  estop,          ///< Motors are held: an operator has stopped all, or the process of some was lost.
   swap_undone  ///< A new version of a component failed soon after it had taken over, and the old one is back.
 };
 

@@ -160,6 +160,9 @@ class HostedPart {
   /// Stops what moves and refuses commands to move, until let_go(). Everything else goes on.
   /// @param reason  for people: "emergency stop".
   void hold(const std::string& reason);
+  /// The same for the hardware alone that is on a line to a device.
+  /// @return whether there is any.
+  bool hold_devices(const std::string& reason);
   /// Returns whether anything was held.
   bool let_go();
 

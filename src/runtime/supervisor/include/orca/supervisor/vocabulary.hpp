@@ -79,6 +79,7 @@ struct TakeDown {
 struct StopMotors {
   static constexpr Kind kKind = Kind::stop_motors;
   std::string reason;
+  bool only_devices = false;  ///< Only hardware on a line; an error says that there is none.
 };
 /// Asks to let the motors obey commands again.
 struct ReleaseMotors {
