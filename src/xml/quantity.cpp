@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "orca/xml/attributes.hpp"
 #include "orca/xml/number.hpp"
 #include "units.hpp"
 
@@ -41,6 +42,28 @@ Result<double> parse_quantity(std::string_view text, std::string_view si) {
   const Result<double> value = to_si(number->value, number->rest, si);
   if (!value) return fail(Code::invalid_argument, "\"" + std::string(text) + "\": " + value.error().message);
   return value;
+}
+
+std::vector<std::string> split_quantities(std::string_view text) {
+  std::vector<std::string_view> pieces = words(text);
+  std::string unit;
+  if (!pieces.empty() && !parse_number(pieces.back())) {
+    unit = " " + std::string(pieces.back());
+    pieces.pop_back();
+  }
+  std::vector<std::string> quantities;
+  for (const std::string_view piece : pieces) quantities.push_back(std::string(piece) + unit);
+  return quantities;
+}
+
+Result<std::vector<double>> parse_quantities(std::string_view text, std::string_view si) {
+  std::vector<double> values;
+  for (const std::string& piece : split_quantities(text)) {
+    const Result<double> value = parse_quantity(piece, si);
+    if (!value) return value.error();
+    values.push_back(*value);
+  }
+  return values;
 }
 
 Result<Measured> parse_measured(std::string_view text) {

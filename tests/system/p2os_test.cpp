@@ -89,6 +89,22 @@ TEST_CASE("what goes over the line is kept where the graph says so", "[system][h
   CHECK_THAT(text, Contains("out  fa fb 03 02 00 02\n"));           // CLOSE
 }
 
+// A Pioneer 2-DX may have bumpers or not, and does not say so.
+TEST_CASE("a Pioneer has the bumpers of its file, and stands when it touches something",
+          "[system][hardware]") {
+  const bool by_file = GENERATE(true, false);
+  CAPTURE(by_file);
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  const std::string robot = by_file ? std::string(ORCA_SOURCE_DIR) + "/sim/robots/pioneer_2dx.urdf" : "";
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, {"--set", "pioneer.robot=" + robot}) + far_goal()));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.with([](P2osFirmware&, PlainBody& body) { body.touch(1 << 2); });  // the middle one in front
+  std::this_thread::sleep_for(2s);
+  CHECK(stands(pioneer) == by_file);
+}
+
 TEST_CASE("the rate of the line is found", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("pioneer");

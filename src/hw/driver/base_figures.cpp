@@ -22,8 +22,12 @@ std::vector<HardwareFault> BaseFigures::read(idl::DriveType type) {
 
 DriveLimits BaseFigures::within(DriveLimits limits) const {
   if (!figures_ || !figures_->wheels) return limits;
-  limits.max_speed = std::min(limits.max_speed, figures_->wheels->max_speed);
-  limits.max_turn_rate = std::min(limits.max_turn_rate, figures_->wheels->max_turn_rate);
+  const RobotFigures::Wheels& wheels = *figures_->wheels;
+  limits.max_speed = std::min(limits.max_speed, wheels.max_speed);
+  limits.max_turn_rate = std::min(limits.max_turn_rate, wheels.max_turn_rate);
+  limits.steer_gain = wheels.steer_gain.value_or(limits.steer_gain);
+  limits.big_turn_angle = wheels.big_turn_angle.value_or(limits.big_turn_angle);
+  limits.big_turn_speed = wheels.big_turn_speed.value_or(limits.big_turn_speed);
   return limits;
 }
 
@@ -36,6 +40,18 @@ void BaseFigures::describe(idl::Robot& robot) const {
   if (!figures_) return;
   robot.radius(figures_->radius);
   robot.bumper_radius(figures_->bumper_radius);
+  if (!figures_->size) return;
+  robot.length(figures_->size->x);
+  robot.width(figures_->size->y);
+}
+
+SenseTraits BaseFigures::traits() const {
+  SenseTraits traits{.calibration = calibration()};
+  if (!figures_) return traits;
+  traits.sonars = figures_->sonar_errors;
+  if (figures_->wheels && figures_->wheel_errors.is_known())
+    traits.odometry.emplace(figures_->wheels->type, figures_->wheels->track, figures_->wheel_errors);
+  return traits;
 }
 
 }  // namespace orca::hw

@@ -16,6 +16,10 @@ void BaseOdometry::publish(const Pose2& pose, const Twist2& velocity, TimePoint 
   object->translational_velocity(real.forward);
   object->sideways_velocity(real.left);
   object->steering_velocity(real.turn_rate);
+  if (uncertainty_) {
+    uncertainty_->move_to(here);
+    object->covariance(uncertainty_->covariance());
+  }
   object->stamp(to_time_value(stamp));
   endpoint_.publish(std::move(object));
 }

@@ -40,6 +40,7 @@ void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
         {"mount", "the robot's file has no laser " + in_quotes(*mount_) + "; lasers: " + listed(names)});
   place_ = found->place;
   height_ = found->height;
+  errors_ = found->errors;
 }
 
 }  // namespace orca::hw

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/robot_figures.hpp"
 
-#include <array>
-#include <map>
+#include <algorithm>
 #include <sstream>
 
+#include "link_tree.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
+#include "orca/geometry/angle.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
+#include "robot_plan.hpp"
 
 namespace orca::hw {
 namespace {
 
 using xml::Element;
 
-// Where a link is on the one above it.
-struct Joint {
-  std::string parent;
-  Pose2 place;
-  double height = 0.0;  // [m]
-  bool level = true;
-};
+constexpr double kLevel = 1e-9;  // what a level laser may be off, as 1 - cos of the tilt
+constexpr double kMostBumpers = 64.0;
 
 // Reads a robot file and notes what is wrong with it. It looks only for what drivers need: the simulator checks the whole.
 class FiguresReader {
  public:
-  FiguresReader(const Element& robot, std::vector<HardwareFault>& faults) : robot_(robot), faults_(faults) {}
+  FiguresReader(const Element& robot, std::vector<HardwareFault>& faults)
+      : robot_(robot),
+        faults_(faults),
+        tree_(robot, [this](const Element& at, const std::string& what) { complain(at, what); }) {}
 
   RobotFigures read() {
     RobotFigures figures;
-    const Element* const orca = child(robot_, "orca");
+    const Element* const orca = child_of(robot_, "orca");
     if (orca == nullptr) {
       complain(robot_,
                "there is no element <orca> with the robot's figures; docs/robot-files.md describes it");
@@ -39,23 +40,20 @@ class FiguresReader {
     figures.radius = number(*orca, "radius", "m");
     figures.bumper_radius =
         orca->attribute("bumper_radius") != nullptr ? number(*orca, "bumper_radius", "m") : figures.radius;
-    if (const Element* const drive = child(*orca, "drive")) figures.wheels = wheels(*drive);
-    if (const Element* const gripper = child(*orca, "gripper")) figures.gripper = text(*gripper, "link");
-    read_joints();
-    for (const Element& e : orca->children())
-      if (e.name() == "laser") figures.lasers.push_back(laser(e));
+    if (const Element* const drive = child_of(*orca, "drive")) figures.wheels = wheels(*drive);
+    if (const Element* const gripper = child_of(*orca, "gripper"))
+      figures.gripper = text_of(*gripper, "link");
+    figures.size = plan_size(robot_, tree_);
+    for (const Element& e : orca->children()) read_sensor(e, figures);
     return figures;
   }
 
  private:
-  static const Element* child(const Element& parent, std::string_view name) {
-    for (const Element& e : parent.children())
-      if (e.name() == name) return &e;
-    return nullptr;
-  }
-  static std::string text(const Element& e, std::string_view name) {
-    const xml::Attribute* const a = e.attribute(name);
-    return a != nullptr ? a->value : "";
+  void read_sensor(const Element& e, RobotFigures& figures) {
+    if (e.name() == "laser") figures.lasers.push_back(laser(e));
+    if (e.name() == "odometry") figures.wheel_errors = wheel_errors(e);
+    if (e.name() == "sonar_ring" && !figures.sonar_errors.is_known()) figures.sonar_errors = errors(e);
+    if (e.name() == "bumper_ring" && figures.bumpers.empty()) figures.bumpers = bumpers(e);
   }
 
   void complain(const Element& at, const std::string& what) {
@@ -63,76 +61,84 @@ class FiguresReader {
   }
 
   double number(const Element& e, const char* name, const char* si) {
-    const Result<double> value = xml::parse_quantity(text(e, name), si);
+    const Result<double> value = xml::parse_quantity(text_of(e, name), si);
     if (!value) complain(e, "<" + e.name() + "> needs " + name + " in " + si + ": " + value.error().message);
     return value ? *value : 0.0;
   }
 
+  std::optional<double> optional(const Element& e, const char* name, const char* si) {
+    if (e.attribute(name) == nullptr) return std::nullopt;
+    return number(e, name, si);
+  }
+
   RobotFigures::Wheels wheels(const Element& drive) {
     RobotFigures::Wheels wheels;
-    const std::string type = text(drive, "type");
+    const std::string type = text_of(drive, "type");
     if (type == "synchro") wheels.type = idl::SYNCHRO;
     if (type == "holonomic") wheels.type = idl::HOLONOMIC;
     wheels.max_speed = number(drive, "max_speed", "m/s");
     wheels.max_turn_rate = number(drive, "max_steer_speed", "rad/s");
     wheels.max_acceleration = number(drive, "max_acceleration", "m/s2");
     wheels.track = number(drive, "track", "m");
+    wheels.steer_gain = optional(drive, "steer_gain", "");
+    wheels.big_turn_angle = optional(drive, "big_turn_angle", "rad");
+    wheels.big_turn_speed = optional(drive, "big_turn_speed", "m/s");
     return wheels;
   }
 
-  // Three numbers, or nothing where the attribute is missing.
-  std::array<double, 3> three(const Element& e, const char* name) {
-    std::array<double, 3> values{};
-    std::istringstream words(text(e, name));
-    std::string word;
-    std::size_t count = 0;
-    for (; words >> word; ++count) {
-      const Result<double> value = xml::parse_number(word);
-      if (!value || count == values.size()) break;
-      values[count] = *value;
-    }
-    if (count != 0 && count != values.size())
-      complain(e, std::string(name) + " needs three numbers, as in \"0.1 0 0.3\"");
-    return values;
-  }
-
-  void read_joints() {
-    for (const Element& e : robot_.children()) {
-      const Element* const parent = child(e, "parent");
-      const Element* const below = child(e, "child");
-      if (e.name() != "joint" || parent == nullptr || below == nullptr) continue;
-      Joint joint{text(*parent, "link"), {}};
-      if (const Element* const origin = child(e, "origin")) {
-        const std::array<double, 3> xyz = three(*origin, "xyz");
-        const std::array<double, 3> rpy = three(*origin, "rpy");
-        joint.place = {xyz[0], xyz[1], rpy[2]};
-        joint.height = xyz[2];
-        joint.level = rpy[0] == 0.0 && rpy[1] == 0.0;
-      }
-      joints_[text(*below, "link")] = joint;
-    }
-  }
-
   RobotFigures::Laser laser(const Element& e) {
-    RobotFigures::Laser laser{text(e, "name"), {}};
-    std::string link = text(e, "link");
-    bool level = true;
-    for (std::size_t steps = 0; joints_.contains(link) && steps <= joints_.size(); ++steps) {
-      const Joint& joint = joints_.at(link);
-      laser.place = joint.place * laser.place;
-      laser.height += joint.height;
-      level = level && joint.level;
-      link = joint.parent;
-    }
-    if (!level)
+    RobotFigures::Laser laser{text_of(e, "name"), {}};
+    const Eigen::Isometry3d place = tree_.place_of(text_of(e, "link"));
+    laser.place = {place.translation().x(), place.translation().y(),
+                   portable::atan2(place(1, 0), place(0, 0))};
+    laser.height = place.translation().z();
+    laser.errors = errors(e);
+    if (place(2, 2) < 1.0 - kLevel)
       complain(e, "the laser " + in_quotes(laser.name) +
                       " is tilted; drivers know lasers that look horizontally only");
     return laser;
   }
 
+  // What the general <range_errors> of a sensor says, not those for a level of realism.
+  RangeErrorGuess errors(const Element& sensor) {
+    for (const Element& e : sensor.children())
+      if (e.name() == "range_errors" && e.attribute("realism") == nullptr)
+        return {number(e, "fixed", "m"), number(e, "share", "")};
+    return {};
+  }
+
+  WheelErrorGuess wheel_errors(const Element& odometry) {
+    for (const Element& e : odometry.children())
+      if (e.name() == "wheel_errors" && e.attribute("realism") == nullptr)
+        return {number(e, "wheel_diameter", ""), number(e, "track", ""), number(e, "slip", "m"),
+                optional(e, "turn_slip", "m").value_or(0.0)};
+    return {};
+  }
+
+  // The directions of the middles of all bumpers.
+  std::vector<double> bumpers(const Element& e) {
+    const std::string list = text_of(e, "angles");
+    if (!list.empty()) return angles(e, list);
+    const double first = optional(e, "first_angle", "rad").value_or(0.0);
+    const double pitch = number(e, "pitch", "rad");
+    std::vector<double> all;
+    const double count = std::min(xml::parse_number(text_of(e, "count")).value_or(0.0), kMostBumpers);
+    for (int i = 0; i < count; ++i) all.push_back(wrapped(first + i * pitch));
+    return all;
+  }
+
+  std::vector<double> angles(const Element& e, const std::string& list) {
+    Result<std::vector<double>> all = xml::parse_quantities(list, "rad");
+    if (!all)
+      return complain(e, "<" + e.name() + "> needs angles in rad: " + all.error().message),
+             std::vector<double>{};
+    for (double& angle : *all) angle = wrapped(angle);
+    return std::move(*all);
+  }
+
   const Element& robot_;
   std::vector<HardwareFault>& faults_;
-  std::map<std::string, Joint> joints_;  // by the link below
+  const LinkTree tree_;
 };
 
 }  // namespace

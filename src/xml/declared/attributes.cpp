@@ -191,16 +191,10 @@ std::optional<std::vector<double>> Attributes::bare_numbers(std::string_view nam
 std::optional<std::vector<double>> Attributes::numbers(std::string_view name, std::size_t n) const {
   const Attribute* a = readable(name);
   if (a == nullptr) return std::nullopt;
-  std::vector<std::string_view> pieces = words(a->value);
-  std::string unit;
-  if (!pieces.empty() && !parse_number(pieces.back())) {
-    unit = " " + std::string(pieces.back());
-    pieces.pop_back();
-  }
   std::vector<double> values;
-  for (const std::string_view piece : pieces) {
+  for (const std::string& piece : split_quantities(a->value)) {
     ValueFault fault;
-    const auto value = read_number(std::string(piece) + unit, rule_of(name), fault);
+    const auto value = read_number(piece, rule_of(name), fault);
     if (!value) return refuse_value(*a, fault);
     values.push_back(*value);
   }

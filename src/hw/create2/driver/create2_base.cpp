@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,11 +42,12 @@ class Create2Base final : public orca::hw::LineDriver {
     std::vector<orca::HardwareFault> faults = prepare_line();
     for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
-    senses_.calibrate(base_.calibration());
+    senses_.describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,
-                                  .big_turn_angle = 1.0,
+                                  .steer_gain = 2.0,
+                                  .big_turn_angle = std::numbers::pi / 3.0,
                                   .big_turn_speed = 0.1}),
                     base_.max_command_age());
     set_motion(*motion_);

@@ -29,7 +29,7 @@ class Create2Senses {
  public:
   Create2Senses() : odometry_(kPeriod), bumpers_(kPeriod), battery_(kPeriod) {}
   /// @pre  nothing has been published.
-  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
+  void describe(const SenseTraits& traits) { odometry_.describe(traits); }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints() {
     return {&odometry_.endpoint(), &battery_, &bumpers_};

@@ -50,7 +50,7 @@ class ScoutBase final : public orca::hw::LineDriver {
     for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
     if (!faults.empty()) return faults;
     senses_.emplace(track(), kSonars * as_duration(*sonar_interval_));
-    senses_->calibrate(base_.calibration());
+    senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,

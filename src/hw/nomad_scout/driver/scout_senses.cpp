@@ -8,6 +8,7 @@
 
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::hw::nomad_scout {
@@ -111,6 +112,7 @@ void ScoutSenses::publish_sonars() {
   object->max_range(kLongestRange);
   object->half_lobe(kHalfLobe);
   object->pose(level_pose({}, kSonarHeight, stamp_));
+  set_uncertainty(*object, sonar_errors_);
   sonar_.publish(std::move(object));
 }
 

@@ -33,7 +33,10 @@ class ScoutSenses {
   /// @param cycle  [s] in which all sonars fire once.
   ScoutSenses(double track, Duration cycle);
   /// @pre  nothing has been published.
-  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
+  void describe(const SenseTraits& traits) {
+    odometry_.describe(traits);
+    sonar_errors_ = traits.sonars;
+  }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   [[nodiscard]] idl::SonarRing describe_sonars() const;
@@ -71,6 +74,7 @@ class ScoutSenses {
   const double track_;
   const Duration cycle_;
   BaseOdometry odometry_;
+  RangeErrorGuess sonar_errors_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

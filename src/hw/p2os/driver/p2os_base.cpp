@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,8 +26,9 @@ using orca::hw::DriveSetpoint;
 using namespace orca::hw::p2os;
 using namespace std::chrono_literals;
 
-constexpr Duration kSayAgain = 250ms;   // what it is to do, and that we live; its watchdog waits 2 s
-constexpr Duration kPowerTime = 500ms;  // from the command for power until a packet must tell of it
+constexpr Duration kSayAgain = 250ms;       // what it is to do, and that we live; its watchdog waits 2 s
+constexpr Duration kPowerTime = 500ms;      // from the command for power until a packet must tell of it
+constexpr std::ptrdiff_t kMostBumpers = 7;  // on a side: a packet has bits for so many
 const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 
 /// The base of a Pioneer 2, PeopleBot or later robot that speaks P2OS or ARCOS.
@@ -49,6 +51,8 @@ class P2osBase final : public orca::hw::LineDriver {
           {"robot",
            "its gripper is that of a PeopleBot, which is at ports that this driver does not know; only "
            "grippers of Pioneers are known"});
+    if (base_.figures() != nullptr && !fits_packet(base_.figures()->bumpers))
+      faults.push_back({"robot", "a Pioneer tells of at most 7 bumpers in front and 7 in the rear"});
     if (!faults.empty()) return faults;
     model_ = &choice.model;
     declare_endpoints();
@@ -127,13 +131,14 @@ class P2osBase final : public orca::hw::LineDriver {
   using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
 
   void declare_endpoints() {
-    senses_.emplace(*model_, has_gripper());
-    senses_->calibrate(base_.calibration());
+    senses_.emplace(*model_, Senses::Extras{bumpers(), has_gripper()});
+    senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                  .big_turn_angle = 1.0,
-                                  .big_turn_speed = 0.1}),
+                                  .steer_gain = 2.0,
+                                  .big_turn_angle = std::numbers::pi / 3.0,
+                                  .big_turn_speed = 0.3}),
                     base_.max_command_age());
     set_motion(*motion_);
     if (!has_gripper()) return;
@@ -141,6 +146,16 @@ class P2osBase final : public orca::hw::LineDriver {
         .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(command); },
         .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
     add_actuator(*gripper_);
+  }
+
+  [[nodiscard]] std::vector<double> bumpers() const {
+    return base_.figures() != nullptr ? base_.figures()->bumpers : Senses::usual_bumpers(*model_);
+  }
+
+  [[nodiscard]] static bool fits_packet(const std::vector<double>& bumpers) {
+    const std::ptrdiff_t front = std::ranges::count_if(
+        bumpers, [](double direction) { return std::abs(direction) < 0.5 * std::numbers::pi; });
+    return front <= kMostBumpers && std::ssize(bumpers) - front <= kMostBumpers;
   }
 
   [[nodiscard]] bool has_gripper() const {

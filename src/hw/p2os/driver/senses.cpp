@@ -9,6 +9,7 @@
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 #include "orca/hw/p2os/gripper.hpp"
 #include "orca/idl/time.hpp"
 
@@ -21,23 +22,24 @@ constexpr double kLongestRange = 5.0;                          // [m]
 constexpr double kHalfLobe = 12.5 * std::numbers::pi / 180.0;  // [rad] of a Polaroid transducer
 constexpr double kSonarHeight = 0.24;                          // [m] of the front ring above the floor
 
-// Bumpers lie on an arc, from the left to the right, in front, and as many behind.
-Vec2 outwards(int number, int count, bool front) {
-  const double step = std::numbers::pi / count;
-  const double ahead = 0.5 * std::numbers::pi - (number + 0.5) * step;
-  return direction(front ? ahead : wrapped(ahead + std::numbers::pi));
-}
-
-std::string bumper_name(int number, bool front) {
-  return (front ? "front " : "rear ") + std::to_string(number + 1);
-}
-
 }  // namespace
 
-Senses::Senses(const Model& model, bool has_gripper)
+// They lie on an arc, from the left to the right, in front, and as many behind.
+std::vector<double> Senses::usual_bumpers(const Model& model) {
+  std::vector<double> all;
+  for (const double middle : {0.0, std::numbers::pi})
+    for (int i = 0; i < model.bumpers; ++i) {
+      const double step = std::numbers::pi / model.bumpers;
+      all.push_back(wrapped(middle + 0.5 * std::numbers::pi - (i + 0.5) * step));
+    }
+  return all;
+}
+
+Senses::Senses(const Model& model, const Extras& extras)
     : model_(model),
       units_(&model),
-      has_gripper_(has_gripper),
+      bumper_ring_(named(extras.bumpers)),
+      has_gripper_(extras.has_gripper),
       odometry_(kPeriod),
       sonar_(kPeriod),
       bumpers_(kPeriod),
@@ -50,7 +52,7 @@ Senses::Senses(const Model& model, bool has_gripper)
 std::vector<SensorEndpoint*> Senses::endpoints() {
   std::vector<SensorEndpoint*> all{&odometry_.endpoint(), &battery_};
   if (!model_.sonar_poses.empty()) all.push_back(&sonar_);
-  if (model_.bumpers > 0) all.push_back(&bumpers_);
+  if (!bumper_ring_.empty()) all.push_back(&bumpers_);
   if (has_gripper_) all.push_back(&gripper_);
   return all;
 }
@@ -94,7 +96,7 @@ void Senses::publish() {
   publish_odometry();
   publish_battery();
   if (!ranges_.empty() && !sip_.echoes.empty()) publish_sonars();
-  if (model_.bumpers > 0) publish_bumpers();
+  if (!bumper_ring_.empty()) publish_bumpers();
   if (has_gripper_ && sip_.ports) publish_gripper();
 }
 
@@ -115,20 +117,19 @@ void Senses::publish_sonars() {
   object->max_range(kLongestRange);
   object->half_lobe(kHalfLobe);
   object->pose(level_pose({}, kSonarHeight, stamp_));
+  set_uncertainty(*object, sonar_errors_);
   sonar_.publish(std::move(object));
 }
 
 void Senses::publish_bumpers() {
   auto object = bumpers_.loan();
-  for (const bool front : {true, false})
-    for (int i = 0; i < model_.bumpers; ++i) {
-      const unsigned bits = front ? sip_.front_bumpers : sip_.rear_bumpers;
-      const Vec2 out = outwards(i, model_.bumpers, front);
-      object->pressed().push_back((bits >> i) & 1U);
-      object->names().push_back(bumper_name(i, front));
-      object->poses().push_back(
-          level_frame({model_.radius * out.x, model_.radius * out.y, portable::atan2(out.y, out.x)}, 0.0));
-    }
+  for (const Bumper& bumper : bumper_ring_) {
+    const Vec2 out = direction(bumper.direction);
+    object->pressed().push_back(is_pressed(bumper));
+    object->names().push_back(bumper.name);
+    object->poses().push_back(
+        level_frame({model_.radius * out.x, model_.radius * out.y, bumper.direction}, 0.0));
+  }
   object->stamp(to_time_value(stamp_));
   bumpers_.publish(std::move(object));
 }
@@ -166,11 +167,25 @@ void Senses::publish_gripper() {
 
 std::vector<Obstruction::Pressed> Senses::pressed() const {
   std::vector<Obstruction::Pressed> all;
-  for (const bool front : {true, false})
-    for (int i = 0; i < model_.bumpers; ++i)
-      if ((((front ? sip_.front_bumpers : sip_.rear_bumpers) >> i) & 1U) != 0)
-        all.push_back({outwards(i, model_.bumpers, front), bumper_name(i, front)});
+  for (const Bumper& bumper : bumper_ring_)
+    if (is_pressed(bumper)) all.push_back({direction(bumper.direction), bumper.name});
   return all;
+}
+
+std::vector<Senses::Bumper> Senses::named(const std::vector<double>& directions) {
+  std::vector<Bumper> all;
+  unsigned front = 0;
+  unsigned rear = 0;
+  for (const double direction : directions) {
+    const bool is_front = std::abs(direction) < 0.5 * std::numbers::pi;
+    const unsigned bit = is_front ? front++ : rear++;
+    all.push_back({direction, is_front, bit, (is_front ? "front " : "rear ") + std::to_string(bit + 1)});
+  }
+  return all;
+}
+
+bool Senses::is_pressed(const Bumper& bumper) const {
+  return (((bumper.is_front ? sip_.front_bumpers : sip_.rear_bumpers) >> bumper.bit) & 1U) != 0;
 }
 
 }  // namespace orca::hw::p2os

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
@@ -22,10 +23,21 @@ namespace orca::hw::p2os {
 /// Thread contract: not synchronised; the container's strand.
 class Senses {
  public:
-  /// @param model  decides what there is, besides the gripper.
-  Senses(const Model& model, bool has_gripper);
+  /// What a robot has besides what its model says.
+  struct Extras {
+    std::vector<double>
+        bumpers;  ///< [rad] Directions in which they face, in the order of their bits on each side.
+    bool has_gripper = false;
+  };
+  /// Returns the bumpers that the model usually has.
+  [[nodiscard]] static std::vector<double> usual_bumpers(const Model& model);
+
+  Senses(const Model& model, const Extras& extras);
   /// @pre  nothing has been published.
-  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
+  void describe(const SenseTraits& traits) {
+    odometry_.describe(traits);
+    sonar_errors_ = traits.sonars;
+  }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   /// Returns the description of the sonars; nothing if there are none.
@@ -52,10 +64,21 @@ class Senses {
   void publish_battery();
   void publish_gripper();
 
+  struct Bumper {
+    double direction;  // [rad]
+    bool is_front;
+    unsigned bit;
+    std::string name;
+  };
+  [[nodiscard]] static std::vector<Bumper> named(const std::vector<double>& directions);
+  [[nodiscard]] bool is_pressed(const Bumper& bumper) const;
+
   const Model& model_;
   const Model* units_;
+  const std::vector<Bumper> bumper_ring_;
   const bool has_gripper_;
   BaseOdometry odometry_;
+  RangeErrorGuess sonar_errors_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

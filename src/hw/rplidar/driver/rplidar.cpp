@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/laser_place.hpp"
 #include "orca/hw/line_driver.hpp"
@@ -187,6 +188,7 @@ class Rplidar final : public orca::hw::LineDriver {
     object->angle_start(std::numbers::pi);
     object->angle_increment(increment());
     object->time_increment(orca::to_seconds(turn.period) / static_cast<double>(*beams_));
+    orca::set_uncertainty(*object, place_.errors());
     scans_->publish(std::move(object));
   }
 

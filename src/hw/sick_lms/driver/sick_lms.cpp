@@ -9,6 +9,7 @@
 
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/laser_place.hpp"
 #include "orca/hw/line_driver.hpp"
@@ -217,6 +218,7 @@ class SickLms final : public orca::hw::LineDriver {
     // Beams of several turns are not measured in their order.
     const bool in_order = variant_.resolution == 100;
     object->time_increment(in_order ? orca::to_seconds(mirror_time(variant_)) / 360.0 : 0.0);
+    orca::set_uncertainty(*object, place_.errors());
     scans_->publish(std::move(object));
   }
 

@@ -52,7 +52,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     if (!faults.empty()) return faults;
     senses_.emplace(as_duration(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
-    senses_->calibrate(base_.calibration());
+    senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,

@@ -8,6 +8,7 @@
 
 #include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/ranges.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::hw::xr4000 {
@@ -130,6 +131,7 @@ void XrSenses::publish_sonars(TimePoint stamp) {
   object->max_range(kFarthest);
   object->half_lobe(kHalfLobe);
   object->pose(level_pose({}, kLowRing, stamp));
+  set_uncertainty(*object, sonar_errors_);
   sonar_.publish(std::move(object));
 }
 

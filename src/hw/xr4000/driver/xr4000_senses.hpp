@@ -38,7 +38,10 @@ class XrSenses {
   /// @param cycle  [s] in which all sonars fire once.
   XrSenses(Duration cycle, const BatteryScale& scale);
   /// @pre  nothing has been published.
-  void calibrate(const Calibration& calibration) { odometry_.calibrate(calibration); }
+  void describe(const SenseTraits& traits) {
+    odometry_.describe(traits);
+    sonar_errors_ = traits.sonars;
+  }
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
 
@@ -79,6 +82,7 @@ class XrSenses {
   const Duration cycle_;
   const BatteryScale scale_;
   BaseOdometry odometry_;
+  RangeErrorGuess sonar_errors_;
   SensorHW<idl::SonarRangeReadings> sonar_;
   SensorHW<idl::BumperReadings> bumpers_;
   SensorHW<idl::Battery> battery_;

@@ -26,7 +26,7 @@ Pose2 published(BaseOdometry& odometry) {
 Pose2 end_of(const Calibration& calibration, const Travel2& counted) {
   constexpr int kSteps = 1000;
   BaseOdometry odometry(std::chrono::milliseconds(100));
-  odometry.calibrate(calibration);
+  odometry.describe({.calibration = calibration});
   Pose2 pose;
   odometry.publish(pose, {}, TimePoint{});
   for (int i = 0; i < kSteps; ++i) {
@@ -75,4 +75,20 @@ TEST_CASE("what a calibrated base is told, and what it tells of its velocity, ag
   CHECK(real.forward == Approx(0.5));
   CHECK(real.left == Approx(0.25));
   CHECK(real.turn_rate == Approx(0.8));
+}
+
+TEST_CASE("odometry whose errors are guessed tells how uncertain it is, and otherwise that it is not known",
+          "[hw][odometry]") {
+  const auto covariance_after = [](const SenseTraits& traits) {
+    BaseOdometry odometry(std::chrono::milliseconds(100));
+    odometry.describe(traits);
+    odometry.publish({}, {}, TimePoint{});
+    for (int i = 1; i <= 100; ++i) odometry.publish({0.02 * i, 0.0, 0.0}, {}, TimePoint{});
+    return object_cast<idl::Odometry>(odometry.endpoint().latest())->covariance();
+  };
+  CHECK(covariance_after({}) == std::array<double, 9>{});
+  const WheelErrorGuess slip{.slip = 0.01};
+  const auto guessed = covariance_after({.odometry = OdometryUncertainty(idl::DIFFERENTIAL, 0.4, slip)});
+  CHECK(guessed[0] == Approx(0.5 * 1e-4 * 2.0).epsilon(1e-6));  // two wheels over 2 m
+  CHECK(guessed[4] > guessed[0]);                               // a wrong heading counts more aside
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "orca/geometry/angle.hpp"
 #include "orca/hw/base_figures.hpp"
 #include "orca/hw/laser_place.hpp"
 #include "orca/hw/robot_figures.hpp"
@@ -43,6 +44,19 @@ std::string faults_of(const std::string& text) {
   return all_of(faults);
 }
 
+// As the simulator tells it to those who plan.
+Vec2 size_of(const sim::Shape& footprint) {
+  if (std::holds_alternative<sim::Circle>(footprint)) return {};
+  const auto [low, high] = sim::bounds_of(footprint);
+  return {2.0 * std::max(-low.x, high.x), 2.0 * std::max(-low.y, high.y)};
+}
+
+void compare_bumpers(const std::vector<double>& read, const sim::RobotModel& model) {
+  REQUIRE(read.size() == (model.bumpers.empty() ? 0 : model.bumpers[0].count));
+  for (std::size_t i = 0; i < read.size(); ++i)
+    CHECK(wrapped(read[i] - model.bumpers[0].segment(i).yaw) == Approx(0.0).margin(1e-9));
+}
+
 // Where a laser sits by the file of that text.
 struct Placed {
   explicit Placed(const std::string& text) { owner.set("robot", folder.write("r.urdf", text)); }
@@ -76,12 +90,24 @@ TEST_CASE("of each shipped robot a driver reads the same figures as the simulato
     CHECK(figures->wheels->max_turn_rate == model->drive.max_turn_rate);
     CHECK(figures->wheels->max_acceleration == model->drive.max_acceleration);
     CHECK(figures->wheels->track == model->drive.track);
+    CHECK(figures->wheels->steer_gain == model->drive.steer_gain);
+    CHECK(figures->wheels->big_turn_angle == model->drive.big_turn_angle);
+    CHECK(figures->wheels->big_turn_speed == model->drive.big_turn_speed);
+    REQUIRE(figures->size);
+    const Vec2 size = size_of(model->footprint);
+    CHECK(figures->size->x == Approx(size.x).margin(1e-9));
+    CHECK(figures->size->y == Approx(size.y).margin(1e-9));
+    CHECK(figures->wheel_errors == model->odometer->errors.at(sim::Realism::nominal));
+    if (!model->sonars.empty())
+      CHECK(figures->sonar_errors == model->sonars[0].errors.at(sim::Realism::nominal));
+    compare_bumpers(figures->bumpers, *model);
     REQUIRE(figures->lasers.size() == model->lasers.size());
     for (std::size_t i = 0; i < model->lasers.size(); ++i) {
       CHECK(figures->lasers[i].name == model->lasers[i].name);
       CHECK(figures->lasers[i].place.x == Approx(model->lasers[i].center.x).margin(1e-12));
       CHECK(figures->lasers[i].place.y == Approx(model->lasers[i].center.y).margin(1e-12));
       CHECK(figures->lasers[i].place.yaw == Approx(model->lasers[i].center.yaw).margin(1e-12));
+      CHECK(figures->lasers[i].errors == model->lasers[i].errors.at(sim::Realism::nominal));
       CHECK(figures->lasers[i].height == Approx(model->lasers[i].height).margin(1e-12));
     }
   }
@@ -122,6 +148,53 @@ TEST_CASE("a base is no faster than its file and its parameters say", "[hw][robo
   idl::Robot robot;
   base.describe(robot);
   CHECK(robot.radius() == 0.309);
+}
+
+TEST_CASE("a base is steered as its file says, and tells how large it is and how wrong its senses are",
+          "[hw][robot_file]") {
+  Owner owner;
+  hw::BaseFigures base(owner);
+  const hw::DriveLimits own{.steer_gain = 0.5, .big_turn_angle = 1.5, .big_turn_speed = 0.1};
+  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.within(own).steer_gain == 0.5);
+  CHECK_FALSE(base.traits().odometry);
+  CHECK_FALSE(base.traits().sonars.is_known());
+
+  owner.set("robot", kRobots + "pioneer_2dx.urdf");
+  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.within(own).steer_gain == 2.0);
+  CHECK(base.within(own).big_turn_angle == Approx(1.0471975511966));
+  CHECK(base.within(own).big_turn_speed == 0.3);
+  idl::Robot robot;
+  base.describe(robot);
+  CHECK(robot.length() == Approx(0.6));  // around the axle, which is not in the middle
+  CHECK(robot.width() == Approx(0.425));
+  CHECK(base.traits().odometry);
+  CHECK(base.traits().sonars == RangeErrorGuess{0.01, 0.01});
+}
+
+TEST_CASE("a box on the deck of a round robot makes it larger than round", "[hw][robot_file]") {
+  const std::string round =
+      R"(<robot name="r"><link name="base"><collision><geometry><cylinder radius="0.2" length="0.1"/></geometry></collision>
+    </link><link name="deck"/><joint name="j" type="fixed"><parent link="base"/><child link="deck"/><origin xyz="0.1 0 0.2" rpy="0 0 1.5707963267948966"/></joint>
+    <orca radius="20 cm"/></robot>)";
+  const auto size_with = [&](const std::string& on_deck) {
+    const TempFolder folder;
+    std::string text = round;
+    text.replace(text.find(R"(<link name="deck"/>)"), 19,
+                 R"(<link name="deck"><collision><geometry>)" + on_deck + "</geometry></collision></link>");
+    std::vector<HardwareFault> faults;
+    const auto figures = hw::read_robot_figures(folder.write("r.urdf", text), faults);
+    INFO(all_of(faults));
+    REQUIRE(figures);
+    return figures->size;
+  };
+  CHECK(size_with(R"(<box size="0.1 0.05 0.1"/>)") == Vec2{});
+  const auto larger = size_with(R"(<box size="0.6 0.4 0.1"/>)");
+  REQUIRE(larger);
+  CHECK(larger->x == Approx(0.6));  // 0.1 m ahead of the middle, and turned: half of 0.4 m
+  CHECK(larger->y == Approx(0.6));
+  CHECK_FALSE(size_with(R"(<mesh filename="box.stl"/>)"));
 }
 
 TEST_CASE("the file of a robot that drives otherwise, or not at all, is refused", "[hw][robot_file]") {

@@ -285,6 +285,7 @@ const std::vector<Unknown> kUnknown{
     {"create2", "bumper", "model", kPartOfTheBase},
     {"create2", "odometry", "model", kPartOfTheBase},
 
+    {"peoplebot", "bumper", "model", kPartOfTheBase},
     {"peoplebot", "drive", "model", kPartOfTheBase},
     {"peoplebot", "odometry", "model", kPartOfTheBase},
     {"peoplebot", "sonar", "vendor", kMakerUnnamed},

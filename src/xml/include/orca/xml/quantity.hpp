@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -22,6 +23,13 @@ namespace orca::xml {
 /// Reads "190 mm", "22.5 deg", "10 Hz" or "0.5" as a value in SI; `si` as in to_si().
 /// @errors  as parse_leading_number() and to_si().
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, std::string_view si);
+
+/// Takes numbers with blanks between them apart. The last word may be a unit for all: "90 45 deg" is "90 deg" and "45 deg".
+[[nodiscard]] std::vector<std::string> split_quantities(std::string_view text);
+
+/// Reads such numbers as values in SI.
+/// @errors  as parse_quantity().
+[[nodiscard]] Result<std::vector<double>> parse_quantities(std::string_view text, std::string_view si);
 
 /// A number in SI and the SI unit of what it measures; empty: a plain number.
 struct Measured {

@@ -49,12 +49,14 @@ class BaseFigures {
   /// @return what is wrong with the file.
   [[nodiscard]] std::vector<HardwareFault> read(idl::DriveType type);
 
-  /// Returns the limits, or those of the file where they are less.
+  /// Returns the limits, or those of the file where they are less. How the base is steered is as the file says, if it does.
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
   [[nodiscard]] Duration max_command_age() const { return from_seconds(*max_command_age_); }
   [[nodiscard]] Calibration calibration() const { return {*distance_scale_, *turn_scale_}; }
+  /// Returns the calibration, and how wrong the senses are as far as the file guesses it.
+  [[nodiscard]] SenseTraits traits() const;
   /// Returns the file's figures; null: there is no file.
   [[nodiscard]] const RobotFigures* figures() const { return figures_ ? &*figures_ : nullptr; }
   /// Writes into the description how large the robot is, if the file says so.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "orca/base/time.hpp"
+#include "orca/geometry/error_guess.hpp"
+#include "orca/geometry/objects/odometry.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/endpoints.hpp"
@@ -25,6 +29,13 @@ struct Calibration {
   friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
+/// What is known of a base's own senses beside what its controller says. A plain value.
+struct SenseTraits {
+  Calibration calibration{};
+  std::optional<OdometryUncertainty> odometry{};  ///< Nothing: how wrong it is is not known.
+  RangeErrorGuess sonars{};
+};
+
 /// The odometry of a base, as its clients get it from what its controller counts.
 ///
 /// Thread contract: not synchronised; the container's strand.
@@ -35,7 +46,10 @@ class BaseOdometry {
 
   [[nodiscard]] SensorEndpoint& endpoint() { return endpoint_; }
   /// @pre  nothing has been published.
-  void calibrate(const Calibration& calibration) { calibration_ = calibration; }
+  void describe(const SenseTraits& traits) {
+    calibration_ = traits.calibration;
+    uncertainty_ = traits.odometry;
+  }
 
   /// Passes a reading on.
   /// @param pose      as the controller counts it, without jumps, from 0 at first. Without calibration it is passed on as it is. What was
@@ -48,6 +62,7 @@ class BaseOdometry {
 
   SensorHW<idl::Odometry> endpoint_;
   Calibration calibration_;
+  std::optional<OdometryUncertainty> uncertainty_;
   Pose2 counted_;  // the last one
   Pose2 pose_;     // calibrated
 };

@@ -6,6 +6,7 @@
 
 #include "orca/component/host.hpp"
 #include "orca/component/param.hpp"
+#include "orca/geometry/error_guess.hpp"
 #include "orca/geometry/pose2.hpp"
 
 namespace orca::hw {
@@ -40,6 +41,8 @@ class LaserPlace {
   [[nodiscard]] const Pose2& place() const { return place_; }
   /// Returns the height of its beams above the floor [m].
   [[nodiscard]] double height() const { return height_; }
+  /// Returns how wrong its ranges are, as far as the robot's file guesses it.
+  [[nodiscard]] const RangeErrorGuess& errors() const { return errors_; }
 
  private:
   void read_file(std::vector<HardwareFault>& faults);
@@ -52,6 +55,7 @@ class LaserPlace {
   Param<double> yaw_;
   Pose2 place_;
   double height_ = 0.0;
+  RangeErrorGuess errors_;
 };
 
 }  // namespace orca::hw

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "orca/component/host.hpp"
+#include "orca/geometry/error_guess.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/idl/hardware.hpp"
 
 namespace orca::hw {
@@ -19,16 +21,25 @@ struct RobotFigures {
     double max_turn_rate = 0.0;     ///< [rad/s]
     double max_acceleration = 0.0;  ///< [m/s2]
     double track = 0.0;             ///< [m] Diameter of the circle through the wheels.
+    // How it is steered (DriveLimits); nothing: the file does not say it.
+    std::optional<double> steer_gain{};      ///< [1/s]
+    std::optional<double> big_turn_angle{};  ///< [rad]
+    std::optional<double> big_turn_speed{};  ///< [m/s]
   };
   struct Laser {
     std::string name;
     Pose2 place;          ///< In the robot frame.
     double height = 0.0;  ///< [m] Above the floor.
+    RangeErrorGuess errors{};
   };
 
   double radius = 0.0;         ///< [m] Of the circle that holds the body.
   double bumper_radius = 0.0;  ///< [m] Of the parts that touch first.
+  std::optional<Vec2> size{};  ///< [m] Length and width of its plan; 0: it is round; nothing: not known.
   std::optional<Wheels> wheels{};
+  WheelErrorGuess wheel_errors{};
+  RangeErrorGuess sonar_errors{};
+  std::vector<double> bumpers{};  ///< [rad] Directions in which they face, in the order of the file.
   std::vector<Laser> lasers{};
   std::optional<std::string> gripper{};  ///< Its link; nothing: it has none.
 };
