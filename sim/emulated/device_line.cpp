@@ -59,6 +59,12 @@ Status DeviceLine::lock_name() {
   return ok();
 }
 
+std::string DeviceLine::where() const {
+  if (terminal_ == nullptr)
+    return "it " + name_.substr(0, kListens.size() - 1) + "s at " + name_.substr(kListens.size());
+  return "a driver opens it as emulated:" + name_ + ", other programs as " + hw::link::emulated_path(name_);
+}
+
 void DeviceLine::close() {
   for (const Seat& seat : seats_) seat.link->close();
   seats_.resize(1);

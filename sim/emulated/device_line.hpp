@@ -31,6 +31,8 @@ class DeviceLine {
   /// @errors  already_exists if another system offers a line of that name; those of PtyLink::open() and ListenLink::open().
   Status open();
   void close();
+  /// Returns for people where a driver and other programs find it.
+  [[nodiscard]] std::string where() const;
   /// Passes bytes on, as the line's rate allows.
   /// @return whether a driver, or any host, has the line open.
   bool exchange(TimePoint now);

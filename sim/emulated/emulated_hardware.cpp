@@ -34,7 +34,9 @@ class EmulatedHardware final : public SimulatedRobot {
     add_sensor(truth_);
     const auto wishes = read_devices(*lines_text_);
     if (!wishes) return {{"lines", wishes.error().message}};
+    kinds_.clear();
     for (const DeviceWish& wish : *wishes) {
+      kinds_.push_back(wish.kind);
       auto firmware = make_firmware(wish, *body_);
       if (!firmware) return {{"lines", firmware.error().message}};
       lines_.push_back(std::make_unique<DeviceLine>(wish.place, std::move(*firmware)));
@@ -46,6 +48,8 @@ class EmulatedHardware final : public SimulatedRobot {
     if (Status world = SimulatedRobot::open(); !world.ok()) return world;
     for (const auto& line : lines_)
       if (Status opened = line->open(); !opened.ok()) return opened;
+    for (std::size_t i = 0; i < lines_.size(); ++i)
+      host().write_log(orca::log::Level::info, kinds_[i] + ": " + lines_[i]->where());
     is_open_ = true;
     return orca::ok();
   }
@@ -102,6 +106,7 @@ class EmulatedHardware final : public SimulatedRobot {
   orca::hw::SensorHW<orca::idl::RobotPose> truth_{kTruthPeriod, orca::hw::Source::truth};
   std::optional<WorldBody> body_;
   std::vector<std::unique_ptr<DeviceLine>> lines_;
+  std::vector<std::string> kinds_;  // of the devices on them
   bool is_open_ = false;
   TimePoint turned_{};
 };

@@ -134,4 +134,10 @@ std::string listed(std::span<const std::string> names, std::size_t most) {
   return names.size() <= most ? shown : shown + " and " + std::to_string(names.size() - most) + " more";
 }
 
+std::string seconds_text(Duration time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g s", to_seconds(time));
+  return text;
+}
+
 }  // namespace orca

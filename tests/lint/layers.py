@@ -115,7 +115,7 @@ LAYERS = (
           ("plugin", *DEVICE), ("fmt",), module=HOST),
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
     Layer("host_run", (f"{HOST}/run", HOST), ("orca/host/",),
-          ("host_containment", "host_picture", "graph", "plugin", "text", "xml", "patterns_endpoints", "patterns_local", "patterns_shm",
+          ("host_containment", "host_picture", "graph", "plugin", "hw_link", "text", "xml", "patterns_endpoints", "patterns_local", "patterns_shm",
            "patterns_dds", *DEVICE),
           ("fmt",), module=HOST),
     Layer("supervisor_channel", (f"{SUPERVISOR}/channel",),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What each component of each shipped graph is for: without it the run gets worse, in the way that the comment of the graph
-// says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys, and scout_player in player_server_test.cpp. scout_goto_processes and two_machines are
+// says. scout_teleop is in teleop_test.cpp, because it needs a person at the keys, scout_player in player_server_test.cpp, and emulated_devices, which
+// are for other programs, in hwprobe_test.cpp. scout_goto_processes and two_machines are
 // the same run as scout_goto, to which placement_test.cpp compares them, and scout_goto_two_localizers is in trading_test.cpp.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -116,9 +117,9 @@ const std::vector<Case> kCases{
 const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 
 // Shipped graphs that other tests look at.
-const std::set<std::string> kElsewhere{"scout_teleop",         "scout_player",
-                                       "scout_goto_processes", "scout_goto_two_localizers",
-                                       "two_machines",         "warehouse_scanner"};
+const std::set<std::string> kElsewhere{
+    "emulated_devices",          "scout_teleop", "scout_player",     "scout_goto_processes",
+    "scout_goto_two_localizers", "two_machines", "warehouse_scanner"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},

@@ -2,6 +2,7 @@
 // hwprobe with emulated devices on a pseudo terminal.
 #include <catch2/catch.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +12,7 @@
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "ports.hpp"
+#include "summary.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -40,7 +42,8 @@ TEST_CASE("hwprobe names the robot at a port, shows its first data and counts, a
   CHECK(run.exit_code() == 0);
   CHECK_THAT(run.out, Contains("orca.hw.P2os: ActivMedia Pioneer 2-DX"));
   CHECK_THAT(run.out, Contains("connected to \"Orca_Emu\" (Pioneer p2dx) at 9600 baud"));
-  CHECK_THAT(run.out, Contains("<Odometry ") && Contains("<SonarRangeReadings ") && Contains("<Battery "));
+  CHECK_THAT(run.out,
+             Contains("Odometry: x 0, y 0") && Contains("SonarRangeReadings: ") && Contains("Battery: "));
   CHECK_THAT(run.out, Contains("0 spoiled, 0 bytes skipped"));
   CHECK_THAT(run.out, Contains("<param name=\"device\" value=\"" + device + "\"/>"));
   pioneer.with([](P2osFirmware& firmware, PlainBody&) {
@@ -48,6 +51,72 @@ TEST_CASE("hwprobe names the robot at a port, shows its first data and counts, a
     CHECK_FALSE(firmware.is_open());
     for (const int command : firmware.commands()) CHECK((command != 11 && command != 21));  // none to move
   });
+}
+
+TEST_CASE("hwprobe shows a whole ring of sonars, and looks at a robot as the model that it calls itself",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  orca::emulators::P2osSettings settings;
+  settings.subclass = "p3dx";
+  settings.range_unit = 0.001;
+  Pioneer pioneer(device, settings);
+  pioneer.with([](P2osFirmware&, PlainBody& body) { body.surround(1.25); });
+  const Run run = probe(Words{device} + kOnlyPioneers);
+  INFO(run.out);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("orca.hw.P2os: ActivMedia Pioneer 3-DX"));
+  CHECK_THAT(run.out, Contains("<param name=\"model\" value=\"p3dx\"/></hardware>"));
+  std::string ring = "ranges";
+  for (int i = 0; i < 16; ++i) ring += " 1.25";
+  CHECK_THAT(run.out, Contains(ring + "\n"));
+}
+
+TEST_CASE("hwprobe watches a device until it is told to stop, and leaves it well", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(hwprobe(Words{device, "--watch"} + kOnlyPioneers));
+  const auto shown = [&] {
+    const std::string out = program.out();
+    std::size_t count = 0;
+    for (std::size_t at = out.find("Odometry: "); at != std::string::npos;
+         at = out.find("Odometry: ", at + 1))
+      ++count;
+    return count;
+  };
+  REQUIRE(eventually([&] { return shown() >= 3; }));
+  program.send(SIGINT);
+  const Run run = finish(program, Seconds(10));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("orca.hw.P2os: ActivMedia Pioneer 2-DX"));
+  CHECK_FALSE(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.is_open(); }));
+  CHECK(probe({"--watch"}).exit_code() == 2);
+}
+
+TEST_CASE("hwprobe finds the devices of the graph that has nothing else", "[system][hardware]") {
+  Subprocess devices(deployer(
+      {source_file("graphs/emulated_devices.xml"), "--set", "lines=p2os probe_robot; sick_lms probe_laser"}));
+  REQUIRE(devices.wait_for_output("emulated:probe_laser, other programs as /", Seconds(20) * kSlowdown));
+  const Run run = probe({"emulated:probe_robot", "emulated:probe_laser"});
+  INFO(run.out);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("orca.hw.P2os: ActivMedia Pioneer 2-DX"));
+  CHECK_THAT(run.out, Contains("orca.hw.SickLms: SICK LMS200"));
+  const Run pose = run_orcactl({"echo", "truth.RobotPosePush", "--count", "1"});
+  CHECK_THAT(pose.out, Contains("<RobotPose "));
+}
+
+TEST_CASE("what is shown of an object has no more digits than people read, and of a scan its extremes",
+          "[system][hardware]") {
+  std::string scan = R"(<LaserRangeReadings creation_time="0" origin="" seq="7" mission="0" ranges=")";
+  for (int i = 0; i < 40; ++i) scan += i == 11 ? "0.43000000001 " : i == 20 ? "inf " : "8 ";
+  scan += R"(" angle_start="-1.5707963"><pose/><part/><part/></LaserRangeReadings>)";
+  CHECK(orca::hwprobe::summary(scan) ==
+        std::vector<std::string>{"LaserRangeReadings: angle_start -1.571",
+                                 "  ranges 40 values from 0.43 to 8, the smallest is number 12",
+                                 "  part, 2 of them", "  pose"});
 }
 
 TEST_CASE("hwprobe finds an RPLIDAR with all drivers, shows its first turn and stops it",
@@ -59,7 +128,7 @@ TEST_CASE("hwprobe finds an RPLIDAR with all drivers, shows its first turn and s
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK_THAT(run.out, Contains("orca.hw.Rplidar: SLAMTEC RPLIDAR A1"));
-  CHECK_THAT(run.out, Contains("<LaserRangeReadings"));
+  CHECK_THAT(run.out, Contains("LaserRangeReadings: "));
   CHECK_FALSE(laser.with([](auto& firmware, MirrorOnDesk&) { return firmware.sends_scans(); }));
 }
 

@@ -105,6 +105,18 @@ TEST_CASE("a Pioneer has the bumpers of its file, and stands when it touches som
   CHECK(stands(pioneer) == by_file);
 }
 
+TEST_CASE("a file that may be that of another robot is a warning, and the robot drives",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  const Run run = run_deployer(
+      drive(device, {"--set", "pioneer.robot=" ORCA_SOURCE_DIR "/sim/robots/create2.urdf"}), Seconds(60));
+  INFO(run.err);
+  CHECK(run.says("is it the file of another robot?"));
+  CHECK(run.arrivals().size() == 2);
+}
+
 TEST_CASE("the rate of the line is found", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("pioneer");

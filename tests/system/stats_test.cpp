@@ -95,7 +95,7 @@ TEST_CASE("a connection that drops more than it may is one line in the log, and 
   const std::vector<std::string> warnings = lines_with(run.err, "warning");
   REQUIRE(warnings.size() == 1);
   CHECK_THAT(warnings.front(), Contains("avoid: localizer.RobotPosePush to avoid.localizer: objects dropped "
-                                        "so far: 11, accepted: 10 (queue latest)"));
+                                        "so far: 11, drop_limit: 10 (queue latest)"));
   const long dropped = row_of(run.err, "localizer.RobotPosePush -> avoid.localizer").at("dropped");
   CHECK(dropped > 40);
   CHECK(lines_with(run.err, std::to_string(dropped - 10) + " drops beyond a limit, ").size() == 1);

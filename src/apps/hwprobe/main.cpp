@@ -10,10 +10,12 @@
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
+#include "orca/host/stop_signal.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 #include "ports.hpp"
+#include "summary.hpp"
 #include "trial.hpp"
 
 namespace orca::hwprobe {
@@ -26,6 +28,9 @@ constexpr const char* kHelp =
     "  hwprobe /dev/ttyUSB0               one port\n"
     "  hwprobe tcp:192.168.0.20:8101      a device behind a network\n"
     "  hwprobe --driver orca.hw.P2os      only one kind of device\n"
+    "  hwprobe /dev/ttyUSB0 --watch       and its data anew each second, until Ctrl-C: push the robot by\n"
+    "                                     hand, hold a box in front of a sonar\n"
+    "  hwprobe emulated:bench             a device of graphs/emulated_devices.xml, which runs beside it\n"
     "\n"
     "Each driver looks for its device in turn, at all rates that the device may have. It may take half\n"
     "a minute per port. Drivers of devices in the network are asked at a serial port only if --driver\n"
@@ -34,14 +39,13 @@ constexpr const char* kHelp =
     "program at a time.\n"
     "\n"
     "  --driver TYPE     only this hardware type; may be repeated\n"
+    "  --watch           show the data of a device anew each second; for one port\n"
     "  --limit SECONDS   the longest wait for an answer, and for data (default 15)\n"
     "  --plugins FOLDER  look for drivers here too, after Orca's own; may be repeated\n"
     "  --help, --version\n"
     "\n"
     "Exit status: 0 a device answered at each port, 1 at some port none did, 2 wrong usage.\n"
     "docs/hardware/day-one.md leads from here to the first motion.\n";
-
-constexpr std::size_t kLongestData = 160;  // of an object, as it is shown
 
 enum class ExitCode { all_answer = 0, some_silent = 1, usage = 2 };
 
@@ -50,6 +54,7 @@ struct Options {
   std::vector<std::string> types{};
   std::vector<std::string> folders{};
   double limit = 15.0;  // [s]
+  bool watches = false;
 };
 
 Error wrong(const std::string& what) {
@@ -79,11 +84,17 @@ Result<Options> parse(const std::vector<std::string>& words) {
       options.ports.push_back(words[i]);
       continue;
     }
+    if (words[i] == "--watch") {
+      options.watches = true;
+      continue;
+    }
     if (i + 1 == words.size())
       return wrong("there is no option " + in_quotes(words[i]) + ", or its value is missing");
     if (Status taken = take_option(options, words[i], words[i + 1]); !taken.ok()) return taken.error();
     ++i;
   }
+  if (options.watches && options.ports.size() != 1)
+    return wrong("--watch needs one port, whose device it watches");
   return options;
 }
 
@@ -96,21 +107,33 @@ std::vector<std::string> plugin_folders(const Options& options) {
 
 void show(const std::string& text) { std::printf("%s\n", text.c_str()); }
 
-// Returns the text, without its end if it is long.
-std::string shortened(const std::string& text) {
-  return text.size() <= kLongestData ? text : text.substr(0, kLongestData) + " ...";
+void show_data(const Finding& finding) {
+  for (const std::string& object : finding.data)
+    for (const std::string& line : summary(object)) show("    " + line);
+  for (const std::string& name : finding.silent) show("    no " + name + " has come");
+}
+
+void show_again(const Finding& finding) {
+  LiveLine::erase();
+  show("");
+  show_data(finding);
+  (void)std::fflush(stdout);
+}
+
+std::string param_text(const std::string& name, const std::string& value) {
+  return "<param name=\"" + name + "\" value=\"" + value + "\"/>";
 }
 
 void show_device(const std::string& type, const std::string& port, const Finding& finding) {
   show("  " + type + ": " + finding.what.vendor() + " " + finding.what.model());
   for (const std::string& line : finding.said) show("    " + line);
-  for (const std::string& object : finding.data) show("    " + shortened(object));
-  for (const std::string& name : finding.silent) show("    no " + name + " has come");
+  show_data(finding);
   show("    the line: " + std::to_string(finding.line.frames()) + " good frames, " +
        std::to_string(finding.line.bad_checksums()) + " spoiled, " +
        std::to_string(finding.line.skipped_bytes()) + " bytes skipped");
-  show("    in a graph: <hardware name=\"...\" type=\"" + type + "\"><param name=\"device\" value=\"" + port +
-       "\"/></hardware>");
+  std::string params = param_text("device", port);
+  for (const auto& [name, value] : finding.learned) params += param_text(name, value);
+  show("    in a graph: <hardware name=\"...\" type=\"" + type + "\">" + params + "</hardware>");
 }
 
 // Returns the drivers to be tried at a port. Those of devices in the network are asked at other ports only by name.
@@ -124,7 +147,7 @@ std::vector<std::string> types_for(const std::string& port, const std::vector<Dr
 }
 
 // Returns whether a device has answered.
-bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& types, double limit_s,
+bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& types, const Look& look,
            const std::string& port) {
   show(port);
   if (const Status opened = try_port(port); !opened.ok()) {
@@ -134,13 +157,13 @@ bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& typ
   std::vector<std::string> reasons;
   for (const std::string& type : types) {
     if (isatty(STDERR_FILENO) != 0) LiveLine::show(STDERR_FILENO, "  looking for " + type);
-    const Duration limit(static_cast<Duration::rep>(1e9 * limit_s));
-    const Result<Finding> finding = try_driver(catalogue, type, port, limit);
+    const Result<Finding> finding = try_driver(catalogue, type, port, look);
     LiveLine::erase();
     if (finding && finding->answers) {
       show_device(type, port, *finding);
       return true;
     }
+    if (look.is_stopped()) break;
     reasons.push_back("  " + type + ": " + (finding ? finding->reason : finding.error().message));
   }
   for (const std::string& reason : reasons) show(reason);
@@ -162,7 +185,7 @@ Status check_types(const std::vector<std::string>& wanted, const std::vector<Dri
   return ok();
 }
 
-ExitCode run(Options options) {
+ExitCode run(Options options, const host::StopSignal& stop) {
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
   const std::vector<DriverType> known = drivers(catalogue);
   if (const Status checked = check_types(options.types, known); !checked.ok()) return refuse(checked.error());
@@ -173,9 +196,12 @@ ExitCode run(Options options) {
         "it");
     return ExitCode::some_silent;
   }
+  Look look{.limit = from_seconds(options.limit), .is_stopped = [&stop] { return stop.requested(); }};
+  if (options.watches) look.show = show_again;
   bool all_answer = true;
   for (const std::string& port : options.ports)
-    all_answer = probe(catalogue, types_for(port, known, options), options.limit, port) && all_answer;
+    all_answer =
+        !stop.requested() && probe(catalogue, types_for(port, known, options), look, port) && all_answer;
   return all_answer ? ExitCode::all_answer : ExitCode::some_silent;
 }
 
@@ -190,5 +216,7 @@ int main(int argc, char** argv) {
     if (word == "--version") return std::printf("hwprobe %s\n", ORCA_VERSION) < 0 ? 1 : 0;
   }
   const orca::Result<Options> options = parse(words);
-  return static_cast<int>(options ? run(*options) : refuse(options.error()));
+  if (!options) return static_cast<int>(refuse(options.error()));
+  const orca::host::StopSignal stop(static_cast<int>(ExitCode::some_silent));
+  return static_cast<int>(run(*options, stop));
 }

@@ -19,20 +19,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The first object of each sensor.
-class FirstData {
+constexpr Duration kSettling = 1s;  // in which a device that measures piece by piece has done all
+
+// The latest object of each sensor.
+class LatestData {
  public:
-  explicit FirstData(hw::HardwareContainer& driver) : driver_(driver) {
+  explicit LatestData(hw::HardwareContainer& driver) : driver_(driver) {
     texts_.resize(driver.sensors().size());
     for (std::size_t i = 0; i < texts_.size(); ++i)
       driver.sensors()[i]->set_sink(this,
                                     [this, i](ObjectLoan reading) { return note(i, std::move(reading)); });
   }
-  ~FirstData() {
+  ~LatestData() {
     for (hw::SensorEndpoint* const sensor : driver_.sensors()) sensor->set_sink(this, nullptr);
   }
-  FirstData(const FirstData&) = delete;
-  FirstData& operator=(const FirstData&) = delete;
+  LatestData(const LatestData&) = delete;
+  LatestData& operator=(const LatestData&) = delete;
 
   [[nodiscard]] bool is_complete() const {
     const std::lock_guard lock(mutex_);
@@ -40,6 +42,8 @@ class FirstData {
   }
   void tell(Finding& finding) const {
     const std::lock_guard lock(mutex_);
+    finding.data.clear();
+    finding.silent.clear();
     for (std::size_t i = 0; i < texts_.size(); ++i) {
       if (texts_[i].empty())
         finding.silent.push_back(driver_.sensors()[i]->port_stem());
@@ -52,7 +56,7 @@ class FirstData {
   ObjectRef note(std::size_t sensor, ObjectLoan reading) {
     ObjectRef object = std::move(reading).seal();
     const std::lock_guard lock(mutex_);
-    if (texts_[sensor].empty()) texts_[sensor] = to_xml(object);
+    texts_[sensor] = to_xml(object);
     return object;
   }
 
@@ -61,38 +65,77 @@ class FirstData {
   std::vector<std::string> texts_;
 };
 
-// Waits until something holds, at most until the limit.
-void wait_for(Executive& executive, Duration limit, const std::function<bool()>& holds) {
-  const TimePoint end = executive.now() + limit;
-  while (!holds() && executive.now() < end) executive.sleep_until(executive.now() + 10ms);
-}
+// A look at one driver.
+class Trial {
+ public:
+  Trial(hw::HardwareContainer& driver, Executive& executive, const Look& look)
+      : driver_(driver), executive_(executive), look_(look) {}
 
-void take_data(hw::HardwareContainer& driver, Executive& executive, Duration limit, Finding& finding) {
-  const FirstData data(driver);
-  driver.acquire();
-  wait_for(executive, limit,
-           [&] { return data.is_complete() || driver.state() == hw::HardwareState::fault; });
-  data.tell(finding);
-  driver.release();
-}
-
-Finding looked(hw::HardwareContainer& driver, Executive& executive, Duration limit) {
-  Finding finding;
-  driver.run();
-  wait_for(executive, limit, [&] {
-    return driver.state() == hw::HardwareState::ready || driver.state() == hw::HardwareState::fault;
-  });
-  finding.answers = driver.state() == hw::HardwareState::ready;
-  if (finding.answers) {
-    finding.what = driver.description();
-    take_data(driver, executive, limit, finding);
-  } else {
-    finding.reason =
-        driver.state() == hw::HardwareState::fault ? driver.fault() : "it has not answered in time";
+  Finding run() {
+    driver_.run();
+    wait_for(look_.limit, [&] { return driver_.state() == hw::HardwareState::ready || has_failed(); });
+    finding_.answers = driver_.state() == hw::HardwareState::ready;
+    if (finding_.answers) {
+      finding_.what = driver_.description();
+      finding_.learned = driver_.learned();
+      if (finding_.learned.empty()) take_data();
+    } else {
+      finding_.reason = has_failed() ? driver_.fault() : "it has not answered in time";
+    }
+    driver_.shut_down();
+    (void)driver_.join_until(executive_.now() + look_.limit);
+    finding_.line = driver_.statistics();
+    return std::move(finding_);
   }
-  driver.shut_down();
-  (void)driver.join_until(executive.now() + limit);
-  finding.line = driver.statistics();
+
+ private:
+  // Waits until something holds, at most until the limit.
+  void wait_for(Duration limit, const std::function<bool()>& holds) {
+    const TimePoint end = executive_.now() + limit;
+    while (!holds() && !is_stopped() && executive_.now() < end)
+      executive_.sleep_until(executive_.now() + 10ms);
+  }
+
+  void take_data() {
+    const LatestData data(driver_);
+    driver_.acquire();
+    wait_for(look_.limit, [&] { return data.is_complete() || has_failed(); });
+    wait_for(kSettling, [&] { return has_failed(); });
+    data.tell(finding_);
+    while (look_.show && !is_stopped() && !has_failed()) {
+      look_.show(finding_);
+      wait_for(1s, [&] { return has_failed(); });
+      data.tell(finding_);
+    }
+    if (has_failed()) finding_.said.push_back(driver_.fault());
+    driver_.release();
+  }
+
+  [[nodiscard]] bool has_failed() const {
+    return driver_.state() == hw::HardwareState::fault || driver_.state() == hw::HardwareState::backoff;
+  }
+  [[nodiscard]] bool is_stopped() const { return look_.is_stopped && look_.is_stopped(); }
+
+  hw::HardwareContainer& driver_;
+  Executive& executive_;
+  const Look& look_;
+  Finding finding_;
+};
+
+Result<Finding> try_with(const host::LoadedType& loaded, const std::string& port, const Learned& params,
+                         const Look& look) {
+  Result<std::unique_ptr<Executive>> executive = make_executive({});
+  if (!executive) return executive.error();
+  ProbeHost host(**executive);
+  const std::unique_ptr<hw::HardwareContainer, void (*)(void*)> driver(
+      static_cast<hw::HardwareContainer*>(loaded.entry->create(host)), loaded.entry->destroy);
+  (void)host.set("device", port);
+  for (const auto& [name, value] : params) (void)host.set(name, value);
+  for (const HardwareFault& fault : driver->prepare())
+    if (!fault.only_warns) return fail(Code::invalid_argument, fault.text);
+  Finding finding;
+  (*executive)->run([&] { finding = Trial(*driver, **executive, look).run(); });
+  finding.said.insert(finding.said.begin(), host.said().begin(), host.said().end());
   return finding;
 }
 
@@ -114,20 +157,14 @@ std::vector<DriverType> drivers(host::PluginCatalogue& catalogue) {
 bool is_in_network(std::string_view port) { return port.starts_with("tcp:"); }
 
 Result<Finding> try_driver(host::PluginCatalogue& catalogue, const std::string& type, const std::string& port,
-                           Duration limit) {
+                           const Look& look) {
   const Result<host::LoadedType> loaded = catalogue.acquire(PluginKind::hardware, type);
   if (!loaded) return loaded.error();
-  Result<std::unique_ptr<Executive>> executive = make_executive({});
-  if (!executive) return executive.error();
-  ProbeHost host(**executive);
-  const std::unique_ptr<hw::HardwareContainer, void (*)(void*)> driver(
-      static_cast<hw::HardwareContainer*>(loaded->entry->create(host)), loaded->entry->destroy);
-  (void)host.set("device", port);
-  for (const HardwareFault& fault : driver->prepare())
-    if (!fault.only_warns) return fail(Code::invalid_argument, fault.text);
-  Finding finding;
-  (*executive)->run([&] { finding = looked(*driver, **executive, limit); });
-  finding.said = host.said();
+  Result<Finding> finding = try_with(*loaded, port, {}, look);
+  if (!finding || finding->learned.empty()) return finding;
+  const Learned learned = finding->learned;
+  finding = try_with(*loaded, port, learned, look);
+  if (finding) finding->learned = learned;
   return finding;
 }
 

@@ -17,12 +17,6 @@ constexpr Duration kStartLimit = 5s;         // for a device to start
 constexpr Duration kFirstReadingLimit = 2s;  // for a query to an idle device
 constexpr Duration kMotionHold = 500ms;      // a base stays active this long after the last motion command
 
-std::string in_short(Duration time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", to_seconds(time));
-  return text;
-}
-
 // Whether the device has failed, also if it is opened again later.
 bool has_failed(HardwareState state) {
   return state == HardwareState::fault || state == HardwareState::backoff;
@@ -98,9 +92,9 @@ class HardwareServer::SensorPorts {
   }
 
   [[nodiscard]] std::string older_than(TimePoint since, TimePoint stamp) const {
-    return "the latest reading was sensed " + in_short(since - stamp) +
+    return "the latest reading was sensed " + seconds_text(since - stamp) +
            " s before the time that is asked for; ask " + "again: one comes every " +
-           in_short(sensor_.period) + " s";
+           seconds_text(sensor_.period);
   }
 
   HardwareServer& server_;

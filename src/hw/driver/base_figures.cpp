@@ -2,21 +2,42 @@
 #include "orca/hw/base_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "orca/base/text.hpp"
 #include "orca/hw/description.hpp"
+#include "orca/xml/number.hpp"
 
 namespace orca::hw {
-std::vector<HardwareFault> BaseFigures::read(idl::DriveType type) {
+namespace {
+
+constexpr double kOtherRobot = 1.25;  // ratio of two tracks that are not those of one robot
+
+double rounded(double metres) { return 0.001 * std::round(1000.0 * metres); }
+
+bool are_far_apart(double track, double expected) {
+  return expected > 0.0 && (track > kOtherRobot * expected || expected > kOtherRobot * track);
+}
+
+}  // namespace
+
+std::vector<HardwareFault> BaseFigures::read(const Expected& expected) {
   std::vector<HardwareFault> faults;
   figures_ = read_robot_figures(*file_, faults);
   if (!figures_) return faults;
   if (!figures_->wheels)
     faults.push_back({"robot", in_quotes(*file_) + " has no <drive>: it is no file of a robot that moves"});
-  else if (figures_->wheels->type != type)
+  else if (figures_->wheels->type != expected.type)
     faults.push_back({"robot", in_quotes(*file_) + " is the file of a robot whose drive is " +
                                    name_of(figures_->wheels->type) + ", and the drive of this one is " +
-                                   name_of(type)});
+                                   name_of(expected.type)});
+  else if (are_far_apart(figures_->wheels->track, expected.track))
+    faults.push_back({.param = "robot",
+                      .text = in_quotes(*file_) + " has a track of " +
+                              xml::number_text(figures_->wheels->track) + " m, and a " + expected.model +
+                              " has one of about " + xml::number_text(rounded(expected.track)) +
+                              " m; is it the file of another robot?",
+                      .only_warns = true});
   return faults;
 }
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <thread>
 
+#include "orca/base/text.hpp"
+
 namespace orca::hw::link {
 namespace {
 
@@ -22,8 +24,7 @@ Status open_within(ByteLink& link, Duration limit) {
   }
   link.close();
   return fail(Code::deadline_exceeded,
-              "no answer within " + std::to_string(to_seconds(limit)) + " s; is the device switched on?",
-              link.name());
+              "no answer within " + seconds_text(limit) + "; is the device switched on?", link.name());
 }
 
 Error not_open(const ByteLink& link) {

@@ -16,6 +16,7 @@
 #include "orca/hw/link/replay_link.hpp"
 #include "orca/hw/link/serial_link.hpp"
 #include "orca/hw/link/tcp_link.hpp"
+#include "serial_places.hpp"
 
 namespace orca::hw::link {
 namespace {
@@ -109,6 +110,15 @@ std::string emulated_path(std::string_view name) {
   const std::string folder =
       has_folder ? std::string(runtime) + "/orca" : "/tmp/orca-" + std::to_string(getuid());
   return folder + "/emulated/" + std::string(name);
+}
+
+std::string real_place(std::string_view text) {
+  constexpr std::string_view kSerial = "serial:";
+  const bool is_serial = text.starts_with('/') || text.starts_with(kSerial);
+  if (!is_serial) return std::string(text);
+  const std::string_view device = text.starts_with(kSerial) ? text.substr(kSerial.size()) : text;
+  const std::string real = resolved(SerialPlaces(SerialOptions{}.folder).path_of(std::string(device)));
+  return real.empty() ? std::string(text) : real;
 }
 
 Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOptions& options) {

@@ -100,6 +100,10 @@ Error explain_refusal(const std::string& path, int reason, const SerialPlaces& p
 }
 
 Error explain_holder(const std::string& path, const std::string& name) {
+  if (holds("/proc/self", resolved(path)))
+    return fail(Code::unavailable,
+                path + " is in use by this program itself, for another device; each needs a line of its own",
+                name);
   const std::vector<std::string> holders = holders_of(path);
   const std::string who =
       holders.empty() ? "another program, which only root can see (sudo fuser " + in_shell_quotes(path) + ")"

@@ -15,6 +15,7 @@
 #include "orca/base/descriptor.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/base/text.hpp"
 #include "stream.hpp"
 #include "tcp_socket.hpp"
 
@@ -98,9 +99,8 @@ class Connecting {
   }
 
   [[nodiscard]] Error too_late() const {
-    return fail(Code::deadline_exceeded, "timed out: no answer within " +
-                                             std::to_string(to_seconds(options_.limit)) +
-                                             " s; is the device switched on and in this network?");
+    return fail(Code::deadline_exceeded, "timed out: no answer within " + seconds_text(options_.limit) +
+                                             "; is the device switched on and in this network?");
   }
 
   const TcpOptions& options_;

@@ -229,7 +229,7 @@ std::uint64_t PushEdge::drops_to_report() {
 void PushEdge::report_drops(std::uint64_t drops) const {
   const QueuePolicy policy = policy_now();
   report(LinkTrouble::dropped, "objects dropped so far: " + std::to_string(drops) +
-                                   ", accepted: " + std::to_string(policy.accepted_drops().value_or(0)) +
+                                   ", drop_limit: " + std::to_string(policy.accepted_drops().value_or(0)) +
                                    " (" + described(policy) + ")");
 }
 

@@ -84,7 +84,7 @@ TEMPLATE_LIST_TEST_CASE(
     std::vector<std::string> expected;
     for (const int drops : {4, 5, 7, 11, 19, 35, 67})
       expected.push_back("source.out to listener.in: objects dropped so far: " + std::to_string(drops) +
-                         ", accepted: 3 (queue 4, drop_oldest)");
+                         ", drop_limit: 3 (queue 4, drop_oldest)");
     CHECK(troubles.lines() == expected);
     CHECK(troubles.kinds() == Kinds{LinkTrouble::dropped});
   });

@@ -40,8 +40,9 @@ class Create2Base final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
-    if (!faults.empty()) return faults;
+    for (orca::HardwareFault& fault : base_.read({"Create 2", orca::idl::DIFFERENTIAL, kWheelBase}))
+      faults.push_back(std::move(fault));
+    if (orca::hw::any_refuses(faults)) return faults;
     senses_.describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,

@@ -47,8 +47,9 @@ class ScoutBase final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
-    if (!faults.empty()) return faults;
+    for (orca::HardwareFault& fault : base_.read({"Nomad Scout", orca::idl::DIFFERENTIAL, kTrack}))
+      faults.push_back(std::move(fault));
+    if (orca::hw::any_refuses(faults)) return faults;
     senses_.emplace(track(), kSonars * as_duration(*sonar_interval_));
     senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);

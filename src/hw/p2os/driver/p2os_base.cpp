@@ -45,7 +45,10 @@ class P2osBase final : public orca::hw::LineDriver {
     const ModelChoice choice = choose_model(*model_name_);
     if (!choice.is_known)
       faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
-    for (orca::HardwareFault& fault : base_.read(orca::idl::DIFFERENTIAL)) faults.push_back(std::move(fault));
+    const Model& model = choice.model;
+    for (orca::HardwareFault& fault :
+         base_.read({std::string(model.name), orca::idl::DIFFERENTIAL, 2.0 * model.half_track}))
+      faults.push_back(std::move(fault));
     if (has_gripper() && choice.model.name.find("PeopleBot") != std::string_view::npos)
       faults.push_back(
           {"robot",
@@ -53,7 +56,7 @@ class P2osBase final : public orca::hw::LineDriver {
            "grippers of Pioneers are known"});
     if (base_.figures() != nullptr && !fits_packet(base_.figures()->bumpers))
       faults.push_back({"robot", "a Pioneer tells of at most 7 bumpers in front and 7 in the rear"});
-    if (!faults.empty()) return faults;
+    if (orca::hw::any_refuses(faults)) return faults;
     model_ = &choice.model;
     declare_endpoints();
     return faults;
@@ -74,6 +77,13 @@ class P2osBase final : public orca::hw::LineDriver {
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
     if (gripper_) robot.actuators().push_back(describe_gripper());
     return robot;
+  }
+
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> learned() const override {
+    if (!session_) return {};
+    const ModelChoice choice = choose_model(session_->identity().subclass);
+    if (!choice.is_known || &choice.model == model_) return {};
+    return {{"model", std::string(choice.model.subclass)}};
   }
 
  protected:

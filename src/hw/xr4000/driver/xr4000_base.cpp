@@ -48,8 +48,9 @@ class Xr4000Base final : public orca::hw::LineDriver {
 
   std::vector<orca::HardwareFault> prepare() override {
     std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read(orca::idl::HOLONOMIC)) faults.push_back(std::move(fault));
-    if (!faults.empty()) return faults;
+    for (orca::HardwareFault& fault : base_.read({"Nomad XR4000", orca::idl::HOLONOMIC}))
+      faults.push_back(std::move(fault));
+    if (orca::hw::any_refuses(faults)) return faults;
     senses_.emplace(as_duration(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
     senses_->describe(base_.traits());

@@ -6,17 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "orca/base/text.hpp"
+
 namespace orca::host {
 namespace {
 
 constexpr Duration kLimit = 2s;
 constexpr Duration kLook = 100ms;  // between two looks, or a tenth of a shorter limit
-
-std::string seconds_text(Duration time) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g s", std::chrono::duration<double>(time).count());
-  return text;
-}
 
 // Returns "has computed for more than 2 s ...".
 std::string description(const std::string& what, Duration limit, const std::string& consequence) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/hw/link/make_link.hpp"
 #include "trial/rehearsal.hpp"
 
 namespace orca::host {
@@ -138,7 +139,7 @@ std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::Hard
   plugin::DescribedHardware& later = *hardware_.at(use.name);
   plugin::DescribedHardware& first = *hardware_.at(earlier.name);
   const std::string& line = later.container().line_name();
-  if (!line.empty() && line == first.container().line_name())
+  if (!line.empty() && hw::link::real_place(line) == hw::link::real_place(first.container().line_name()))
     return {{"device", "it is that of hardware " + in_quotes(earlier.name) +
                            ", too; each device has a line of its own"}};
   return use.type == earlier.type ? later.conflicts_with(first) : std::vector<HardwareFault>{};

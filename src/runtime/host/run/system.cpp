@@ -13,6 +13,17 @@
 #include "orca/patterns/local/local_links.hpp"
 
 namespace orca::host {
+namespace {
+
+// A device may hang at another port than the graph says.
+std::string cannot_open(const hw::HardwareContainer& device) {
+  const std::string advice =
+      device.line_name().empty() ? "" : "; \"hwprobe\" tells which device is at which port";
+  return "the hardware cannot be opened: " + device.fault() + advice;
+}
+
+}  // namespace
+
 Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
@@ -100,7 +111,7 @@ Status System::open_hardware(Event& changed, TimePoint deadline) {
              device.state() == hw::HardwareState::fault;
     });
     if (device.state() == hw::HardwareState::fault)
-      return fail(Code::unavailable, "the hardware cannot be opened: " + device.fault(), hardware->name());
+      return fail(Code::unavailable, cannot_open(hardware->driver().container()), hardware->name());
     if (device.state() != hw::HardwareState::ready)
       return fail(Code::deadline_exceeded, "the hardware did not open in time", hardware->name());
   }

@@ -44,6 +44,8 @@ std::string faults_of(const std::string& text) {
   return all_of(faults);
 }
 
+const hw::BaseFigures::Expected kPioneer{"Pioneer", idl::DIFFERENTIAL, 0.357};
+
 // As the simulator tells it to those who plan.
 Vec2 size_of(const sim::Shape& footprint) {
   if (std::holds_alternative<sim::Circle>(footprint)) return {};
@@ -138,10 +140,10 @@ TEST_CASE("a base is no faster than its file and its parameters say", "[hw][robo
   Owner owner;
   hw::BaseFigures base(owner);
   const hw::DriveLimits own{.max_speed = 0.5, .max_turn_rate = 9.0};
-  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.read(kPioneer).empty());
   CHECK(base.within(own).max_turn_rate == 9.0);
   owner.set("robot", kRobots + "pioneer_2dx.urdf");
-  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.read(kPioneer).empty());
   CHECK(base.within(own).max_speed == 0.5);  // less than the 2.2 m/s of the file
   CHECK(base.within(own).max_turn_rate == Approx(500.0 / 180.0 * 3.14159265358979));
   CHECK(base.within(0.76) == 0.5);
@@ -155,13 +157,13 @@ TEST_CASE("a base is steered as its file says, and tells how large it is and how
   Owner owner;
   hw::BaseFigures base(owner);
   const hw::DriveLimits own{.steer_gain = 0.5, .big_turn_angle = 1.5, .big_turn_speed = 0.1};
-  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.read(kPioneer).empty());
   CHECK(base.within(own).steer_gain == 0.5);
   CHECK_FALSE(base.traits().odometry);
   CHECK_FALSE(base.traits().sonars.is_known());
 
   owner.set("robot", kRobots + "pioneer_2dx.urdf");
-  CHECK(base.read(idl::DIFFERENTIAL).empty());
+  CHECK(base.read(kPioneer).empty());
   CHECK(base.within(own).steer_gain == 2.0);
   CHECK(base.within(own).big_turn_angle == Approx(1.0471975511966));
   CHECK(base.within(own).big_turn_speed == 0.3);
@@ -171,6 +173,18 @@ TEST_CASE("a base is steered as its file says, and tells how large it is and how
   CHECK(robot.width() == Approx(0.425));
   CHECK(base.traits().odometry);
   CHECK(base.traits().sonars == RangeErrorGuess{0.01, 0.01});
+}
+
+TEST_CASE("the file of quite another robot is a warning", "[hw][robot_file]") {
+  Owner owner;
+  hw::BaseFigures base(owner);
+  owner.set("robot", kRobots + "create2.urdf");
+  const auto faults = base.read(kPioneer);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].only_warns);
+  CHECK_THAT(faults[0].text, Contains("has a track of 0.235 m, and a Pioneer has one of about 0.357 m"));
+  owner.set("robot", kRobots + "nomad_scout.urdf");
+  CHECK(base.read(kPioneer).empty());  // a Scout's is nearly the same
 }
 
 TEST_CASE("a box on the deck of a round robot makes it larger than round", "[hw][robot_file]") {
@@ -202,12 +216,12 @@ TEST_CASE("the file of a robot that drives otherwise, or not at all, is refused"
   hw::BaseFigures base(owner);
   owner.set("robot", kRobots + "omni.urdf");
   CHECK_THAT(
-      all_of(base.read(idl::DIFFERENTIAL)),
+      all_of(base.read(kPioneer)),
       Contains("the file of a robot whose drive is holonomic, and the drive of this one is differential"));
   owner.set("robot", std::string(ORCA_SOURCE_DIR) + "/sim/fixtures/scanner_post.urdf");
-  CHECK_THAT(all_of(base.read(idl::DIFFERENTIAL)), Contains("has no <drive>"));
+  CHECK_THAT(all_of(base.read(kPioneer)), Contains("has no <drive>"));
   owner.set("robot", kRobots + "nobody.urdf");
-  CHECK_THAT(all_of(base.read(idl::DIFFERENTIAL)), Contains("nobody.urdf"));
+  CHECK_THAT(all_of(base.read(kPioneer)), Contains("nobody.urdf"));
 }
 
 TEST_CASE("a laser sits where the robot's file says, through all joints", "[hw][robot_file]") {

@@ -2,6 +2,8 @@
 // A link from a text, as it stands in a graph.
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+
 #include "link_talk.hpp"
 #include "orca/hw/link/make_link.hpp"
 #include "temp_folder.hpp"
@@ -83,4 +85,14 @@ TEST_CASE("a text that is no link is refused with what is wrong and how one is w
     CHECK(link.error().code == Code::invalid_argument);
     CHECK_THAT(link.error().message, Contains(reason) && Contains("a link is serial:/dev/ttyUSB0"));
   }
+}
+
+TEST_CASE("two names of one serial device have one real place", "[hw][link][text]") {
+  const TempFolder folder;
+  const std::string device = folder.write("ttyUSB0", "");
+  const std::string lasting = folder.file("usb-FTDI-if00");
+  std::filesystem::create_symlink(device, lasting);
+  CHECK(hw::link::real_place(lasting) == hw::link::real_place("serial:" + device));
+  CHECK(hw::link::real_place(folder.file("nobody")) == folder.file("nobody"));
+  CHECK(hw::link::real_place("emulated:pioneer") == "emulated:pioneer");
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "orca/base/time.hpp"
+
 namespace orca {
 
 /// Returns `text` with its middle left out if it has more than `most` bytes: "abc...(15000000 bytes)...xyz".
@@ -33,5 +35,8 @@ namespace orca {
 /// "a, b, c" for people; "nothing" if there are no names, "a, b and 3 more" if there are more than `most`. Each name
 /// is shortened to 200 bytes.
 [[nodiscard]] std::string listed(std::span<const std::string> names, std::size_t most = 20);
+
+/// A span of time for people, in seconds to three digits: "5 s", "0.2 s".
+[[nodiscard]] std::string seconds_text(Duration time);
 
 }  // namespace orca

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -111,6 +112,9 @@ class HardwareContainer : public DriverFunctions, public EndpointList {
 
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
+  /// Returns the parameters with which a graph would suit the device better, with their values, as far as the device has told: its
+  /// model. Empty before it is ready, and if the parameters suit it.
+  [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> learned() const { return {}; }
   /// Returns the line to the device, as its parameter `device` in the graph names it; empty: it has none.
   [[nodiscard]] const std::string& line_name() const { return line_name_; }
   /// Returns what was counted on that line, and the state of the device.

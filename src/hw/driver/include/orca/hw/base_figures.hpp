@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,11 @@
 #include "orca/hw/robot_figures.hpp"
 
 namespace orca::hw {
+
+/// Returns whether one of them is more than a warning.
+[[nodiscard]] inline bool any_refuses(const std::vector<HardwareFault>& faults) {
+  return !std::ranges::all_of(faults, &HardwareFault::only_warns);
+}
 
 /// The parameters that the drivers of all bases have: the robot's file, for how long a command holds, and how far the base goes.
 ///
@@ -44,10 +50,16 @@ class BaseFigures {
                  "Angle that it turns over the angle that its odometry tells with 1; measure it over some "
                  "turns."}) {}
 
+  /// The base that a driver drives.
+  struct Expected {
+    std::string model;  ///< For people: "Pioneer 2-DX".
+    idl::DriveType type = idl::DIFFERENTIAL;
+    double track = 0.0;  ///< [m] Usual diameter of the circle through its wheels; 0: not known.
+  };
+
   /// Reads the file, if there is one. To be called in prepare().
-  /// @param type  of the base that the driver drives.
-  /// @return what is wrong with the file.
-  [[nodiscard]] std::vector<HardwareFault> read(idl::DriveType type);
+  /// @return what is wrong with the file, and a warning if its robot has quite another track.
+  [[nodiscard]] std::vector<HardwareFault> read(const Expected& expected);
 
   /// Returns the limits, or those of the file where they are less. How the base is steered is as the file says, if it does.
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;

@@ -35,6 +35,11 @@ struct LinkOptions {
 [[nodiscard]] Result<std::unique_ptr<ByteLink>> make_link(std::string_view text,
                                                           const LinkOptions& options = {});
 
+/// Returns the path of the device that a serial link leads to now, whatever it is called in the text, and the text itself of any
+/// other link, and of one that leads nowhere.
+/// @thread  any.
+[[nodiscard]] std::string real_place(std::string_view text);
+
 /// Returns the path at which an emulation of that name offers its line: `$XDG_RUNTIME_DIR/orca/emulated/NAME`, or
 /// `/tmp/orca-<uid>/emulated/NAME` where there is no such folder.
 /// @thread  any that may read the environment.
