@@ -102,7 +102,9 @@ std::optional<emulators::GripperLook> WorldBody::gripper() const {
 std::optional<emulators::MirrorTurn> WorldBody::last_turn() const {
   if (!scan_) return std::nullopt;
   const LaserScanner& laser = robot_.lasers[0];
-  return emulators::MirrorTurn{scan_->stamp, laser.first_angle, laser.pitch, scan_->ranges};
+  const double sense = laser.upside_down ? -1.0 : 1.0;  // the device does not know how it hangs
+  return emulators::MirrorTurn{scan_->stamp, sense * laser.first_angle, sense * laser.pitch, scan_->ranges,
+                               laser.upside_down};
 }
 
 }  // namespace orca::sim

@@ -166,6 +166,15 @@ PlayerRobot::Bytes PlayerRobot::laser_geometry() const {
   return out.bytes();
 }
 
+// A server tells angles of the robot, however its laser hangs.
+std::optional<MirrorTurn> PlayerRobot::last_turn() const {
+  std::optional<MirrorTurn> turn = mirror_->last_turn();
+  if (!turn || !turn->upside_down) return turn;
+  turn->first_angle = -turn->first_angle;
+  turn->step = -turn->step;
+  return turn;
+}
+
 // What one turn of a mirror sees, counter-clockwise.
 PlayerRobot::Sector PlayerRobot::sector_of(const MirrorTurn& turn) {
   const double steps = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1) - 1);
@@ -174,7 +183,7 @@ PlayerRobot::Sector PlayerRobot::sector_of(const MirrorTurn& turn) {
 }
 
 PlayerRobot::Bytes PlayerRobot::laser_configuration() const {
-  const Sector seen = sector_of(mirror_->last_turn().value_or(MirrorTurn{}));
+  const Sector seen = sector_of(last_turn().value_or(MirrorTurn{}));
   PlayerWriter out;
   out.single(seen.from).single(seen.to).single(seen.step);
   out.single(settings_.laser_range).single(0.001).word(0).single(kTurns);
@@ -197,7 +206,7 @@ PlayerRobot::Bytes PlayerRobot::ranger_geometry(std::uint32_t device) const {
 // What Stage calls the resolution is the angle over the number of beams, not that from beam to beam.
 PlayerRobot::Bytes PlayerRobot::ranger_configuration(std::uint32_t device) const {
   const bool is_laser = device == kPlayerLaser;
-  const MirrorTurn turn = is_laser ? mirror_->last_turn().value_or(MirrorTurn{}) : MirrorTurn{};
+  const MirrorTurn turn = is_laser ? last_turn().value_or(MirrorTurn{}) : MirrorTurn{};
   const Sector seen = is_laser ? sector_of(turn) : Sector{-0.5 * kLobe, 0.5 * kLobe, kLobe};
   const double beams = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1));
   PlayerWriter out;
@@ -251,7 +260,7 @@ PlayerRobot::Bytes PlayerRobot::battery() const {
 }
 
 void PlayerRobot::look(TimePoint now) {
-  const std::optional<MirrorTurn> turn = mirror_->last_turn();
+  const std::optional<MirrorTurn> turn = last_turn();
   if (!turn || turn->ranges.empty() || now < next_scan_ || scanned_ == turn->stamp) return;
   scanned_ = turn->stamp;
   next_scan_ = now + settings_.scan_period;

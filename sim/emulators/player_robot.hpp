@@ -72,6 +72,7 @@ class PlayerRobot {
     double step = 0.0;
   };
 
+  [[nodiscard]] std::optional<MirrorTurn> last_turn() const;
   [[nodiscard]] static Sector sector_of(const MirrorTurn& turn);
   [[nodiscard]] std::optional<Bytes> request_of_base(std::uint32_t subtype,
                                                      std::span<const std::uint8_t> payload);

@@ -88,6 +88,18 @@ Words emulated_in(const TempFolder& folder) {
   return {"--profile", "emulate", "--set", "emulated=" + std::string(folder.path().filename())};
 }
 
+// The robot's file with its laser upright, or hanging upside down, at the same place.
+Words robot_with_laser(const std::string& robot, const std::string& origin, bool hangs,
+                       const TempFolder& folder) {
+  std::string text = read_text(source_file("sim/robots/" + robot + ".urdf"));
+  const std::string upright = "<origin xyz=\"" + origin + "\"/>";
+  REQUIRE(text.find(upright) != std::string::npos);
+  if (hangs)
+    text.replace(text.find(upright), upright.size(),
+                 "<origin xyz=\"" + origin + "\" rpy=\"3.141592653589793 0 0\"/>");
+  return {"--set", "robot=" + folder.write(robot + ".urdf", text)};
+}
+
 // The driver is told where the laser sits; the simulator reads it from the robot's file.
 void check_same_mount(const RecordTable::Row& real, const RecordTable::Row& sim) {
   for (const char* const field : {"pose.x", "pose.y", "pose.z", "pose.rotation.yaw", "angle_start"}) {
@@ -101,14 +113,22 @@ void check_same_mount(const RecordTable::Row& real, const RecordTable::Row& sim)
 TEST_CASE(
     "scans that went over the line are those of the world, to half a millimetre, from where they are taken",
     "[system][hardware]") {
+  const bool hangs = GENERATE(false, true);
+  CAPTURE(hangs);
   const TempFolder folder;
-  const RecordTable::Row sim = scan_at_start("pioneer2dx_sick", virtual_clock(), folder);
-  const RecordTable::Row real = scan_at_start("pioneer2dx_sick", emulated_in(folder), folder);
+  const Words robot = robot_with_laser("pioneer_2dx", "0.017 0.008 0.3", hangs, folder);
+  const RecordTable::Row sim = scan_at_start("pioneer2dx_sick", virtual_clock() + robot, folder);
+  const RecordTable::Row real = scan_at_start("pioneer2dx_sick", emulated_in(folder) + robot, folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
   const std::vector<double> got = numbers(real, "ranges");
   REQUIRE(wanted.size() == 181);
   REQUIRE(got.size() == 361);
   check_same_mount(real, sim);
+  CHECK(2.0 * number(real, "angle_increment") == Approx(number(sim, "angle_increment")));
+  CHECK((number(real, "angle_increment") < 0.0) == hangs);
+  const auto upright = numbers(scan_at_start("pioneer2dx_sick", virtual_clock(), folder), "ranges");
+  for (std::size_t i = 0; i < 181; ++i)
+    CHECK(wanted[i] == Approx(upright[hangs ? 180 - i : i]).margin(0.0101));
   int compared = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] >= number(sim, "max_range")) continue;  // nothing comes back
@@ -121,9 +141,12 @@ TEST_CASE(
 
 TEST_CASE("turns of an RPLIDAR that went over the line are those of the world, to half a millimetre",
           "[system][hardware]") {
+  const bool hangs = GENERATE(false, true);
+  CAPTURE(hangs);
   const TempFolder folder;
-  const RecordTable::Row sim = scan_at_start("create2_rplidar", virtual_clock(), folder);
-  const RecordTable::Row real = scan_at_start("create2_rplidar", emulated_in(folder), folder);
+  const Words robot = robot_with_laser("create2", "0 0 0.135", hangs, folder);
+  const RecordTable::Row sim = scan_at_start("create2_rplidar", virtual_clock() + robot, folder);
+  const RecordTable::Row real = scan_at_start("create2_rplidar", emulated_in(folder) + robot, folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
   const std::vector<double> got = numbers(real, "ranges");
   REQUIRE(wanted.size() == 360);
@@ -147,6 +170,8 @@ TEST_CASE("turns of an RPLIDAR that went over the line are those of the world, t
 
 TEST_CASE("scans of a Player server are those of the world, as a laser and as a ranger",
           "[system][hardware]") {
+  const bool hangs = GENERATE(false, true);  // a server tells the angles of the robot all the same
+  CAPTURE(hangs);
   const TempFolder folder;
   const RecordTable::Row sim = scan_at_start("player_robot", virtual_clock(), folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
@@ -156,8 +181,9 @@ TEST_CASE("scans of a Player server are those of the world, as a laser and as a 
     CAPTURE(how);
     const RecordTable::Row real =
         scan_at_start("player_robot",
-                      {"--profile", "emulate", "--set", "emulated=" + std::to_string(free_port()), "--set",
-                       how[0], "--set", how[1]},
+                      Words{"--profile", "emulate", "--set", "emulated=" + std::to_string(free_port()),
+                            "--set", how[0], "--set", how[1]} +
+                          robot_with_laser("pioneer_2dx", "0.017 0.008 0.3", hangs, folder),
                       folder);
     const std::vector<double> got = numbers(real, "ranges");
     REQUIRE(got.size() == 181);

@@ -50,17 +50,20 @@ void mount_turret(Turret& turret, const UrdfBody& body, const xml::Attributes& e
                         "and spheres on it: the simulator does not turn it");
 }
 
-// Reports a link that looks up, down or upside down.
-void check_upright(const UrdfBody& body, const xml::Attributes& e) {
+// Returns the part of the z axis that points up: 1 of what is level, -1 of what hangs upside down.
+double upright(const Pose3& X) { return 1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy); }
+
+// Reports a link that looks up or down, or is upside down and no laser's.
+void check_upright(const UrdfBody& body, const xml::Attributes& e, bool is_laser) {
   const xml::Attribute* a = e.attribute("link");
   const auto link = a != nullptr ? body.links.find(a->value) : body.links.end();
   if (link == body.links.end()) return;
-  const Pose3& X = link->second;
-  if (1.0 - 2.0 * (X.qx * X.qx + X.qy * X.qy) < kUpright)
-    e.error_at(
-        "link", robot_codes::kContradiction,
-        "the link " + in_quotes(a->value) +
-            " is tilted: sensors and grippers of the simulator look horizontally, their z axis points up");
+  const double up = upright(link->second);
+  if (up < kUpright && !(is_laser && up <= -kUpright))
+    e.error_at("link", robot_codes::kContradiction,
+               "the link " + in_quotes(a->value) +
+                   " is tilted: sensors and grippers of the simulator look horizontally, their z axis points "
+                   "up; a laser may hang upside down, its z axis pointing down");
 }
 
 Pose2 flat(const Pose3& X) {
@@ -83,6 +86,17 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
     sensor.center = flat(link->second);
     sensor.height = link->second.z;
     sensor.on_turret = is_on(turret, sensor.link);
+  }
+}
+
+// A laser that hangs upside down measures in the other sense.
+void turn_over(std::vector<LaserScanner>& lasers, const UrdfBody& body) {
+  for (LaserScanner& laser : lasers) {
+    const auto link = body.links.find(laser.link);
+    if (link == body.links.end() || upright(link->second) > 0.0) continue;
+    laser.upside_down = true;
+    laser.first_angle = -laser.first_angle;
+    laser.pitch = -laser.pitch;
   }
 }
 
@@ -118,11 +132,13 @@ void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& 
                    xml::Reporter& reporter) {
   const xml::Element* turret = only_child(orca, "turret");
   if (turret != nullptr && model.turret) mount_turret(*model.turret, body, {*turret, kRobotFile, reporter});
-  for (const xml::Element& e : orca.children()) check_upright(body, {e, kRobotFile, reporter});
+  for (const xml::Element& e : orca.children())
+    check_upright(body, {e, kRobotFile, reporter}, e.name() == "laser");
   const auto joint = model.turret ? body.joints.find(model.turret->joint) : body.joints.end();
   const UrdfJoint* turns = joint != body.joints.end() ? &joint->second : nullptr;
   mount(model.sonars, body, turns);
   mount(model.lasers, body, turns);
+  turn_over(model.lasers, body);
   mount(model.infrareds, body, turns);
   const xml::Element* gripper = only_child(orca, "gripper");
   if (gripper != nullptr && model.gripper)

@@ -12,6 +12,7 @@ std::vector<HardwareFault> LaserPlace::read() {
   std::vector<HardwareFault> faults;
   place_ = {*x_, *y_, *yaw_};
   height_ = *z_;
+  sense_ = *upside_down_ ? -1.0 : 1.0;
   if (!file_->empty()) read_file(faults);
   if (file_->empty() && !mount_->empty())
     faults.push_back({"mount", "it names a laser of the robot's file, and there is none; set robot, too"});
@@ -19,10 +20,11 @@ std::vector<HardwareFault> LaserPlace::read() {
 }
 
 void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
-  if (!(place_ == Pose2{}) || height_ != 0.0)
-    return faults.push_back({"robot",
-                             "the robot's file says where the laser sits, and so do x, y, z or yaw; leave "
-                             "these away, or the file"});
+  if (!(place_ == Pose2{}) || height_ != 0.0 || *upside_down_)
+    return faults.push_back(
+        {"robot",
+         "the robot's file says where the laser sits, and so do x, y, z, yaw or upside_down; leave "
+         "these away, or the file"});
   const auto figures = read_robot_figures(*file_, faults);
   if (!figures) return;
   std::vector<std::string> names;
@@ -40,6 +42,7 @@ void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
         {"mount", "the robot's file has no laser " + in_quotes(*mount_) + "; lasers: " + listed(names)});
   place_ = found->place;
   height_ = found->height;
+  sense_ = found->upside_down ? -1.0 : 1.0;
   errors_ = found->errors;
 }
 

@@ -93,9 +93,10 @@ class FiguresReader {
                    portable::atan2(place(1, 0), place(0, 0))};
     laser.height = place.translation().z();
     laser.errors = errors(e);
-    if (place(2, 2) < 1.0 - kLevel)
+    laser.upside_down = place(2, 2) < 0.0;
+    if (std::abs(place(2, 2)) < 1.0 - kLevel)
       complain(e, "the laser " + in_quotes(laser.name) +
-                      " is tilted; drivers know lasers that look horizontally only");
+                      " is tilted; drivers know lasers that look horizontally only, upright or upside down");
     return laser;
   }
 

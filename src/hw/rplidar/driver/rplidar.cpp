@@ -70,7 +70,7 @@ class Rplidar final : public orca::hw::LineDriver {
     laser.update_interval(orca::to_seconds(kUsualTurn));
     laser.mount(orca::level_frame(place_.place(), place_.height()));
     laser.number(static_cast<std::uint32_t>(*beams_));
-    laser.angle_start(std::numbers::pi);
+    laser.angle_start(place_.sense() * std::numbers::pi);
     laser.angle_increment(increment());
     laser.min_range(kMinRange);
     laser.max_range(*max_range_);
@@ -136,7 +136,9 @@ class Rplidar final : public orca::hw::LineDriver {
     if (*mode_ == "express") return ScanMode::express;
     return *mode_ == "standard" ? ScanMode::standard : ScanMode::automatic;
   }
-  [[nodiscard]] double increment() const { return -2.0 * std::numbers::pi / static_cast<double>(*beams_); }
+  [[nodiscard]] double increment() const {
+    return -place_.sense() * 2.0 * std::numbers::pi / static_cast<double>(*beams_);
+  }
 
   void meet() {
     const DeviceInfo& info = session_->info();
@@ -185,7 +187,7 @@ class Rplidar final : public orca::hw::LineDriver {
     object->max_range(*max_range_);
     object->pose(orca::level_pose(place_.place(), place_.height(), turn.stamp));
     object->stamp(orca::to_time_value(turn.stamp));
-    object->angle_start(std::numbers::pi);
+    object->angle_start(place_.sense() * std::numbers::pi);
     object->angle_increment(increment());
     object->time_increment(orca::to_seconds(turn.period) / static_cast<double>(*beams_));
     orca::set_uncertainty(*object, place_.errors());

@@ -88,8 +88,8 @@ class SickLms final : public orca::hw::LineDriver {
     laser.update_interval(orca::to_seconds(scan_period(variant_, expected_rate())));
     laser.mount(orca::level_frame(place_.place(), place_.height()));
     laser.number(static_cast<std::uint32_t>(beams(variant_)));
-    laser.angle_start(beam_angle(variant_, 0));
-    laser.angle_increment(increment(variant_));
+    laser.angle_start(place_.sense() * beam_angle(variant_, 0));
+    laser.angle_increment(place_.sense() * increment(variant_));
     laser.min_range(0.0);
     laser.max_range(scale_.max_range);
     robot.laser_sensors().push_back(laser);
@@ -213,8 +213,8 @@ class SickLms final : public orca::hw::LineDriver {
     object->max_range(scale_.max_range);
     object->pose(orca::level_pose(place_.place(), place_.height(), stamp));
     object->stamp(orca::to_time_value(stamp));
-    object->angle_start(beam_angle(variant_, 0));
-    object->angle_increment(increment(variant_));
+    object->angle_start(place_.sense() * beam_angle(variant_, 0));
+    object->angle_increment(place_.sense() * increment(variant_));
     // Beams of several turns are not measured in their order.
     const bool in_order = variant_.resolution == 100;
     object->time_increment(in_order ? orca::to_seconds(mirror_time(variant_)) / 360.0 : 0.0);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <numbers>
 
 #include "orca/geometry/angle.hpp"
 #include "orca/hw/base_figures.hpp"
@@ -224,6 +225,35 @@ TEST_CASE("the file of a robot that drives otherwise, or not at all, is refused"
   CHECK_THAT(all_of(base.read(kPioneer)), Contains("nobody.urdf"));
 }
 
+TEST_CASE("a laser that hangs upside down measures in the other sense, for drivers and in the simulator",
+          "[hw][robot_file]") {
+  const TempFolder folder;
+  std::string text = read_text(kRobots + "pioneer_2dx.urdf");
+  const std::string upright = R"(<origin xyz="0.017 0.008 0.3"/>)";
+  REQUIRE(text.find(upright) != std::string::npos);
+  text.replace(text.find(upright), upright.size(),
+               R"(<origin xyz="0.017 0.008 0.3" rpy="3.141592653589793 0 0.5"/>)");
+  const std::string file = folder.write("hanging.urdf", text);
+  xml::Diagnostics diagnostics;
+  const auto model = sim::read_robot(file, diagnostics);
+  REQUIRE(model);
+  CHECK(model->lasers[0].upside_down);
+  CHECK(model->lasers[0].first_angle == Approx(0.5 * std::numbers::pi));
+  CHECK(model->lasers[0].pitch == Approx(-std::numbers::pi / 180.0));
+  CHECK(model->lasers[0].center.yaw == Approx(0.5));
+  Owner owner;
+  hw::LaserPlace place(owner, "its middle beam");
+  owner.set("robot", file);
+  REQUIRE(place.read().empty());
+  CHECK(place.sense() == -1.0);
+  CHECK(place.place().yaw == Approx(0.5));
+  owner.set("upside_down", true);
+  CHECK_THAT(all_of(place.read()), Contains("leave these away, or the file"));
+  owner.set("robot", std::string());
+  REQUIRE(place.read().empty());
+  CHECK(place.sense() == -1.0);
+}
+
 TEST_CASE("a laser sits where the robot's file says, through all joints", "[hw][robot_file]") {
   Placed laser(kTwoLasers);
   laser.owner.set("mount", std::string("high"));
@@ -241,7 +271,7 @@ TEST_CASE("a laser whose place is not clear is refused with what to do", "[hw][r
   CHECK_THAT(laser.faults(), Contains("has no laser \"middle\"; lasers: low, high"));
   laser.owner.set("mount", std::string("low"));
   laser.owner.set("z", 0.3);
-  CHECK_THAT(laser.faults(), Contains("and so do x, y, z or yaw; leave these away, or the file"));
+  CHECK_THAT(laser.faults(), Contains("and so do x, y, z, yaw or upside_down; leave these away"));
   Placed blind(R"(<robot name="r"><orca radius="20 cm"/></robot>)");
   CHECK_THAT(blind.faults(), Contains("has no laser; leave it away, and set x, y, z and yaw"));
   Owner owner;

@@ -69,6 +69,8 @@ struct MirrorTurn {
   double first_angle = 0.0;        ///< [rad] of the first beam from ahead, positive to the left.
   double step = 0.0;               ///< [rad] from beam to beam; positive: to the left.
   std::span<const double> ranges;  ///< [m] one per beam; infinite: no return.
+  bool upside_down =
+      false;  ///< Whether the laser hangs upside down. The angles are as it sees them all the same.
 };
 
 /// What a scanning laser's mirror shows it.

@@ -37,6 +37,8 @@ struct LaserScanner {
   Pose2 center;             ///< Pose of that link in the base frame.
   double height = 0.0;      ///< [m] Height of that link above the floor.
   bool on_turret = false;   ///< Whether that link turns with the turret.
+  /// Whether it hangs upside down. The angles above are those of a level frame all the same; its own are their negatives.
+  bool upside_down = false;
   DeviceLabel label{};
   Guesses<RangeErrorGuess> errors{};
 };

@@ -31,7 +31,8 @@ class LaserPlace {
         y_(owner, "y", 0.0, {.unit = "m", .text = "To the left of the middle."}),
         z_(owner, "z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}),
         yaw_(owner, "yaw", 0.0,
-             {.unit = "rad", .text = "Direction of " + direction + ", 0 ahead, positive to the left."}) {}
+             {.unit = "rad", .text = "Direction of " + direction + ", 0 ahead, positive to the left."}),
+        upside_down_(owner, "upside_down", false, {.text = "Whether it hangs upside down."}) {}
 
   /// Finds out where it sits. To be called in prepare().
   /// @return what is wrong with the parameters or the file.
@@ -41,6 +42,8 @@ class LaserPlace {
   [[nodiscard]] const Pose2& place() const { return place_; }
   /// Returns the height of its beams above the floor [m].
   [[nodiscard]] double height() const { return height_; }
+  /// Returns the factor on its angles: -1 if it hangs upside down, else 1.
+  [[nodiscard]] double sense() const { return sense_; }
   /// Returns how wrong its ranges are, as far as the robot's file guesses it.
   [[nodiscard]] const RangeErrorGuess& errors() const { return errors_; }
 
@@ -53,8 +56,10 @@ class LaserPlace {
   Param<double> y_;
   Param<double> z_;
   Param<double> yaw_;
+  Param<bool> upside_down_;
   Pose2 place_;
   double height_ = 0.0;
+  double sense_ = 1.0;
   RangeErrorGuess errors_;
 };
 

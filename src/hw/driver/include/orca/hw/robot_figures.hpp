@@ -30,6 +30,7 @@ struct RobotFigures {
     std::string name;
     Pose2 place;          ///< In the robot frame.
     double height = 0.0;  ///< [m] Above the floor.
+    bool upside_down = false;
     RangeErrorGuess errors{};
   };
 
