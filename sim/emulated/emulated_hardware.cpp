@@ -34,6 +34,7 @@ class EmulatedHardware final : public SimulatedRobot {
     add_sensor(truth_);
     const auto wishes = read_devices(*lines_text_);
     if (!wishes) return {{"lines", wishes.error().message}};
+    lines_.clear();
     kinds_.clear();
     for (const DeviceWish& wish : *wishes) {
       kinds_.push_back(wish.kind);

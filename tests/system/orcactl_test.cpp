@@ -252,6 +252,20 @@ TEST_CASE("an emergency stop holds the robot whatever is commanded, until it is 
   system.stop();
 }
 
+TEST_CASE("a goal is not given up because an operator holds the robot, and goes on when it is let go",
+          "[system][orcactl]") {
+  System system({kScout, "--set", "goto.blocked_after=2"});
+  system.await_work();
+  REQUIRE(comes_true([] { return speed() > 0.1; }, Seconds(10)));
+  REQUIRE(run_orcactl({"estop"}).exit_code() == 0);
+  std::this_thread::sleep_for(std::chrono::seconds(5));
+  CHECK(speed() < 0.01);
+  REQUIRE(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(comes_true([] { return speed() > 0.1; }, Seconds(10)));
+  CHECK_THAT(system.program().out(), !Contains("failed "));
+  system.stop();
+}
+
 TEST_CASE("an operator pauses a component, changes its parameters, and starts its process again",
           "[system][orcactl]") {
   System system({kScout});

@@ -214,6 +214,11 @@ ExitCode run(const Options& options) {
         fail(
             Code::invalid_argument,
             "--watch: code is exchanged in host processes only; leave out --in-process and --clock virtual"));
+  if (options.hold)
+    return refuse_option(codes::kExcluding,
+                         fail(Code::invalid_argument,
+                              "--hold: orcactl, which releases it, reaches host processes only; leave out "
+                              "--in-process and --clock virtual"));
   if (!options.machine.empty())
     return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
                                                  "--machine: here everything runs in this process; leave it "

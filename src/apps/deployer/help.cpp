@@ -29,6 +29,8 @@ How to run it
   --machine NAME        the machine of the graph that this is; start the deployer on each of them, in any order
   --in-process          everything in this process, for a debugger, instead of host processes below it; the virtual clock
                         always does so
+  --hold                nothing moves before orcactl estop --release: for a first motion, and for a deployer that a
+                        service starts
   --watch               while you develop: when the plugin of a component is built anew, its code is exchanged while the
                         system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph
                         that is saved is carried out like with orcactl apply

@@ -198,6 +198,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--strict", flag(&Options::strict)},
       {"--json", flag(&Options::json)},
       {"--in-process", flag(&Options::in_process)},
+      {"--hold", flag(&Options::hold)},
       {"--watch", flag(&Options::watch)},
       {"--stats", flag(&Options::stats)},
       {"--progress", progress(true)},

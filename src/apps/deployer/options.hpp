@@ -37,6 +37,7 @@ struct Options {
   bool json = false;                        ///< Output for programs.
   bool stats = false;                       ///< Write what the connections of a run carried.
   bool watch = false;                       ///< Code that is built anew takes the place of the old one.
+  bool hold = false;                        ///< Nothing moves before an operator releases it.
   bool in_process = false;                  ///< No host processes, whatever the graph says.
   bool chooses_executor = false;            ///< --executor was given.
   std::string machine;                      ///< The one of the graph that this is; empty: not given.

@@ -180,6 +180,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
     return read_system(options, source, stop);
   };
   supervised.watches = options.watch;
+  supervised.holds = options.hold;
   if (options.watch) supervised.graph_files = files_of(options, stop);
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;

@@ -16,7 +16,7 @@
 namespace orca::hwprobe {
 namespace {
 
-constexpr std::size_t kLongestList = 32;  // of which each number is shown
+constexpr std::size_t kLongestList = 64;  // of which each number is shown
 constexpr std::array kUntold{"creation_time", "origin", "seq", "mission", "stamp", "stamps"};
 
 std::string rounded(double value) {
@@ -46,6 +46,7 @@ std::string overview(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Result<double> value = xml::parse_number(words[i]);
     if (!value) continue;
+    if (!smallest) high = *value;
     if (!smallest || *value < low) {
       smallest = i;
       low = *value;

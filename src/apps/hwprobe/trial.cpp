@@ -162,9 +162,12 @@ Result<Finding> try_driver(host::PluginCatalogue& catalogue, const std::string& 
   if (!loaded) return loaded.error();
   Result<Finding> finding = try_with(*loaded, port, {}, look);
   if (!finding || finding->learned.empty()) return finding;
-  const Learned learned = finding->learned;
-  finding = try_with(*loaded, port, learned, look);
-  if (finding) finding->learned = learned;
+  Result<Finding> closer = try_with(*loaded, port, finding->learned, look);
+  if (closer && closer->answers) {
+    closer->learned = finding->learned;
+    return closer;
+  }
+  finding->said.push_back("it did not answer a second time, as what it calls itself");
   return finding;
 }
 

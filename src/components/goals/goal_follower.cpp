@@ -166,6 +166,7 @@ void GoalFollower::push_goal(const Target& target) {
 
 // Returns whether it has given up the route. It does not as long as nobody wants to know.
 bool GoalFollower::is_hopeless(const Pose2& pose) {
+  if (are_motors_held()) patience_.begin();  // that it stands is somebody's wish
   const double stuck = patience_.note(distance(next_place(pose), pose), now());
   const idl::GoalPoint& next = route_.next();
   if (failed_.subscriber_count() == 0 || next.reach_radius().distance() <= 0.0) return false;
@@ -179,6 +180,12 @@ bool GoalFollower::is_hopeless(const Pose2& pose) {
     return false;
   }
   return true;
+}
+
+bool GoalFollower::are_motors_held() const {
+  const std::vector<idl::Alarm> alarms = kept_alarms();
+  return std::ranges::any_of(
+      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == "ESTOP" && alarm.active(); });
 }
 
 // Names what the robot drives to now, for people.

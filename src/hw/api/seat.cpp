@@ -75,6 +75,11 @@ bool HardwareSeat::has_line() const {
   return !driver_->line_name().empty();
 }
 
+bool HardwareSeat::moves() const {
+  const std::lock_guard lock(mutex_);
+  return driver_->motion() != nullptr || !driver_->actuators().empty();
+}
+
 idl::DeviceStatistics HardwareSeat::statistics() const {
   const std::lock_guard lock(mutex_);
   return driver_->statistics();

@@ -93,8 +93,7 @@ class HardwareServer::SensorPorts {
 
   [[nodiscard]] std::string older_than(TimePoint since, TimePoint stamp) const {
     return "the latest reading was sensed " + seconds_text(since - stamp) +
-           " s before the time that is asked for; ask " + "again: one comes every " +
-           seconds_text(sensor_.period);
+           " before the time that is asked for; ask again: one comes every " + seconds_text(sensor_.period);
   }
 
   HardwareServer& server_;

@@ -19,7 +19,7 @@ namespace {
 using xml::Element;
 
 constexpr double kLevel = 1e-9;  // what a level laser may be off, as 1 - cos of the tilt
-constexpr double kMostBumpers = 64.0;
+constexpr std::int64_t kMostBumpers = 64;
 
 // Reads a robot file and notes what is wrong with it. It looks only for what drivers need: the simulator checks the whole.
 class FiguresReader {
@@ -37,7 +37,7 @@ class FiguresReader {
                "there is no element <orca> with the robot's figures; docs/robot-files.md describes it");
       return figures;
     }
-    figures.radius = number(*orca, "radius", "m");
+    figures.radius = positive(*orca, "radius", "m");
     figures.bumper_radius =
         orca->attribute("bumper_radius") != nullptr ? number(*orca, "bumper_radius", "m") : figures.radius;
     if (const Element* const drive = child_of(*orca, "drive")) figures.wheels = wheels(*drive);
@@ -53,17 +53,32 @@ class FiguresReader {
     if (e.name() == "laser") figures.lasers.push_back(laser(e));
     if (e.name() == "odometry") figures.wheel_errors = wheel_errors(e);
     if (e.name() == "sonar_ring" && !figures.sonar_errors.is_known()) figures.sonar_errors = errors(e);
-    if (e.name() == "bumper_ring" && figures.bumpers.empty()) figures.bumpers = bumpers(e);
+    if (e.name() == "bumper_ring") add_bumpers(e, figures.bumpers);
   }
 
   void complain(const Element& at, const std::string& what) {
     faults_.push_back({"robot", at.position().text() + ": " + what});
   }
 
-  double number(const Element& e, const char* name, const char* si) {
+  double any_number(const Element& e, const char* name, const char* si) {
     const Result<double> value = xml::parse_quantity(text_of(e, name), si);
     if (!value) complain(e, "<" + e.name() + "> needs " + name + " in " + si + ": " + value.error().message);
     return value ? *value : 0.0;
+  }
+
+  // A driver would steer a robot with these: what makes no sense must not get that far.
+  double number(const Element& e, const char* name, const char* si) {
+    const double value = any_number(e, name, si);
+    if (value < 0.0) complain(e, "<" + e.name() + ">: " + name + " must not be negative");
+    return value;
+  }
+
+  double positive(const Element& e, const char* name, const char* si) {
+    const std::size_t before = faults_.size();
+    const double value = number(e, name, si);
+    if (value == 0.0 && faults_.size() == before)
+      complain(e, "<" + e.name() + ">: " + name + " must be more than 0");
+    return value;
   }
 
   std::optional<double> optional(const Element& e, const char* name, const char* si) {
@@ -76,11 +91,10 @@ class FiguresReader {
     const std::string type = text_of(drive, "type");
     if (type == "synchro") wheels.type = idl::SYNCHRO;
     if (type == "holonomic") wheels.type = idl::HOLONOMIC;
-    wheels.max_speed = number(drive, "max_speed", "m/s");
-    wheels.max_turn_rate = number(drive, "max_steer_speed", "rad/s");
-    wheels.max_acceleration = number(drive, "max_acceleration", "m/s2");
-    wheels.track = number(drive, "track", "m");
-    wheels.steer_gain = optional(drive, "steer_gain", "");
+    wheels.max_speed = positive(drive, "max_speed", "m/s");
+    wheels.max_turn_rate = positive(drive, "max_steer_speed", "rad/s");
+    wheels.max_acceleration = positive(drive, "max_acceleration", "m/s2");
+    wheels.track = positive(drive, "track", "m");
     wheels.big_turn_angle = optional(drive, "big_turn_angle", "rad");
     wheels.big_turn_speed = optional(drive, "big_turn_speed", "m/s");
     return wheels;
@@ -116,16 +130,23 @@ class FiguresReader {
     return {};
   }
 
-  // The directions of the middles of all bumpers.
-  std::vector<double> bumpers(const Element& e) {
-    const std::string list = text_of(e, "angles");
-    if (!list.empty()) return angles(e, list);
-    const double first = optional(e, "first_angle", "rad").value_or(0.0);
-    const double pitch = number(e, "pitch", "rad");
-    std::vector<double> all;
-    const double count = std::min(xml::parse_number(text_of(e, "count")).value_or(0.0), kMostBumpers);
-    for (int i = 0; i < count; ++i) all.push_back(wrapped(first + i * pitch));
-    return all;
+  // Adds the directions of the middles of a ring's bumpers.
+  void add_bumpers(const Element& e, std::vector<double>& all) {
+    const Result<std::int64_t> count = xml::parse_integer(text_of(e, "count"));
+    if (!count || *count < 1 || *count > kMostBumpers)
+      return complain(
+          e, "<bumper_ring> needs count, the number of its bumpers, up to " + std::to_string(kMostBumpers));
+    std::vector<double> ring;
+    if (const std::string list = text_of(e, "angles"); !list.empty()) {
+      ring = angles(e, list);
+      if (std::ssize(ring) != *count) complain(e, "<bumper_ring> has another count than angles");
+    } else {
+      const double first = e.attribute("first_angle") != nullptr ? any_number(e, "first_angle", "rad") : 0.0;
+      const double pitch = any_number(e, "pitch", "rad");
+      for (std::int64_t i = 0; i < *count; ++i)
+        ring.push_back(wrapped(first + static_cast<double>(i) * pitch));
+    }
+    all.insert(all.end(), ring.begin(), ring.end());
   }
 
   std::vector<double> angles(const Element& e, const std::string& list) {

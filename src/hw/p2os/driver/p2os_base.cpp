@@ -141,12 +141,12 @@ class P2osBase final : public orca::hw::LineDriver {
   using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
 
   void declare_endpoints() {
-    senses_.emplace(*model_, Senses::Extras{bumpers(), has_gripper()});
+    senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()});
     senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                  .steer_gain = 2.0,
+                                  .steer_gain = 1.0,
                                   .big_turn_angle = std::numbers::pi / 3.0,
                                   .big_turn_speed = 0.3}),
                     base_.max_command_age());
@@ -160,6 +160,10 @@ class P2osBase final : public orca::hw::LineDriver {
 
   [[nodiscard]] std::vector<double> bumpers() const {
     return base_.figures() != nullptr ? base_.figures()->bumpers : Senses::usual_bumpers(*model_);
+  }
+
+  [[nodiscard]] double bumper_radius() const {
+    return base_.figures() != nullptr ? base_.figures()->bumper_radius : model_->radius;
   }
 
   [[nodiscard]] static bool fits_packet(const std::vector<double>& bumpers) {

@@ -39,6 +39,7 @@ Senses::Senses(const Model& model, const Extras& extras)
     : model_(model),
       units_(&model),
       bumper_ring_(named(extras.bumpers)),
+      bumper_radius_(extras.bumper_radius),
       has_gripper_(extras.has_gripper),
       odometry_(kPeriod),
       sonar_(kPeriod),
@@ -128,7 +129,7 @@ void Senses::publish_bumpers() {
     object->pressed().push_back(is_pressed(bumper));
     object->names().push_back(bumper.name);
     object->poses().push_back(
-        level_frame({model_.radius * out.x, model_.radius * out.y, bumper.direction}, 0.0));
+        level_frame({bumper_radius_ * out.x, bumper_radius_ * out.y, bumper.direction}, 0.0));
   }
   object->stamp(to_time_value(stamp_));
   bumpers_.publish(std::move(object));
@@ -172,7 +173,13 @@ std::vector<Obstruction::Pressed> Senses::pressed() const {
   return all;
 }
 
-std::vector<Senses::Bumper> Senses::named(const std::vector<double>& directions) {
+// The controller counts them clockwise: in front from the left to the right, behind from the right to the left.
+std::vector<Senses::Bumper> Senses::named(std::vector<double> directions) {
+  const auto from_the_left = [](double direction) {
+    const double clockwise = 0.5 * std::numbers::pi - direction;
+    return clockwise < 0.0 ? clockwise + 2.0 * std::numbers::pi : clockwise;
+  };
+  std::ranges::sort(directions, {}, from_the_left);
   std::vector<Bumper> all;
   unsigned front = 0;
   unsigned rear = 0;

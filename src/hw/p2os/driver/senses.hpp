@@ -25,8 +25,8 @@ class Senses {
  public:
   /// What a robot has besides what its model says.
   struct Extras {
-    std::vector<double>
-        bumpers;  ///< [rad] Directions in which they face, in the order of their bits on each side.
+    std::vector<double> bumpers;  ///< [rad] Directions in which they face, in any order.
+    double bumper_radius = 0.0;   ///< [m] Where they sit, from the middle.
     bool has_gripper = false;
   };
   /// Returns the bumpers that the model usually has.
@@ -70,12 +70,13 @@ class Senses {
     unsigned bit;
     std::string name;
   };
-  [[nodiscard]] static std::vector<Bumper> named(const std::vector<double>& directions);
+  [[nodiscard]] static std::vector<Bumper> named(std::vector<double> directions);
   [[nodiscard]] bool is_pressed(const Bumper& bumper) const;
 
   const Model& model_;
   const Model* units_;
   const std::vector<Bumper> bumper_ring_;
+  const double bumper_radius_;
   const bool has_gripper_;
   BaseOdometry odometry_;
   RangeErrorGuess sonar_errors_;

@@ -49,7 +49,7 @@ class PlayerBase final : public orca::hw::LineDriver {
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
                                           .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 2.0,
+                                          .steer_gain = 1.0,
                                           .big_turn_angle = std::numbers::pi / 3.0,
                                           .big_turn_speed = 0.3},
                     orca::from_seconds(*max_command_age_));

@@ -41,7 +41,7 @@ constexpr int kBlindTurns = 50;     // without any echo, until that is said
 /// Its motor turns as long as somebody uses it. It is switched by the adapter's line DTR, which other links than a serial port do not
 /// have: there the motor turns as the adapter lets it.
 ///
-/// A scan is a turn. It begins behind and goes clockwise as the head does, so the angles of its beams, counter-clockwise, decrease.
+/// A scan is a turn. It begins behind and goes clockwise as the head does, so the angles of its beams, counter-clockwise, decrease; upside down they increase.
 class Rplidar final : public orca::hw::LineDriver {
  public:
   explicit Rplidar(orca::hw::HardwareHost& host) : LineDriver(host, "/dev/ttyUSB0", {.baud = kBaud}) {}

@@ -174,9 +174,7 @@ void System::stop_hardware(Duration limit) {
 bool System::hold(const std::string& reason, Movers what) {
   bool are_there = false;
   for (const auto& hardware : hardware_) {
-    const hw::HardwareContainer& device = hardware->driver().container();
-    const bool moves = device.motion() != nullptr || !device.actuators().empty();
-    if (what == Movers::on_lines && (device.line_name().empty() || !moves)) continue;
+    if (what == Movers::on_lines && !(hardware->seat().has_line() && hardware->seat().moves())) continue;
     hardware->seat().hold(reason);
     are_there = true;
   }

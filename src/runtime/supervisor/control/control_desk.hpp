@@ -45,6 +45,8 @@ class ControlDesk {
   /// files is saved, the main one first.
   void watch(std::vector<std::string> graph_files);
 
+  /// Stops all motors, and holds them until an operator releases them, those of processes that come up later, too.
+  void hold() { motors_.stop(nullptr); }
   /// Notes that processes are built, before they open their hardware.
   void built(const std::vector<Member*>& members);
   /// Goes on with what an earlier supervisor has ordered a process.
@@ -53,8 +55,8 @@ class ControlDesk {
   void note(const ExchangedCode& code) { exchanging_.note(code); }
   /// Notes that a process has ended, or is about to be started.
   void lose(const Member& member) { applying_.lose(member.name()); }
-  /// Notes that a process was lost: what it moves stands when it is up again, until an operator releases it.
-  void distrust(const Member& member) { motors_.lose(member); }
+  /// Notes that a process has ended and may begin anew: what it moves stands then, until an operator releases it.
+  void distrust(const Member& member) { motors_.distrust(member); }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);
 

@@ -11,7 +11,9 @@ namespace orca::supervisor {
 namespace {
 
 constexpr const char* kLost =
-    "its process had ended while it may have driven; see where it stands, then orcactl estop --release";
+    "its process has ended while it may have driven, and odometry begins anew; see where it stands, then "
+    "orcactl estop "
+    "--release";
 constexpr const char* kReason = "emergency stop; an operator releases it with: orcactl estop --release";
 
 // Refuses to release what nobody holds, when all processes have said so. A base may also be held because its device had failed.
@@ -52,14 +54,14 @@ void MotorHold::stop(const ReplyPtr& reply) {
 
 void MotorHold::release(const ReplyPtr& reply) {
   const bool was_stopped = std::exchange(holds_, false);
-  lost_.clear();
   const auto refusal = std::make_shared<Refusal>(reply, !was_stopped);
-  for (Member* const member : members_)
-    if (member->is_built())
-      member->ask(ReleaseMotors{}, [refusal](const Status& outcome) { refusal->hear(outcome); });
+  for (Member* const member : members_) {
+    if (!member->is_built()) continue;
+    lost_.erase(member->name());
+    member->ask(ReleaseMotors{}, [refusal](const Status& outcome) { refusal->hear(outcome); });
+  }
   const std::string text = "the emergency stop is released; motors obey commands again";
-  if (was_stopped) log::warning(kLogName, text);
-  ledger_.settle_all(host::AlarmKind::estop, text);
+  if (ledger_.settle_all(host::AlarmKind::estop, text)) log::warning(kLogName, text);
 }
 
 void MotorHold::recall() {
@@ -69,15 +71,22 @@ void MotorHold::recall() {
   log::warning(kLogName, "the emergency stop holds all motors until orcactl estop --release");
 }
 
-void MotorHold::take_in(Member& member) const {
+void MotorHold::take_in(Member& member) {
   if (holds_) return member.tell(StopMotors{kReason});
-  if (!lost_.contains(member.name())) return;
-  member.ask(StopMotors{kLost, true}, [this, name = member.name()](const Status& held) {
-    if (!held.ok()) return;
-    const std::string text = "the motors of process " + name +
-                             " are held, because it had ended while they may have run; see where the robot "
-                             "stands, then orcactl estop --release";
-    ledger_.raise(host::AlarmKind::estop, "", text, name);
+  const std::string& process = member.name();
+  const bool was_held =
+      ledger_.is_active(host::AlarmKind::estop, process);  // under an earlier supervisor, too
+  if (!lost_.contains(process) && !was_held) return;
+  lost_.insert(process);
+  member.ask(StopMotors{kLost, true}, [this, process](const Status& held) {
+    if (!held.ok()) lost_.erase(process);
+    if (!held.ok() || !lost_.contains(process)) return;  // it moves nothing, or was released meanwhile
+    ledger_.raise(
+        host::AlarmKind::estop, "",
+        "the motors of process " + process +
+            " are held, because it has ended while they may have run, and odometry begins anew; see "
+            "where the robot stands, then orcactl estop --release",
+        process);
   });
 }
 

@@ -23,15 +23,16 @@ class MotorHold {
   MotorHold(const std::vector<Member*>& members, Ledger& ledger) : members_(members), ledger_(ledger) {}
 
   /// Stops all motors, and raises the alarm ESTOP. The answer ends when they are held in all processes.
+  /// @param reply  null: nobody asks.
   void stop(const ReplyPtr& reply);
   /// Lets them obey commands again. Nothing moves before the next command.
   void release(const ReplyPtr& reply);
 
-  /// Notes that a process has ended without an order. When it comes up again, its devices are held until release(): a robot
-  /// whose odometry and goals have begun anew must not go on by itself.
-  void lose(const Member& member) { lost_.insert(member.name()); }
+  /// Notes that a process has ended, by itself, with others, or to begin anew. When it comes up again, its devices are held until
+  /// release(): a robot whose odometry, and with it what goals mean, has begun anew must not go on by itself.
+  void distrust(const Member& member) { lost_.insert(member.name()); }
   /// Holds the motors of a process that has just been built, if all are held, or if it was lost.
-  void take_in(Member& member) const;
+  void take_in(Member& member);
 
   /// Goes on with a stop that an operator has ordered an earlier supervisor.
   void recall();

@@ -148,21 +148,26 @@ void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::
   note(own_alarm(kind, source, text), process, "");
 }
 
-void Ledger::settle(host::AlarmKind kind, const std::string& source, const std::string& text) {
-  const auto is_it = [&](const host::KeptAlarm& kept) {
+bool Ledger::is_active(host::AlarmKind kind, const std::string& source) const {
+  return std::ranges::any_of(alarms_.kept(), [&](const host::KeptAlarm& kept) {
     return kept.process.empty() && kept.alarm.kind() == host::to_string(kind) &&
            kept.alarm.source() == source && kept.alarm.active();
-  };
-  if (std::ranges::none_of(alarms_.kept(), is_it)) return;
+  });
+}
+
+void Ledger::settle(host::AlarmKind kind, const std::string& source, const std::string& text) {
+  if (!is_active(kind, source)) return;
   idl::Alarm settled = own_alarm(kind, source, text);
   settled.active(false);
   note(std::move(settled), "", "");
 }
 
-void Ledger::settle_all(host::AlarmKind kind, const std::string& text) {
+bool Ledger::settle_all(host::AlarmKind kind, const std::string& text) {
   std::set<std::string> sources;
-  for (const host::KeptAlarm& kept : alarms_.kept()) sources.insert(kept.alarm.source());
+  for (const host::KeptAlarm& kept : alarms_.kept())
+    if (is_active(kind, kept.alarm.source())) sources.insert(kept.alarm.source());
   for (const std::string& source : sources) settle(kind, source, text);
+  return !sources.empty();
 }
 
 Status Ledger::acknowledge(std::uint64_t number) {

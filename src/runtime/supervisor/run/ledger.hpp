@@ -56,8 +56,10 @@ class Ledger final : public host::RunView {
   /// there is no such alarm, nothing happens.
   /// @param text  what is so now, for people.
   void settle(host::AlarmKind kind, const std::string& source, const std::string& text);
-  /// The same for all alarms of a kind, whatever else they are about.
-  void settle_all(host::AlarmKind kind, const std::string& text);
+  /// The same for all alarms of a kind, whatever else they are about. @return whether there was any.
+  bool settle_all(host::AlarmKind kind, const std::string& text);
+  /// Returns whether there is such an alarm of the supervisor itself whose reason is not gone.
+  [[nodiscard]] bool is_active(host::AlarmKind kind, const std::string& source) const;
 
   /// Returns the alarms of all processes and of the supervisor that nobody has acknowledged yet, by number. They outlive
   /// their sources.

@@ -41,11 +41,11 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   const std::string text = "process " + member.name() + " " + how;
   Conclusion& conclusion = place_.conclusion;
   if (conclusion.is_over()) return lose_late(text, loss);
+  if (!place_.policy.is_dozing(member.index())) place_.control.distrust(member);
   if (place_.renewal.lose(member, loss.is_normal, how)) return;
   if (loss.is_unasked) place_.ledger.raise(host::AlarmKind::process_ended, member.name(), text);
   if (!conclusion.has_come_up()) return conclusion.fail_with(fail(Code::unavailable, text));
   const RestartDecision decision = place_.policy.ended(member.index(), loss.is_normal, Moment::clock::now());
-  if (loss.is_unasked || !place_.policy.is_asleep(member.index())) place_.control.distrust(member);
   if (place_.policy.has_finished(member.index()) && !decision.gives_up && runs_an_end(place_.graph, member))
     return conclusion.fail_with(fail(Code::unavailable, text));
   obey(decision, text);

@@ -75,6 +75,7 @@ class SupervisedRun {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
     control_.open(std::move(socket));
+    if (options_.holds) control_.hold();
     const Members missing = inherited_.empty() ? on_demand_.put_others_to_sleep() : take_over();
     gather();
     if (!conclusion_.is_over() && !missing.empty()) arrivals_.start(missing);
@@ -174,7 +175,7 @@ class SupervisedRun {
     trading_.brief(roster_.all());  // nobody knows any more what they use
     std::erase_if(missing, [this](const Member* member) {
       const Error gone = note_gone(*member, ledger_, policy_);
-      control_.distrust(*member);
+      if (!member->node().on_demand) control_.distrust(*member);
       const bool stays_away = policy_.has_finished(member->index());
       if (stays_away && runs_an_end(graph_, *member)) conclusion_.fail_with(gone);
       return stays_away;

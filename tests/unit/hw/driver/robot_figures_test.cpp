@@ -93,7 +93,6 @@ TEST_CASE("of each shipped robot a driver reads the same figures as the simulato
     CHECK(figures->wheels->max_turn_rate == model->drive.max_turn_rate);
     CHECK(figures->wheels->max_acceleration == model->drive.max_acceleration);
     CHECK(figures->wheels->track == model->drive.track);
-    CHECK(figures->wheels->steer_gain == model->drive.steer_gain);
     CHECK(figures->wheels->big_turn_angle == model->drive.big_turn_angle);
     CHECK(figures->wheels->big_turn_speed == model->drive.big_turn_speed);
     REQUIRE(figures->size);
@@ -165,7 +164,7 @@ TEST_CASE("a base is steered as its file says, and tells how large it is and how
 
   owner.set("robot", kRobots + "pioneer_2dx.urdf");
   CHECK(base.read(kPioneer).empty());
-  CHECK(base.within(own).steer_gain == 2.0);
+  CHECK(base.within(own).steer_gain == 0.5);
   CHECK(base.within(own).big_turn_angle == Approx(1.0471975511966));
   CHECK(base.within(own).big_turn_speed == 0.3);
   idl::Robot robot;
@@ -186,6 +185,41 @@ TEST_CASE("the file of quite another robot is a warning", "[hw][robot_file]") {
   CHECK_THAT(faults[0].text, Contains("has a track of 0.235 m, and a Pioneer has one of about 0.357 m"));
   owner.set("robot", kRobots + "nomad_scout.urdf");
   CHECK(base.read(kPioneer).empty());  // a Scout's is nearly the same
+}
+
+TEST_CASE("bumpers of several rings are one list, and one whose number is not clear is a fault",
+          "[hw][robot_file]") {
+  const auto with = [](const std::string& rings) {
+    return "<robot name='r'>\n<orca radius='0.2 m'>" + rings + "</orca></robot>";
+  };
+  const TempFolder folder;
+  std::vector<HardwareFault> faults;
+  const std::string two = with(
+      "<bumper_ring name='f' count='2' first_angle='-45 deg' pitch='90 deg'/>"
+      "<bumper_ring name='r' count='1' angles='180 deg' pitch='90 deg'/>");
+  const auto figures = hw::read_robot_figures(folder.write("r.urdf", two), faults);
+  INFO(all_of(faults));
+  REQUIRE(figures);
+  REQUIRE(figures->bumpers.size() == 3);
+  CHECK(figures->bumpers[0] == Approx(-0.25 * std::numbers::pi));
+  CHECK(figures->bumpers[1] == Approx(0.25 * std::numbers::pi));
+  CHECK(std::abs(figures->bumpers[2]) == Approx(std::numbers::pi));
+  CHECK_THAT(faults_of(with("<bumper_ring name='f' pitch='90 deg'/>")), Contains("needs count"));
+  CHECK_THAT(faults_of(with("<bumper_ring name='f' count='2.5' pitch='90 deg'/>")), Contains("needs count"));
+  CHECK_THAT(faults_of(with("<bumper_ring name='f' count='3' angles='0 90 deg' pitch='9 deg'/>")),
+             Contains("another count than angles"));
+}
+
+TEST_CASE("figures with which a robot could not be driven are faults", "[hw][robot_file]") {
+  const auto drive = [](const std::string& more) {
+    return faults_of(
+        "<robot name='r'>\n<orca radius='0.2 m'><drive max_speed='1 m/s' max_steer_speed='1 rad/s' "
+        "max_acceleration='1 m/s2' " +
+        more + "/></orca></robot>");
+  };
+  CHECK_THAT(drive("track='0 m'"), Contains("track must be more than 0"));
+  CHECK_THAT(drive("track='0.3 m' big_turn_speed='-0.3 m/s'"),
+             Contains("big_turn_speed must not be negative"));
 }
 
 TEST_CASE("a box on the deck of a round robot makes it larger than round", "[hw][robot_file]") {

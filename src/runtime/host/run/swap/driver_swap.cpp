@@ -71,8 +71,9 @@ Result<std::unique_ptr<HardwareInstance>> DriverSwap::make_driver() {
   const Result<ParamValues> values =
       inherited((*described)->contract().params, site_.place.driver().params(), order_.params);
   if (!values) return values.error();
-  if (const auto faults = (*described)->prepare(*values); !faults.empty())
-    return refuse(Code::invalid_argument, joined(texts_of(faults), "; "));
+  auto faults = (*described)->prepare(*values);
+  std::erase_if(faults, [](const HardwareFault& fault) { return fault.only_warns; });
+  if (!faults.empty()) return refuse(Code::invalid_argument, joined(texts_of(faults), "; "));
   auto driver = std::make_unique<HardwareInstance>(site_.run, order_.component, *type);
   if (Status made = driver->construct(*values); !made.ok()) return made.error();
   return driver;

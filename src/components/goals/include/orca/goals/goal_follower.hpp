@@ -85,6 +85,7 @@ class GoalFollower : public Component {
   [[nodiscard]] std::string doubt() const;
   [[nodiscard]] std::string place() const;
   bool is_hopeless(const Pose2& pose);
+  [[nodiscard]] bool are_motors_held() const;
   void end_route(idl::GoalFailure kind, const std::string& reason);
   void announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason);
 

@@ -113,7 +113,8 @@ class HardwareContainer : public DriverFunctions, public EndpointList {
   /// Returns what this hardware is, for clients that ask by Query.
   [[nodiscard]] virtual idl::Robot description() const = 0;
   /// Returns the parameters with which a graph would suit the device better, with their values, as far as the device has told: its
-  /// model. Empty before it is ready, and if the parameters suit it.
+  /// model. Empty if the parameters suit it.
+  /// @pre  state() is Ready.
   [[nodiscard]] virtual std::vector<std::pair<std::string, std::string>> learned() const { return {}; }
   /// Returns the line to the device, as its parameter `device` in the graph names it; empty: it has none.
   [[nodiscard]] const std::string& line_name() const { return line_name_; }

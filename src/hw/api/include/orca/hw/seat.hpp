@@ -60,6 +60,8 @@ class HardwareSeat final : public Device {
   [[nodiscard]] Duration max_command_age() const;
   /// Returns whether the hardware hangs on a line.
   [[nodiscard]] bool has_line() const;
+  /// Returns whether it has a base or other actuators.
+  [[nodiscard]] bool moves() const;
   /// Returns what was counted on that line.
   [[nodiscard]] idl::DeviceStatistics statistics() const;
   /// Returns what the hardware is.

@@ -17,14 +17,12 @@ namespace orca::hw {
 struct RobotFigures {
   struct Wheels {
     idl::DriveType type = idl::DIFFERENTIAL;
-    double max_speed = 0.0;         ///< [m/s]
-    double max_turn_rate = 0.0;     ///< [rad/s]
-    double max_acceleration = 0.0;  ///< [m/s2]
-    double track = 0.0;             ///< [m] Diameter of the circle through the wheels.
-    // How it is steered (DriveLimits); nothing: the file does not say it.
-    std::optional<double> steer_gain{};      ///< [1/s]
-    std::optional<double> big_turn_angle{};  ///< [rad]
-    std::optional<double> big_turn_speed{};  ///< [m/s]
+    double max_speed = 0.0;                  ///< [m/s]
+    double max_turn_rate = 0.0;              ///< [rad/s]
+    double max_acceleration = 0.0;           ///< [m/s2]
+    double track = 0.0;                      ///< [m] Diameter of the circle through the wheels.
+    std::optional<double> big_turn_angle{};  ///< [rad] As in DriveLimits; nothing: the file does not say it.
+    std::optional<double> big_turn_speed{};  ///< [m/s] Likewise.
   };
   struct Laser {
     std::string name;
@@ -40,7 +38,7 @@ struct RobotFigures {
   std::optional<Wheels> wheels{};
   WheelErrorGuess wheel_errors{};
   RangeErrorGuess sonar_errors{};
-  std::vector<double> bumpers{};  ///< [rad] Directions in which they face, in the order of the file.
+  std::vector<double> bumpers{};  ///< [rad] Directions in which those of all rings face.
   std::vector<Laser> lasers{};
   std::optional<std::string> gripper{};  ///< Its link; nothing: it has none.
 };

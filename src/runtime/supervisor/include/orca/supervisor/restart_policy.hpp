@@ -57,6 +57,10 @@ class RestartPolicy {
 
   /// Notes that a process on demand is about to be ended, because nobody needs it: that is no fault.
   void put_to_sleep(std::size_t process);
+  /// Returns whether a process is ended because nobody needs it.
+  [[nodiscard]] bool is_dozing(std::size_t process) const {
+    return processes_[process].state == State::dozing;
+  }
   /// Returns whether a process does not run and is to be started when it is needed.
   [[nodiscard]] bool is_asleep(std::size_t process) const {
     return processes_[process].state == State::asleep;

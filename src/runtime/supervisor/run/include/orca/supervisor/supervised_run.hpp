@@ -36,6 +36,7 @@ struct SupervisedOptions {
   std::vector<std::string> graph_files;  ///< That the graph was read from, the main one first.
   /// Code of components that is built anew takes the place of the old one, and a graph that is saved is carried out.
   bool watches = false;
+  bool holds = false;  ///< What moves is held from the start, until an operator releases it.
 };
 
 /// Runs a checked graph in host processes: starts them, brings everything up, watches, starts again what has died,
