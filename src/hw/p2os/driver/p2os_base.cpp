@@ -146,7 +146,7 @@ class P2osBase final : public orca::hw::LineDriver {
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                  .steer_gain = 1.0,
+                                  .steer_gain = 0.5,
                                   .big_turn_angle = std::numbers::pi / 3.0,
                                   .big_turn_speed = 0.3}),
                     base_.max_command_age());
