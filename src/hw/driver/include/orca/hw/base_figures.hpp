@@ -62,7 +62,7 @@ class BaseFigures {
   [[nodiscard]] std::vector<HardwareFault> read(const Expected& expected);
 
   /// Returns the limits, or those of the file where they are less. What is a big turn, and how fast the base drives in one, is as the
-  /// file says, if it does. The gain is the driver's: the file's is that of the simulator, whose sonars are not as late.
+  /// file says, if it does. The gain is the driver's.
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
