@@ -176,6 +176,10 @@ void Avoider::follow(const idl::Odometry& odometry) {
   twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};
 }
 
+double Avoider::age_of(TimePoint seen) const {
+  return to_seconds((remembers() && moved_at_ ? *moved_at_ : now()) - seen);
+}
+
 Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
 
 void Avoider::advise() {

@@ -106,7 +106,7 @@ LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
 void LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
                             std::uint32_t number) {
   const Pose2 mount = plane_pose(readings.pose());
-  const double age = to_seconds(now() - to_time_point(readings.stamp()));
+  const double age = age_of(to_time_point(readings.stamp()));
   const Vec2 place = moved_since(mount.position(), age);
   const double yaw = mount.yaw - turned_since(age);
   const Scan scan{readings.ranges(),      readings.min_range(),       readings.max_range(),

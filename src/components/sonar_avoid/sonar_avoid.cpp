@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "orca/avoidance/avoider.hpp"
 #include "orca/avoidance/free_way.hpp"
@@ -20,21 +22,34 @@ class SonarAvoid final : public orca::avoid::Avoider {
     return orca::object_type<orca::idl::SonarRangeReadings>();
   }
 
+  orca::Status start() override {
+    fired_.clear();
+    return Avoider::start();
+  }
+
   // An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below
   // the minimum range may be at the sonar itself. The sonars fire one after the other, and the robot moves
   // meanwhile.
   void listen(orca::avoid::EchoMemory& memory) override {
     const auto readings = sonar_.get_update();
     const std::size_t count = std::min(readings->ranges().size(), readings->poses().size());
+    fired_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
+      const bool has_stamp = i < readings->stamps().size();
+      const orca::TimePoint fired = has_stamp ? orca::to_time_point(readings->stamps()[i]) : now();
+      if (!is_news(i, fired)) continue;
       const auto echo = orca::avoid::echo_of(readings->ranges()[i], readings->min_range(),
                                              readings->max_range(), orca::plane_pose(readings->poses()[i]));
-      if (!echo) continue;
-      const double age = i < readings->stamps().size()
-                             ? orca::to_seconds(now() - orca::to_time_point(readings->stamps()[i]))
-                             : 0.0;
-      memory.hear(moved_since(*echo, age), keep());
+      if (echo) memory.hear(moved_since(*echo, age_of(fired)), keep());
     }
+  }
+
+  // A base tells of its whole ring more often than the ring makes its round. What is told again would confirm itself, and each
+  // time at another place, as the motion since it was heard is a guess.
+  bool is_news(std::size_t sonar, orca::TimePoint fired) {
+    if (remembers() && fired == fired_[sonar]) return false;
+    fired_[sonar] = fired;
+    return true;
   }
 
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
@@ -44,6 +59,7 @@ class SonarAvoid final : public orca::avoid::Avoider {
 
   orca::avoid::FreeWay free_way_{*this};
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "Readings of the sonars."}};
+  std::vector<std::optional<orca::TimePoint>> fired_;  // When each sonar fired the echo that was heard last.
 };
 
 }  // namespace

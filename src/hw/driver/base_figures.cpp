@@ -46,6 +46,7 @@ DriveLimits BaseFigures::within(DriveLimits limits) const {
   const RobotFigures::Wheels& wheels = *figures_->wheels;
   limits.max_speed = std::min(limits.max_speed, wheels.max_speed);
   limits.max_turn_rate = std::min(limits.max_turn_rate, wheels.max_turn_rate);
+  limits.steer_gain = wheels.steer_gain.value_or(limits.steer_gain);
   limits.big_turn_angle = wheels.big_turn_angle.value_or(limits.big_turn_angle);
   limits.big_turn_speed = wheels.big_turn_speed.value_or(limits.big_turn_speed);
   return limits;

@@ -62,7 +62,8 @@ class FiguresReader {
 
   double any_number(const Element& e, const char* name, const char* si) {
     const Result<double> value = xml::parse_quantity(text_of(e, name), si);
-    if (!value) complain(e, "<" + e.name() + "> needs " + name + " in " + si + ": " + value.error().message);
+    const std::string unit = *si == '\0' ? "" : std::string(" in ") + si;
+    if (!value) complain(e, "<" + e.name() + "> needs " + name + unit + ": " + value.error().message);
     return value ? *value : 0.0;
   }
 
@@ -95,6 +96,7 @@ class FiguresReader {
     wheels.max_turn_rate = positive(drive, "max_steer_speed", "rad/s");
     wheels.max_acceleration = positive(drive, "max_acceleration", "m/s2");
     wheels.track = positive(drive, "track", "m");
+    if (drive.attribute("steer_gain") != nullptr) wheels.steer_gain = positive(drive, "steer_gain", "");
     wheels.big_turn_angle = optional(drive, "big_turn_angle", "rad");
     wheels.big_turn_speed = optional(drive, "big_turn_speed", "m/s");
     return wheels;

@@ -47,7 +47,7 @@ class Create2Base final : public orca::hw::LineDriver {
     for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = *max_speed_,
                                   .max_turn_rate = *max_turn_rate_,
-                                  .steer_gain = 1.0,
+                                  .steer_gain = 2.0,
                                   .big_turn_angle = std::numbers::pi / 3.0,
                                   .big_turn_speed = 0.1}),
                     base_.max_command_age());

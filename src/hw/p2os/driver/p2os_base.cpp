@@ -144,10 +144,9 @@ class P2osBase final : public orca::hw::LineDriver {
     senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()});
     senses_->describe(base_.traits());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    // With a gain of 1 and more an emulated PeopleBot swings before doors.
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                  .steer_gain = 0.5,
+                                  .steer_gain = 2.0,
                                   .big_turn_angle = std::numbers::pi / 3.0,
                                   .big_turn_speed = 0.3}),
                     base_.max_command_age());

@@ -93,6 +93,7 @@ TEST_CASE("of each shipped robot a driver reads the same figures as the simulato
     CHECK(figures->wheels->max_turn_rate == model->drive.max_turn_rate);
     CHECK(figures->wheels->max_acceleration == model->drive.max_acceleration);
     CHECK(figures->wheels->track == model->drive.track);
+    CHECK(figures->wheels->steer_gain == model->drive.steer_gain);
     CHECK(figures->wheels->big_turn_angle == model->drive.big_turn_angle);
     CHECK(figures->wheels->big_turn_speed == model->drive.big_turn_speed);
     REQUIRE(figures->size);
@@ -153,7 +154,8 @@ TEST_CASE("a base is no faster than its file and its parameters say", "[hw][robo
 }
 
 TEST_CASE(
-    "a base drives through big turns as its file says, and tells how large it is and how wrong its senses "
+    "a base steers and drives through big turns as its file says, and tells how large it is and how wrong "
+    "its senses "
     "are",
     "[hw][robot_file]") {
   Owner owner;
@@ -166,7 +168,7 @@ TEST_CASE(
 
   owner.set("robot", kRobots + "pioneer_2dx.urdf");
   CHECK(base.read(kPioneer).empty());
-  CHECK(base.within(own).steer_gain == 0.5);
+  CHECK(base.within(own).steer_gain == 2.0);
   CHECK(base.within(own).big_turn_angle == Approx(1.0471975511966));
   CHECK(base.within(own).big_turn_speed == 0.3);
   idl::Robot robot;
@@ -222,6 +224,8 @@ TEST_CASE("figures with which a robot could not be driven are faults", "[hw][rob
   CHECK_THAT(drive("track='0 m'"), Contains("track must be more than 0"));
   CHECK_THAT(drive("track='0.3 m' big_turn_speed='-0.3 m/s'"),
              Contains("big_turn_speed must not be negative"));
+  CHECK_THAT(drive("track='0.3 m' steer_gain='0'"), Contains("steer_gain must be more than 0"));
+  CHECK_THAT(drive("track='0.3 m' steer_gain='2 Hz'"), Contains("<drive> needs steer_gain: \"2 Hz\""));
 }
 
 TEST_CASE("a box on the deck of a round robot makes it larger than round", "[hw][robot_file]") {

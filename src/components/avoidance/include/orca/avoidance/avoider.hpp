@@ -69,9 +69,12 @@ class Avoider : public Component {
   /// Returns whether it carries echoes along, because it hears of the robot's motion.
   [[nodiscard]] bool remembers() const { return odometry_.connected(); }
 
-  /// Moves a point seen `age` [s] ago into the robot's current frame, using odometry.
+  /// Returns how much older [s] than the frame in which echoes are kept something is that was seen at this time; negative if
+  /// it is younger. That frame is the robot's at the stamp of its last odometry, which may have come over a slow line.
+  [[nodiscard]] double age_of(TimePoint seen) const;
+  /// Moves a point of that age [s] into the frame in which echoes are kept, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
-  /// Returns how far the robot has turned in the last `age` [s] [rad].
+  /// Returns how far the robot has turned [rad] in the `age` [s] before that frame.
   [[nodiscard]] double turned_since(double age) const { return twist_.turn_rate * age; }
   [[nodiscard]] EchoMemory::Limits keep() const;
   /// Returns the rectangle that holds the robot, if the base has described one.

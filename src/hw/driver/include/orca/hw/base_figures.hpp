@@ -61,8 +61,8 @@ class BaseFigures {
   /// @return what is wrong with the file, and a warning if its robot has quite another track.
   [[nodiscard]] std::vector<HardwareFault> read(const Expected& expected);
 
-  /// Returns the limits, or those of the file where they are less. What is a big turn, and how fast the base drives in one, is as the
-  /// file says, if it does. The gain is the driver's.
+  /// Returns the limits, or those of the file where they are less. How the base steers, gain and big turns, is as the file says,
+  /// if it does.
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;

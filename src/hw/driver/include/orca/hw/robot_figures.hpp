@@ -21,7 +21,8 @@ struct RobotFigures {
     double max_turn_rate = 0.0;              ///< [rad/s]
     double max_acceleration = 0.0;           ///< [m/s2]
     double track = 0.0;                      ///< [m] Diameter of the circle through the wheels.
-    std::optional<double> big_turn_angle{};  ///< [rad] As in DriveLimits; nothing: the file does not say it.
+    std::optional<double> steer_gain{};      ///< [1/s] As in DriveLimits; nothing: the file does not say it.
+    std::optional<double> big_turn_angle{};  ///< [rad] Likewise.
     std::optional<double> big_turn_speed{};  ///< [m/s] Likewise.
   };
   struct Laser {
