@@ -35,7 +35,8 @@ const char* name_of_stream(int fd) {
 
 }  // namespace
 
-// Names are not asked for: a component that is started or exchanged waits for this.
+// Names are not asked for: a component that is started or exchanged waits for this. The files are looked at by their entries in
+// the folder, not by their descriptors, which other threads open and close meanwhile.
 std::optional<Descriptors> open_descriptors() {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir("/proc/self/fd"), closedir);
   if (folder == nullptr) return std::nullopt;
@@ -44,7 +45,7 @@ std::optional<Descriptors> open_descriptors() {
     const int fd = std::atoi(entry->d_name);
     struct stat file {};
     const bool is_number = entry->d_name[0] != '.';
-    if (!is_number || fd == dirfd(folder.get()) || fstat(fd, &file) != 0)
+    if (!is_number || fd == dirfd(folder.get()) || fstatat(dirfd(folder.get()), entry->d_name, &file, 0) != 0)
       continue;  // other threads may close theirs
     open[fd] = {file.st_dev, file.st_ino};
   }
