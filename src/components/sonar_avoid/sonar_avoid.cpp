@@ -59,7 +59,7 @@ class SonarAvoid final : public orca::avoid::Avoider {
 
   orca::avoid::FreeWay free_way_{*this};
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "Readings of the sonars."}};
-  std::vector<std::optional<orca::TimePoint>> fired_;  // When each sonar fired the echo that was heard last.
+  std::vector<std::optional<orca::TimePoint>> fired_;  // By sonar: the stamp of its last reading.
 };
 
 }  // namespace

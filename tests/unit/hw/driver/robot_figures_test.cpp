@@ -153,11 +153,8 @@ TEST_CASE("a base is no faster than its file and its parameters say", "[hw][robo
   CHECK(robot.radius() == 0.309);
 }
 
-TEST_CASE(
-    "a base steers and drives through big turns as its file says, and tells how large it is and how wrong "
-    "its senses "
-    "are",
-    "[hw][robot_file]") {
+TEST_CASE("a base is steered as its file says, and tells how large it is and how wrong its senses are",
+          "[hw][robot_file]") {
   Owner owner;
   hw::BaseFigures base(owner);
   const hw::DriveLimits own{.steer_gain = 0.5, .big_turn_angle = 1.5, .big_turn_speed = 0.1};

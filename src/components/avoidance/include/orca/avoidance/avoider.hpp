@@ -69,8 +69,8 @@ class Avoider : public Component {
   /// Returns whether it carries echoes along, because it hears of the robot's motion.
   [[nodiscard]] bool remembers() const { return odometry_.connected(); }
 
-  /// Returns how much older [s] than the frame in which echoes are kept something is that was seen at this time; negative if
-  /// it is younger. That frame is the robot's at the stamp of its last odometry, which may have come over a slow line.
+  /// Echoes are kept in the frame that the robot had at the stamp of its last odometry, which may have come over a slow line;
+  /// without odometry, in the one that it has now. Returns the time [s] from `seen` until then; negative if it was seen later.
   [[nodiscard]] double age_of(TimePoint seen) const;
   /// Moves a point of that age [s] into the frame in which echoes are kept, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
