@@ -21,13 +21,20 @@ elseif(ORCA_SANITIZE MATCHES "address")
   set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0")
 endif()
 
-# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [OPTIMISED] [TOGETHER])
+# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs four entries per processor (ORCA_SLOTS
+# in dev), and an entry that computes takes the slots of one processor, so that those that wait meanwhile are not delayed.
+set(ORCA_COMPUTES 4)
+# All slots of any machine: ctest lets an entry that needs more than there are run alone.
+set(ORCA_ALONE 1024)
+
+# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES] [OPTIMISED] [TOGETHER])
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 300 s.
-# OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
+# COST [s] is what it takes on an idle machine; ctest starts the dearest first. It is given from about 20 s on. COMPUTES is for an
+# entry that keeps a processor busy for most of its time. OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
 # they are compiled in units if the preset does so.
 function(orca_add_test name)
-  cmake_parse_arguments(arg "OPTIMISED;TOGETHER" "TIMEOUT" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED;TOGETHER;COMPUTES" "TIMEOUT;COST" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -52,9 +59,15 @@ function(orca_add_test name)
   endif()
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]")
+  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]~[quiet]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
+  if(arg_COST)
+    set_tests_properties(${name} PROPERTIES COST ${arg_COST})
+  endif()
+  if(arg_COMPUTES)
+    set_tests_properties(${name} PROPERTIES PROCESSORS ${ORCA_COMPUTES})
+  endif()
 endfunction()
 
 # orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds])
@@ -73,4 +86,22 @@ function(orca_add_optional_cases test tag)
   add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: "
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
+endfunction()
+
+# orca_add_quiet_cases(TEST [LABELS ...] [TIMEOUT seconds])
+#
+# Adds a ctest entry, NAME_quiet_test for NAME_test, that runs the cases of TEST with the tag [quiet] while no other entry runs:
+# they measure a time that the work of others would change.
+function(orca_add_quiet_cases test)
+  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS unit)
+  endif()
+  string(REGEX REPLACE "_test$" "_quiet_test" name ${test})
+  add_test(NAME ${name} COMMAND ${test} --use-colour no "[quiet]~[.]")
+  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} RESOURCE_LOCK quiet
+                       PROCESSORS ${ORCA_ALONE} ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()

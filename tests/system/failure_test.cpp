@@ -223,7 +223,8 @@ TEST_CASE("a behaviour that fails in the real hospital stops the robot, too", "[
   if (!map.empty()) check_failures_of({"scout_hospital", "", {"goto", "avoid"}}, {"--set", "map=" + map});
 }
 
-TEST_CASE("a robot that a person drives is stopped when Teleop or the avoider fails", "[system][failure]") {
+TEST_CASE("a robot that a person drives is stopped when Teleop or the avoider fails",
+          "[system][failure][quiet]") {
   for (const std::string& behaviour : kTeleop.behaviours) {
     std::vector<std::unique_ptr<DrivenByHand>> runs;
     for (const std::string& how : kHows)

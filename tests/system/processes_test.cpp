@@ -54,7 +54,7 @@ TEST_CASE("in virtual time the trace hash is that of the graph without processes
   CHECK(several.arrivals().size() == 3);
 }
 
-TEST_CASE("the loss of each process is seen at once, and objects flow again", "[system][processes]") {
+TEST_CASE("the loss of each process is seen at once, and objects flow again", "[system][processes][quiet]") {
   const std::vector<std::string> before = kept_by_system();
   System system(flow());
   system.when("flow ", 0, Seconds(10));
@@ -212,7 +212,7 @@ TEST_CASE("a process that is lost on its way back while the run ends does not ma
 // The sanitizers' memory does not fit into the limit of that process, and they take its signals.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-TEST_CASE("a second SIGTERM ends everything within half a second", "[system][processes]") {
+TEST_CASE("a second SIGTERM ends everything within half a second", "[system][processes][quiet]") {
   System system(hooligan({"where=stop", "deed=hang"}));
   system.when("flow ", 0, Seconds(10));
   std::this_thread::sleep_for(Seconds(0.3));

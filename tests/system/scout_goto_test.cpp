@@ -142,6 +142,7 @@ TEST_CASE("at harsh realism the Scout passes its doors, with seeds that once mad
 }
 
 #if defined(ORCA_OPTIMISED)
+// Of processor time, so that what the machine does besides is not in it.
 TEST_CASE("a virtual run takes less than a fiftieth of its simulated time", "[system][scout]") {
   double best = 1e9;
   double simulated = 0.0;
@@ -149,7 +150,7 @@ TEST_CASE("a virtual run takes less than a fiftieth of its simulated time", "[sy
     const Run run = drive();
     REQUIRE(run.arrivals().size() == 3);
     simulated = run.arrivals().back().t;
-    best = std::min(best, run.ending.wall.count());
+    best = std::min(best, run.ending.cpu.count());
   }
   CAPTURE(simulated, best);
   CHECK(best < simulated / 50.0);

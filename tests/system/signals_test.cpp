@@ -139,7 +139,7 @@ TEST_CASE("a prompt that waits for the user does not keep the run from being sto
   CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("a second signal ends a run that cannot end by itself within a second", "[system][signals]") {
+TEST_CASE("a second signal ends a run that cannot end by itself within a second", "[system][signals][quiet]") {
   Subprocess program(deployer(greedy() + Words{"--until", "1000 s"}));
   REQUIRE(program.wait_for_output("counted", Seconds(10) * kSlowdown));
   program.send(SIGINT);
@@ -152,7 +152,7 @@ TEST_CASE("a second signal ends a run that cannot end by itself within a second"
   CHECK_FALSE(program.group_lives());
 }
 
-TEST_CASE("two signals at once end a driving robot within a second, with 0", "[system][signals]") {
+TEST_CASE("two signals at once end a driving robot within a second, with 0", "[system][signals][quiet]") {
   Subprocess program(deployer({source_file("graphs/scout_goto.xml")}));
   sleep_for(1.0);
   program.send(SIGINT);
