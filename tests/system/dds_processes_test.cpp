@@ -69,7 +69,8 @@ TEST_CASE("only a process with an edge that goes over DDS has anything of DDS", 
   }
 }
 
-TEST_CASE("the loss of each process is seen at once, and objects flow again over DDS", "[system][dds][quiet]") {
+TEST_CASE("the loss of each process is seen at once, and objects flow again over DDS",
+          "[system][dds][quiet]") {
   const std::vector<std::string> before = kept_by_system();
   System system(flow("dds"));
   system.when("flow ", 0, Seconds(10));

@@ -139,7 +139,8 @@ TEST_CASE("a prompt that waits for the user does not keep the run from being sto
   CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("a second signal ends a run that cannot end by itself within a second", "[system][signals][quiet]") {
+TEST_CASE("a second signal ends a run that cannot end by itself within a second",
+          "[system][signals][quiet]") {
   Subprocess program(deployer(greedy() + Words{"--until", "1000 s"}));
   REQUIRE(program.wait_for_output("counted", Seconds(10) * kSlowdown));
   program.send(SIGINT);
