@@ -160,12 +160,7 @@ void P2osFirmware::shake_hands(int number, TimePoint now) {
 void P2osFirmware::carry_out(int number, int value, TimePoint now) {
   if (set_motion(number, value)) return drive();
   switch (number) {
-    case kClose:
-      stop();
-      gripper_->forget_host();
-      power_ = sonar_ = open_ = false;
-      syncs_ = 0;
-      return;
+    case kClose: return close();
     case kEnable: power_ = value != 0 && !button_; return drive();
     case kSetv: return servo_->set_speed(0.001 * std::abs(value));
     case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
@@ -187,21 +182,20 @@ bool P2osFirmware::set_motion(int number, int value) {
     case kMove: servo_->move(0.001 * value, body_.odometry()); return true;
     case kHead: servo_->turn_to(kTurnDegree * value + origin_.yaw); return true;
     case kDhead: servo_->turn_to(kTurnDegree * value + body_.odometry().yaw); return true;
-    case kVel: wanted_.forward = 0.001 * value; break;
+    case kVel: servo_->drive(0.001 * value); return true;
     case kRotate:
-    case kRvel: wanted_.turn_rate = kTurnDegree * value; break;
-    case kVel2: set_wheels(value); break;
+    case kRvel: servo_->turn(kTurnDegree * value); return true;
+    case kVel2: set_wheels(value); return true;
     default: return false;
   }
-  servo_->cease();
-  return true;
 }
 
 // The low byte is the right wheel's.
 void P2osFirmware::set_wheels(int value) {
   const double right = 0.02 * static_cast<std::int8_t>(value & 0xFF);
   const double left = 0.02 * static_cast<std::int8_t>((value >> 8) & 0xFF);
-  wanted_ = {0.5 * (left + right), 0.0, 0.5 * (right - left) / settings_.half_track};
+  servo_->drive(0.5 * (left + right));
+  servo_->turn(0.5 * (right - left) / settings_.half_track);
 }
 
 void P2osFirmware::set_baud(int code) {
@@ -210,23 +204,29 @@ void P2osFirmware::set_baud(int code) {
 }
 
 void P2osFirmware::stop() {
-  servo_->cease();
-  wanted_ = {};
+  servo_->stop();
   drive();
 }
 
-void P2osFirmware::drive() { body_.drive(power_ ? wanted_ : Twist2{}); }
+Twist2 P2osFirmware::wanted() { return servo_->velocity(body_.odometry()); }
+
+void P2osFirmware::drive() { body_.drive(power_ ? wanted() : Twist2{}); }
+
+// The line has its configured rate again, whatever rate the host had set.
+void P2osFirmware::close() {
+  stop();
+  gripper_->forget_host();
+  power_ = sonar_ = open_ = false;
+  syncs_ = 0;
+  baud_ = settings_.baud;
+}
 
 void P2osFirmware::reset(TimePoint) { restart(); }
 
 void P2osFirmware::restart() {
-  stop();
-  gripper_->forget_host();
-  power_ = sonar_ = open_ = false;
+  close();
   bumpers_stall_ = 0;
   origin_ = body_.odometry();
-  syncs_ = 0;
-  baud_ = settings_.baud;
   line_.clear();
 }
 
@@ -245,15 +245,12 @@ void P2osFirmware::cut_power() {
 std::vector<std::uint8_t> P2osFirmware::advance(TimePoint now) {
   if (fed_ && now - last_command_ > settings_.watchdog) {
     fed_ = false;
-    if (!(wanted_ == Twist2{})) ++watchdog_stops_;
+    if (!(wanted() == Twist2{})) ++watchdog_stops_;
     stop();
     gripper_->halt();
   }
   gripper_->advance(now);
-  if (servo_->works()) {
-    wanted_ = servo_->velocity(body_.odometry());
-    drive();
-  }
+  if (servo_->has_goal()) drive();
   for (; open_ && now >= next_information_; next_information_ += settings_.cycle) {
     send_information(next_information_);
     if (auto packet = gripper_->take_packet()) send(std::move(*packet), next_information_);

@@ -21,22 +21,43 @@ double rate_for(double left, double least, double most, double enough) {
 
 }  // namespace
 
-void P2osServo::move(double way, const Pose2& from) { goal_ = Goal{from, way}; }
-
-void P2osServo::cease() {
-  goal_.reset();
-  heading_.reset();
+void P2osServo::drive(double speed) {
+  way_.reset();
+  velocity_.forward = speed;
 }
 
+void P2osServo::move(double distance, const Pose2& from) {
+  way_ = Way{from, distance};
+  velocity_.forward = 0.0;
+}
+
+void P2osServo::turn(double turn_rate) {
+  heading_.reset();
+  velocity_.turn_rate = turn_rate;
+}
+
+void P2osServo::turn_to(double heading) {
+  heading_ = heading;
+  velocity_.turn_rate = 0.0;
+}
+
+void P2osServo::stop() {
+  drive(0.0);
+  turn(0.0);
+}
+
+// The robot may turn while it covers a distance, so that is counted along its path.
 Twist2 P2osServo::velocity(const Pose2& pose) {
-  Twist2 velocity;
-  if (goal_) {
-    const double done = seen_from(goal_->from, pose).x;
-    velocity.forward = rate_for(goal_->way - done, kLeastSpeed, speed_, kWayEnough);
-    if (velocity.forward == 0.0) goal_.reset();
+  Twist2 velocity = velocity_;
+  if (way_) {
+    way_->left -= seen_from(way_->last, pose).x;
+    way_->last = pose;
+    velocity.forward = rate_for(way_->left, kLeastSpeed, move_speed_, kWayEnough);
+    if (velocity.forward == 0.0) way_.reset();
   }
   if (heading_) {
-    velocity.turn_rate = rate_for(wrapped(*heading_ - pose.yaw), kLeastTurnRate, turn_rate_, kHeadingEnough);
+    velocity.turn_rate =
+        rate_for(wrapped(*heading_ - pose.yaw), kLeastTurnRate, heading_rate_, kHeadingEnough);
     if (velocity.turn_rate == 0.0) heading_.reset();
   }
   return velocity;

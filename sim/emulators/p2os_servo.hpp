@@ -8,35 +8,43 @@
 
 namespace orca::emulators {
 
-/// What a Pioneer's controller does by itself: it drives a way, or turns to a heading, and then stands.
+/// The two axes of a Pioneer's controller, translation and rotation. Each has a command of its own, which stays in force until the
+/// next one for the same axis: a velocity, or a distance or heading at which the axis stops.
 ///
 /// Thread contract: not synchronised.
+/// @source  Pioneer 2 operations manual, "Robot in motion".
 class P2osServo {
  public:
-  /// Sets the speed [m/s] and the turn rate [rad/s] of such motions.
-  void set_speed(double speed) { speed_ = speed; }
-  void set_turn_rate(double turn_rate) { turn_rate_ = turn_rate; }
+  /// Sets the speed [m/s] of move() and the turn rate [rad/s] of turn_to().
+  void set_speed(double speed) { move_speed_ = speed; }
+  void set_turn_rate(double turn_rate) { heading_rate_ = turn_rate; }
 
-  /// Begins to drive so far [m], backward if it is negative.
-  void move(double way, const Pose2& from);
-  /// Begins to turn to a heading [rad].
-  void turn_to(double heading) { heading_ = heading; }
-  /// Ends both.
-  void cease();
-  [[nodiscard]] bool works() const { return goal_ || heading_; }
+  /// Translates with a speed [m/s].
+  void drive(double speed);
+  /// Translates by a distance [m], backward if it is negative.
+  void move(double distance, const Pose2& from);
+  /// Rotates with a turn rate [rad/s].
+  void turn(double turn_rate);
+  /// Rotates to a heading [rad].
+  void turn_to(double heading);
+  /// Stops both axes.
+  void stop();
+  /// Returns whether an axis is on its way to a goal, so that its velocity changes by itself.
+  [[nodiscard]] bool has_goal() const { return way_ || heading_; }
 
-  /// Returns the velocity at this pose. When it has got there, it stands, and works no more.
+  /// Returns the velocity that both axes ask for at this pose. An axis that has reached its goal asks for 0.
   [[nodiscard]] Twist2 velocity(const Pose2& pose);
 
  private:
-  struct Goal {
-    Pose2 from;
-    double way;
+  struct Way {
+    Pose2 last;   // pose at the last look
+    double left;  // [m]
   };
 
-  double speed_ = 0.4;
-  double turn_rate_ = 1.0;
-  std::optional<Goal> goal_;
+  double move_speed_ = 0.4;
+  double heading_rate_ = 1.0;
+  Twist2 velocity_{};  // of axes that have no goal
+  std::optional<Way> way_;
   std::optional<double> heading_;
 };
 

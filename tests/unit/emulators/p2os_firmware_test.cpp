@@ -151,6 +151,52 @@ TEST_CASE("HEAD turns the emulated Pioneer to a heading, DHEAD by an angle, the 
   CHECK(line.body.told == Twist2{});
 }
 
+// A maker's library sends one command for each axis.
+TEST_CASE("translation and rotation of the emulated Pioneer are two axes, and a command changes only its own",
+          "[emulators][p2os]") {
+  PioneerLine line;
+  line.open();
+  SECTION("a turn rate of 0 does not end a distance, sent before or behind it") {
+    const bool before = GENERATE(true, false);
+    if (before) line.say("FA FB 06 15 3B 00 00 15 3B");  // RVEL 0
+    line.say("FA FB 06 08 3B F4 01 FC 3C");              // MOVE 500
+    if (!before) line.say("FA FB 06 15 3B 00 00 15 3B");
+    line.pass_alive(5s);
+    CHECK(line.body.pose.x == Approx(0.5).margin(0.01));
+  }
+  SECTION("it drives on while it turns to a heading") {
+    line.say(kAhead);                        // VEL 200
+    line.say("FA FB 06 0C 3B 5A 00 66 3B");  // HEAD 90
+    CHECK(line.body.told.forward == Approx(0.2));
+    line.pass_alive(5s);
+    CHECK(std::abs(line.body.pose.yaw - 90 * kDegree) < 0.02);
+    CHECK(line.body.told.forward == Approx(0.2));
+  }
+  SECTION("a distance is that of its path") {
+    line.say("FA FB 06 15 3B 1E 00 33 3B");  // RVEL 30
+    line.say("FA FB 06 08 3B F4 01 FC 3C");  // MOVE 500
+    double path = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+      path += 0.001 * line.body.told.forward;
+      if (i % 500 == 0) line.say(kSync0);
+      (void)line.pass(1ms);
+    }
+    CHECK(path == Approx(0.5).margin(0.01));
+    CHECK(line.body.told.turn_rate == Approx(30 * kDegree));
+  }
+  SECTION("a velocity ends the distance or heading of its own axis") {
+    line.say("FA FB 06 08 3B F4 01 FC 3C");  // MOVE 500
+    line.say("FA FB 06 0C 3B 5A 00 66 3B");  // HEAD 90
+    (void)line.pass(200ms);
+    line.say("FA FB 06 0B 3B 00 00 0B 3B");  // VEL 0
+    CHECK(line.body.told.forward == 0.0);
+    CHECK(line.body.told.turn_rate > 0.1);
+    line.say("FA FB 06 15 3B 00 00 15 3B");  // RVEL 0
+    (void)line.pass(200ms);
+    CHECK(line.body.told == Twist2{});
+  }
+}
+
 TEST_CASE("CONFIG is answered with what the emulated Pioneer is", "[emulators][p2os]") {
   PioneerLine line;
   line.open();
@@ -192,6 +238,18 @@ TEST_CASE("HOSTBAUD changes the rate of the emulated Pioneer, and a reset takes 
   CHECK(line.body.told == Twist2{});
   CHECK_FALSE(line.firmware.is_open());
   CHECK(line.answer(kSync0) == "FA FB 03 00 00 00");
+}
+
+TEST_CASE("CLOSE sets the configured rate of the emulated Pioneer again, so that it is found a second time",
+          "[emulators][p2os]") {
+  PioneerLine line;
+  line.open();
+  line.say("FA FB 06 32 3B 02 00 34 3B");  // HOSTBAUD 38400
+  line.say(kSync2, 38400);                 // CLOSE
+  CHECK_FALSE(line.firmware.is_open());
+  CHECK(line.answer(kSync0) == "FA FB 03 00 00 00");
+  line.open();
+  CHECK(line.firmware.is_open());
 }
 
 TEST_CASE("the red button of the emulated Pioneer takes the power, and is told", "[emulators][p2os]") {

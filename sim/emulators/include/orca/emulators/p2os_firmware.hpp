@@ -45,10 +45,11 @@ struct P2osSettings {
 /// The controller of a Pioneer at the other end of the line: it answers the handshake, sends information packets, drives the body
 /// as it is commanded, and stops it when no command has come for the time of its watchdog.
 ///
-/// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate.
+/// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate, which is
+/// the configured one again after CLOSE.
 ///
-/// It sets its odometry to 0, drives ways and turns to headings by itself (MOVE, HEAD, DHEAD), tells its configuration, and
-/// lets bumpers raise a stall. What has no use for a body without gyros and serial ports of its own is
+/// Translation (VEL, MOVE) and rotation (RVEL, ROTATE, HEAD, DHEAD) are independent of each other; VEL2 and STOP are for both. It
+/// sets its odometry to 0, tells its configuration, and lets bumpers raise a stall. What has no use for a body without gyros and serial ports of its own is
 /// passed over, as are gains and accelerations, which the body has.
 ///
 /// It moves the gripper of a body that has one, tells its state in information packets, and kind 1, which is at the user ports, in
@@ -90,8 +91,10 @@ class P2osFirmware final : public Firmware {
   void set_wheels(int value);
   void set_baud(int code);
   void stop();
+  void close();
   void restart();
   void drive();
+  [[nodiscard]] Twist2 wanted();
   void send(std::vector<std::uint8_t> body, TimePoint now);
   void send_information(TimePoint now);
   [[nodiscard]] std::vector<std::uint8_t> echoes();
@@ -112,7 +115,6 @@ class P2osFirmware final : public Firmware {
   bool sonar_ = false;
   bool fed_ = false;  // the watchdog, since it bit
   int next_sonar_ = 0;
-  Twist2 wanted_{};
   const std::unique_ptr<P2osServo> servo_;
   const std::unique_ptr<P2osGripper> gripper_;
   Pose2 origin_{};         // of its odometry, as the body counts
