@@ -21,6 +21,36 @@ constexpr std::size_t kMostArguments = 16;
 constexpr std::size_t kCapsuleSamples = 32;
 constexpr Duration kLongestWait = 2ms;  // of points for the line
 
+// What GET_LIDAR_CONF can ask for.
+enum Entry : std::uint32_t {
+  kModeCount = 0x70,
+  kModeSampleTime = 0x71,   // [us/256]
+  kModeMaxDistance = 0x74,  // [m/256]
+  kModeAnswerType = 0x75,
+  kTypicalMode = 0x7C,
+  kModeName = 0x7F
+};
+
+struct ScanMode {
+  const char* name;
+  std::uint8_t answer;  // type of the scan's data
+  int faster;           // than a standard scan
+};
+constexpr std::array kModes = {ScanMode{"Standard", 0x81, 1}, ScanMode{"Express", 0x82, 2}};
+
+// The bytes of a number, the low one first.
+std::vector<std::uint8_t> little_endian(std::uint32_t value, int bytes) {
+  std::vector<std::uint8_t> all;
+  for (int i = 0; i < bytes; ++i) all.push_back(static_cast<std::uint8_t>(value >> (8 * i) & 0xFFU));
+  return all;
+}
+
+std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
+  std::uint32_t value = 0;
+  for (int i = 0; i < size && at + i < bytes.size(); ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
+  return value;
+}
+
 std::uint8_t exclusive_or(std::span<const std::uint8_t> bytes) {
   unsigned sum = 0;
   for (const std::uint8_t byte : bytes) sum ^= byte;
@@ -79,7 +109,7 @@ void RplidarFirmware::set_health(std::uint8_t state, std::uint16_t error) {
 void RplidarFirmware::take(std::span<const std::uint8_t> bytes, std::uint32_t baud, TimePoint now) {
   host_baud_ = baud;
   if (!ready_ || (baud != 0 && baud != settings_.baud)) return;  // it sees other bits, and no request
-  scanner_.feed(bytes, [&](const hw::framing::Frame& frame) { obey(frame.bytes[1], now); });
+  scanner_.feed(bytes, [&](const hw::framing::Frame& frame) { obey(frame.bytes, now); });
 }
 
 std::vector<std::uint8_t> RplidarFirmware::advance(TimePoint now) {
@@ -102,10 +132,10 @@ void RplidarFirmware::say_who(TimePoint now) {
 }
 
 // Any request ends a scan.
-void RplidarFirmware::obey(std::uint8_t request, TimePoint now) {
-  note_command(requests_, request);
+void RplidarFirmware::obey(std::span<const std::uint8_t> request, TimePoint now) {
+  note_command(requests_, request[1]);
   scan_ = Scan::none;
-  switch (request) {
+  switch (request[1]) {
     case 0x20: return begin_scan(Scan::nodes, true, now);
     case 0x21: return begin_scan(Scan::nodes, false, now);
     case 0x82:
@@ -116,6 +146,9 @@ void RplidarFirmware::obey(std::uint8_t request, TimePoint now) {
     case 0x52: return answer_health(now);
     case 0x59:
       if (settings_.has_express) answer_sample_times(now);
+      return;
+    case 0x84:
+      if (request.size() >= 8) answer_configuration(request.subspan(3, request.size() - 4), now);
       return;
     default: return;
   }
@@ -141,6 +174,41 @@ void RplidarFirmware::answer_health(TimePoint now) {
 void RplidarFirmware::answer_sample_times(TimePoint now) {
   const auto time = static_cast<unsigned>(settings_.sample.count() / 1000);  // [us]
   answer(0x15, std::array<std::uint8_t, 4>{low(time), high(time), low(time / 2), high(time / 2)}, now);
+}
+
+// Firmware before 1.24 does not know the request.
+bool RplidarFirmware::knows_configuration() const {
+  const std::pair version{settings_.firmware_major, settings_.firmware_minor};
+  return settings_.has_express && version >= std::pair<std::uint8_t, std::uint8_t>{1, 24};
+}
+
+// The answer repeats what was asked for. @param asked  the entry, and the number of a mode if the entry is of modes.
+void RplidarFirmware::answer_configuration(std::span<const std::uint8_t> asked, TimePoint now) {
+  const std::uint32_t entry = number_at(asked, 0, 4);
+  const std::vector<std::uint8_t> value = configuration(entry, number_at(asked, 4, 2));
+  if (!knows_configuration() || value.empty()) return;
+  std::vector<std::uint8_t> data = little_endian(entry, 4);
+  data.insert(data.end(), value.begin(), value.end());
+  answer(0x20, data, now);
+}
+
+// Returns nothing for what it does not know.
+std::vector<std::uint8_t> RplidarFirmware::configuration(std::uint32_t entry, std::size_t number) const {
+  if (entry == kModeCount) return little_endian(kModes.size(), 2);
+  if (entry == kTypicalMode) return little_endian(kModes.size() - 1, 2);
+  if (number >= kModes.size()) return {};
+  const ScanMode& mode = kModes[number];
+  switch (entry) {
+    case kModeSampleTime:
+      return little_endian(static_cast<std::uint32_t>(settings_.sample / mode.faster / 1us) * 256U, 4);
+    case kModeMaxDistance: return little_endian(static_cast<std::uint32_t>(256.0 * settings_.max_range), 4);
+    case kModeAnswerType: return {mode.answer};
+    case kModeName: {
+      const std::string name = mode.name;
+      return {name.c_str(), name.c_str() + name.size() + 1};
+    }
+    default: return {};
+  }
 }
 
 // A5 5A, the size of what follows, and its type.

@@ -123,6 +123,32 @@ TEST_CASE("the emulated RPLIDAR measures every 500 us, and every 250 us in an ex
   CHECK(line.answer("A5 59") == "A5 5A 04 00 00 00 15 F4 01 FA 00");
 }
 
+// GET_LIDAR_CONF: the entry in 4 bytes, the number of a mode in 2, both with the low byte first.
+TEST_CASE("the emulated RPLIDAR tells its scan modes", "[emulators][rplidar]") {
+  ReadyRplidar line;
+  CHECK(line.answer("A5 84 04 70 00 00 00 55") == "A5 5A 06 00 00 00 20 70 00 00 00 02 00");  // two
+  CHECK(line.answer("A5 84 04 7C 00 00 00 59") == "A5 5A 06 00 00 00 20 7C 00 00 00 01 00");  // typical: 1
+  // 500 and 250 us, in parts of 1/256.
+  CHECK(line.answer("A5 84 06 71 00 00 00 00 00 56") == "A5 5A 08 00 00 00 20 71 00 00 00 00 F4 01 00");
+  CHECK(line.answer("A5 84 06 71 00 00 00 01 00 57") == "A5 5A 08 00 00 00 20 71 00 00 00 00 FA 00 00");
+  CHECK(line.answer("A5 84 06 74 00 00 00 01 00 52") ==
+        "A5 5A 08 00 00 00 20 74 00 00 00 00 0C 00 00");  // 12 m
+  CHECK(line.answer("A5 84 06 75 00 00 00 00 00 52") == "A5 5A 05 00 00 00 20 75 00 00 00 81");
+  CHECK(line.answer("A5 84 06 75 00 00 00 01 00 53") == "A5 5A 05 00 00 00 20 75 00 00 00 82");
+  CHECK(line.answer("A5 84 06 7F 00 00 00 01 00 59") ==
+        "A5 5A 0C 00 00 00 20 7F 00 00 00 45 78 70 72 65 73 73 00");  // "Express"
+  CHECK(line.answer("A5 84 06 7F 00 00 00 02 00 5A").empty());        // there is no third one
+}
+
+TEST_CASE("an emulated RPLIDAR with firmware before 1.24 does not know its configuration",
+          "[emulators][rplidar]") {
+  RplidarSettings settings;
+  settings.firmware_minor = 20;
+  ReadyRplidar line(settings);
+  CHECK(line.answer("A5 84 04 70 00 00 00 55").empty());
+  CHECK(line.answer(kHealth) == "A5 5A 03 00 00 00 06 00 00 00");
+}
+
 TEST_CASE("a request takes its bytes' time, and so does the answer", "[emulators][rplidar]") {
   ReadyRplidar line;
   line.say(kInfo);

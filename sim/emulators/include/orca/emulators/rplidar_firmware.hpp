@@ -33,7 +33,7 @@ struct RplidarSettings {
 };
 
 /// An RPLIDAR A1 at the other end of the line: it answers requests, and sends what the mirror shows it in nodes of 5 bytes or in
-/// capsules of 84. It turns clockwise, seen from above, and begins to send when its motor turns evenly. A request that it does not
+/// capsules of 84. Its firmware tells its scan modes, the standard and the express one, as those from 1.24 on do. It turns clockwise, seen from above, and begins to send when its motor turns evenly. A request that it does not
 /// know, and one whose checksum is wrong, it does not answer; any request ends a scan.
 ///
 /// The motor is no part of the protocol: the adapter's line DTR switches it. A pseudo terminal does not have that line, so there
@@ -67,11 +67,14 @@ class RplidarFirmware final : public Firmware {
 
   void switch_on(TimePoint now);
   void say_who(TimePoint now);
-  void obey(std::uint8_t request, TimePoint now);
+  void obey(std::span<const std::uint8_t> request, TimePoint now);
   void restart(TimePoint now);
   void answer_info(TimePoint now);
   void answer_health(TimePoint now);
   void answer_sample_times(TimePoint now);
+  void answer_configuration(std::span<const std::uint8_t> asked, TimePoint now);
+  [[nodiscard]] bool knows_configuration() const;
+  [[nodiscard]] std::vector<std::uint8_t> configuration(std::uint32_t entry, std::size_t number) const;
   void answer(std::uint8_t type, std::span<const std::uint8_t> data, TimePoint now);
   void begin_scan(Scan scan, bool waits_for_motor, TimePoint now);
   void measure(TimePoint now);
