@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -28,6 +29,11 @@ struct TurningScanner {
     point.angle = counter_clockwise(degrees);
     point.range = range;
     if (const Turn* const turn = collector.add(point, now)) turns.push_back(*turn);
+  }
+  /// Adds points as a head sends them that corrects the angles of points with echo, and only those.
+  void see_corrected(double degrees, std::optional<double> range) {
+    const double earlier = range ? std::atan(0.0218 * (*range - 0.1555) / (0.1555 * *range)) : 0.0;
+    see(degrees - earlier / kDegreeOfTurn, range);
   }
   /// Adds points from one angle to before another, a degree apart.
   void sweep(int from, int to, std::optional<double> range = 1.0) {
@@ -124,6 +130,55 @@ TEST_CASE("a turn in which points were lost is no turn, wherever they were lost"
   CHECK(scanner.turns.size() == static_cast<std::size_t>(4 - touched));
   for (const Turn& turn : scanner.turns) CHECK(turn.period == 180ms);
   CHECK(scanner.collector.incomplete() >= 1);
+}
+
+TEST_CASE("a room with openings makes turns, although only angles of points with echo are corrected",
+          "[hw][rplidar]") {
+  const int sector = GENERATE(15, 30, 45, 90);  // [deg] with echo, and as many without
+  const double range = GENERATE(0.5, 4.0, 11.0);
+  const int phase = GENERATE(0, 7, 14, 21);
+  CAPTURE(sector, range, phase);
+  TurningScanner scanner(360);
+  const auto echoes = [&](int degrees) { return (degrees + phase) / sector % 2 == 0; };
+  for (int degrees = 100; degrees < 190 + 4 * 360; ++degrees)
+    scanner.see_corrected(degrees, echoes(degrees) ? std::optional(range) : std::nullopt);
+  CHECK(scanner.collector.incomplete() == 0);
+  CHECK(scanner.turns.size() == 4);
+  for (const Turn& turn : scanner.turns) {
+    const auto seen = std::ranges::count(turn.ranges, range);
+    CHECK(seen >= 180);                     // no echo is left out,
+    CHECK(seen <= 180 + 9 * 180 / sector);  // and what is near is so up to the next point
+  }
+}
+
+TEST_CASE("what is near in front of what is far makes turns", "[hw][rplidar]") {
+  TurningScanner scanner(360);
+  for (int degrees = 100; degrees < 190 + 2 * 360; ++degrees)
+    scanner.see_corrected(degrees, degrees / 20 % 2 == 0 ? 0.2 : 6.0);
+  CHECK(scanner.collector.incomplete() == 0);
+  CHECK(scanner.turns.size() == 2);
+}
+
+TEST_CASE("points that were lost beside an opening are lost", "[hw][rplidar]") {
+  TurningScanner scanner(360);
+  for (int degrees = 100; degrees < 190 + 2 * 360; ++degrees) {
+    const int in_turn = degrees % 360;
+    if (in_turn >= 255 && in_turn < 265) continue;
+    scanner.see_corrected(degrees, in_turn < 260 ? std::optional(4.0) : std::nullopt);
+  }
+  CHECK(scanner.turns.empty());
+  CHECK(scanner.collector.incomplete() == 2);
+}
+
+TEST_CASE("an echo that its correction moves back across the edge of a turn is not left out",
+          "[hw][rplidar]") {
+  TurningScanner scanner(360);
+  scanner.sweep(100, 181, std::nullopt);
+  scanner.see(181, std::nullopt);
+  scanner.see(178, 2.0);
+  scanner.sweep(182, 541, std::nullopt);
+  REQUIRE(scanner.turns.size() == 1);
+  CHECK(scanner.turns[0].ranges[358] == 2.0);
 }
 
 TEST_CASE("angles that step back a little do not end a turn twice", "[hw][rplidar]") {
