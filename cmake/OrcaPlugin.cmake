@@ -4,6 +4,7 @@
 #   ORCA_PLUGIN_DIR       where plugins are built
 #   ORCA_PLUGIN_LAYOUTS   folder of the generated header with the layouts that plugins compile in
 #   ORCA_PLUGIN_LANGUAGE  target with the options of all code
+#   ORCA_DEPLOYER         the program that runs graphs, for tests of drivers
 #
 # Without any part of it a library can be pinned in memory, or stale code can
 # run after a swap: see docs/adr/0004-plugin-recipe.md.
@@ -90,4 +91,18 @@ function(orca_add_component_test name)
   get_property(plugins GLOBAL PROPERTY ORCA_PLUGINS)
   add_dependencies(${name} ${plugins})
   add_test(NAME ${name} COMMAND ${name})
+endfunction()
+
+# orca_add_driver_test(NAME TYPE EMULATOR command... SERVER type PORT port [PARAMS NAME=VALUE...])
+#
+# Gives ctest a test that tries the driver TYPE of plugins/ with an emulation of its device, over good and bad lines: see
+# plugin/driver_trial.py. The server, such as orca.LaserServer, pushes its readings at the port.
+function(orca_add_driver_test name type)
+  cmake_parse_arguments(arg "" "SERVER;PORT" "EMULATOR;PARAMS" ${ARGN})
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  list(TRANSFORM arg_PARAMS PREPEND --param= OUTPUT_VARIABLE params)
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} -B ${ORCA_PLUGIN_SUPPORT_DIR}/driver_trial.py
+    --deployer ${ORCA_DEPLOYER} --plugins ${ORCA_PLUGIN_DIR} --type ${type} --server ${arg_SERVER} --port ${arg_PORT} ${params}
+    ${arg_EMULATOR})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 120)
 endfunction()

@@ -7,43 +7,13 @@ pasted into a new folder, the commands run.
 
 BUILD stands for the folder build/release of the pages.
 """
-import os
 import pathlib
-import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
-TREE = pathlib.Path(__file__).resolve().parents[2]
-BUILD = pathlib.Path(sys.argv.pop()).resolve()
-BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|read by \S+) -->\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
-SAID = re.compile(r"^<!-- compared by \S+ -->\n```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
-
-
-class Reader:
-    """Somebody who follows a page in a new folder."""
-
-    def __init__(self, page, folder):
-        self.page, self.folder = page, pathlib.Path(folder)
-        self.out = ""
-
-    def follow(self):
-        for block in BLOCK.finditer((TREE / self.page).read_text()):
-            if block["file"]:
-                with open(self.folder / block["file"], "a") as file:
-                    file.write(block["text"])
-            else:
-                self.run(block["text"])
-
-    def run(self, commands):
-        commands = commands.replace("$ORCA/build/release", str(BUILD))
-        done = subprocess.run(["sh", "-e", "-c", commands], cwd=self.folder, env=dict(os.environ, ORCA=str(TREE)),
-                              capture_output=True, text=True, timeout=300)
-        self.out += done.stdout
-        if done.returncode != 0:
-            raise AssertionError(f"{self.page}: {commands}ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+from page_reader import BUILD, SAID, TREE, Reader
 
 
 class Pages(unittest.TestCase):
