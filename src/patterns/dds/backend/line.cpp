@@ -106,11 +106,20 @@ void Line::repeat() {
 void Line::receive(const Message& message, const Origin& origin) {
   const std::lock_guard lock(mutex_);
   if (message.own == former_) return;
+  if (peer_ != 0 && origin != origin_) return note_stranger(message);
   if (message.peer != own_) return greet(message.own);  // it does not know this side, or no longer
   if (message.own != peer_) meet(message, origin);
   silent_ = 0;
   take_receipt(message.received);
   if (message.sequence != 0) take_parcel(message);
+}
+
+// Another participant speaks in the peer's name. A process that was started again may do so; it is met when the one before it
+// is lost, which does not take long. Whoever else does so wants to give orders in its place.
+void Line::note_stranger(const Message& message) {
+  if (message.own != peer_ || std::exchange(is_impersonated_, true)) return;
+  log::warning(peer_name_,
+               "another program in the network speaks in its name over DDS; nothing of that is believed");
 }
 
 // A process has echoed this side's number, so it is alive.

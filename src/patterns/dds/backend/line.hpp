@@ -44,6 +44,9 @@ class Passenger {
 /// What two processes say to each other beside the objects of Push, whatever the network does to it: each parcel arrives
 /// once and in order, or the line is lost.
 ///
+/// Everybody in the network hears these numbers. So while there is a peer, a line believes its participant only, and no other
+/// one that says what the peer would say next.
+///
 /// Both sides do the same. Each chooses a number at random and repeats it until the other has echoed it; only who has
 /// echoed the present number is believed. So messages of a process that has ended mean nothing, however late they
 /// arrive, and a process that has been started again is known by its new number. Parcels are numbered, and are repeated
@@ -101,6 +104,7 @@ class Line {
 
   // All: called with the lock held.
   frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss, By by = By::outbox);
+  void note_stranger(const Message& message);
   void meet(const Message& message, const Origin& origin);
   void take_receipt(std::uint64_t received);
   void take_parcel(const Message& message);
@@ -122,10 +126,11 @@ class Line {
   // Below: guarded by mutex_.
   std::map<std::uint64_t, Passenger*> passengers_;
   std::uint64_t session_ = 1;
-  std::uint64_t own_;         // this side's number
-  std::uint64_t peer_ = 0;    // the peer's; 0: there is none
-  std::uint64_t former_ = 0;  // of the process that the peer has replaced
-  Origin origin_{};           // the peer's
+  std::uint64_t own_;             // this side's number
+  std::uint64_t peer_ = 0;        // the peer's; 0: there is none
+  std::uint64_t former_ = 0;      // of the process that the peer has replaced
+  Origin origin_{};               // the peer's
+  bool is_impersonated_ = false;  // has been said
   std::deque<Sending> unacknowledged_;
   std::size_t unacknowledged_bytes_ = 0;
   std::uint64_t sent_ = 0;                                 // sequence number of the last parcel

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::uint64_t kEdge = 7;
 constexpr std::uint64_t kFarId = 2;
+constexpr Origin kNearOrigin{std::byte{2}};
+constexpr int kTicksOfSilence = 17;  // after which the peer is lost
 
 // An end that notes what it learns.
 struct Listener final : Passenger {
@@ -50,6 +52,7 @@ class Pair {
   // Replaces the far process by a new one.
   void restart() {
     far_listener = Listener();
+    far_origin_[1] = std::byte{static_cast<unsigned char>(std::to_integer<int>(far_origin_[1]) + 1)};
     far =
         std::make_unique<Line>("near", Line::Settings{kFarId, liveliness_},
                                [this](std::vector<std::byte> bytes, By) { put(to_near_, std::move(bytes)); });
@@ -65,8 +68,8 @@ class Pair {
 
   void carry() {
     for (int i = 0; i < 1000 && !(to_far_.empty() && to_near_.empty()); ++i) {
-      carry_one(to_far_, *far, Origin{std::byte{2}});
-      carry_one(to_near_, near, Origin{std::byte{1}});
+      carry_one(to_far_, *far, kNearOrigin);
+      carry_one(to_near_, near, far_origin_);
     }
   }
 
@@ -83,6 +86,7 @@ class Pair {
     to_near_.clear();
   }
 
+  [[nodiscard]] const Origin& far_origin() const { return far_origin_; }
   std::deque<std::vector<std::byte>>& to_near() { return to_near_; }
   std::deque<std::vector<std::byte>>& to_far() { return to_far_; }
 
@@ -102,6 +106,7 @@ class Pair {
 
   const Duration liveliness_;
   std::mt19937 random_;
+  Origin far_origin_{std::byte{1}};
   std::deque<std::vector<std::byte>> to_far_, to_near_;
 
  public:
@@ -188,7 +193,7 @@ TEST_CASE("a peer that was started again is another one", "[patterns][dds]") {
   REQUIRE(pair.near.send(numbered(1), session) == Sent::yes);  // the peer never gets it
   pair.loss = 0.0;
   pair.restart();
-  pair.tick(3);
+  pair.tick(kTicksOfSilence + 3);
   CHECK(pair.near_listener.log == "lost joined ");
   CHECK(pair.near.send(numbered(2), session) == Sent::cut);  // it was meant for the old one
   REQUIRE(pair.near.send(numbered(3), pair.near_listener.session) == Sent::yes);
@@ -205,13 +210,39 @@ TEST_CASE("what a process has said before it was replaced means nothing afterwar
   const std::deque<std::vector<std::byte>> late = pair.to_near();
   pair.drop_all();
   pair.restart();
-  pair.tick(3);
+  pair.tick(kTicksOfSilence + 3);
   REQUIRE(pair.near_listener.log == "lost joined ");
   pair.to_near() = late;
   pair.carry();
   pair.tick(3);
   CHECK(pair.near_listener.numbers.empty());
   CHECK(pair.near_listener.log == "lost joined ");
+}
+
+TEST_CASE("a stranger who has read along is not believed, whatever of the peer's numbers it says",
+          "[patterns][dds]") {
+  const std::uint64_t ahead = GENERATE(1U, 2U, 100U);
+  const bool is_new = GENERATE(false, true);  // it says that it is a process that was started again
+  CAPTURE(ahead, is_new);
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.far->send_now(numbered(1));
+  std::span<const std::byte> heard = pair.to_near().front();
+  Message forged = *take_message(heard);
+  const std::vector<std::byte> parcel = numbered(666);
+  forged.sequence += is_new ? 0 : ahead;
+  forged.own += is_new ? 1 : 0;
+  forged.parcel = parcel;
+  const Origin stranger{std::byte{9}};
+  for (int i = 0; i < 3; ++i) pair.near.receive(forged, stranger);
+  pair.carry();
+  pair.far->send_now(numbered(2));
+  pair.tick(3);
+  CHECK(pair.near_listener.numbers == up_to(2));
+  CHECK(pair.near_listener.log.empty());
+  CHECK(pair.near.is_peer(pair.far_origin()));
+  CHECK_FALSE(pair.near.is_peer(stranger));
 }
 
 TEST_CASE("a silent peer is lost after the liveliness time, and found again", "[patterns][dds]") {
@@ -235,7 +266,7 @@ TEST_CASE("a line that was cut joins again if the peer lives", "[patterns][dds]"
   pair.near.add(kEdge, pair.near_listener);
   pair.tick(3);
   pair.near.lose(fail(Code::unavailable, "it is said to be gone"));
-  CHECK_FALSE(pair.near.is_peer(Origin{std::byte{1}}));
+  CHECK_FALSE(pair.near.is_peer(pair.far_origin()));
   pair.tick(3);
   CHECK(pair.near_listener.log == "lost joined ");
   CHECK(pair.far_listener.log == "lost joined ");
@@ -295,7 +326,7 @@ TEST_CASE("whatever arrives that is no message is discarded", "[patterns][dds]")
     for (std::byte& byte : bad)
       if (random() % 4 == 0) byte = static_cast<std::byte>(random());
     std::span<const std::byte> rest = bad;
-    while (const auto message = take_message(rest)) pair.near.receive(*message, Origin{});
+    while (const auto message = take_message(rest)) pair.near.receive(*message, pair.far_origin());
   }
   pair.drop_all();
   CHECK(pair.near_listener.numbers.empty());
