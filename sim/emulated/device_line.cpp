@@ -8,7 +8,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -44,10 +43,7 @@ Status DeviceLine::open() {
 
 Status DeviceLine::lock_name() {
   const std::string path = hw::link::emulated_path(name_);
-  std::error_code failure;
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  if (std::filesystem::create_directories(folder, failure))
-    std::filesystem::permissions(folder.parent_path(), std::filesystem::perms::owner_all, failure);
+  if (Status made = hw::link::make_emulated_folder(); !made.ok()) return made;
   lock_ = Descriptor(::open((path + ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
   if (!lock_)
     return fail(Code::unavailable, "the line " + in_quotes(name_) + " cannot be offered at " + path + ": " +

@@ -26,6 +26,8 @@ using supervisor::Record;
 constexpr Duration kLimit = 30s;        // for a part of an answer: a process that is restarted is back before
 constexpr Duration kApplyLimit = 600s;  // several exchanges, each with its trial and probation
 constexpr std::chrono::seconds kWatchInterval{1};
+constexpr std::chrono::seconds kStubborn{1};
+constexpr std::chrono::milliseconds kPause{10};
 
 // Returns the request. The options of the command are words, as on the command line. Files are named so that the
 // supervisor, which runs in another folder, finds them.
@@ -89,13 +91,33 @@ Duration limit_of(const Call& call) {
          call.duration("--tryout").value_or(Duration{0});
 }
 
+bool is_cut_off(const Status& outcome) { return !outcome.ok() && outcome.error().code == Code::unavailable; }
+
 Status ask_once(const Call& call, Client& client) {
   Printer printer(call);
   const Status outcome = client.ask(
       request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); }, limit_of(call));
-  const bool is_end = call.command->name == "stop" || call.has("--follow");
-  if (!outcome.ok() && is_end && outcome.error().code == Code::unavailable) return ok();
+  if (call.has("--follow") && is_cut_off(outcome)) return ok();
   if (outcome.ok()) printer.finish();
+  return outcome;
+}
+
+// Asks to stop again, over a new connection, if the old one is lost: because too many want to talk to the system, or because it has
+// ended. The motors may be stopped twice. Other commands may not be carried out twice.
+Status ask_stubbornly(const Call& call, Client& client) {
+  const bool ends = call.command->name == "stop";
+  const bool may_repeat = ends || call.command->name == "estop";
+  const auto limit = std::chrono::steady_clock::now() + kStubborn;
+  Status outcome = ask_once(call, client);
+  while (may_repeat && is_cut_off(outcome) && std::chrono::steady_clock::now() < limit) {
+    std::this_thread::sleep_for(kPause);
+    std::variant<Client, Failure> again = Client::connect(call.system);
+    if (const auto* const failure = std::get_if<Failure>(&again)) {
+      if (ends && failure->error.code == Code::not_found) return ok();
+    } else {
+      outcome = ask_once(call, client = std::move(std::get<Client>(again)));
+    }
+  }
   return outcome;
 }
 
@@ -124,7 +146,7 @@ ExitCode ask(const Call& call) {
     return obeyed ? *obeyed : report(*failure);
   }
   for (;;) {
-    const Status outcome = ask_once(call, std::get<Client>(connected));
+    const Status outcome = ask_stubbornly(call, std::get<Client>(connected));
     if (!outcome.ok()) return report({outcome.error()});
     if (!call.watch) return ExitCode::done;
     std::this_thread::sleep_for(kWatchInterval);
@@ -135,7 +157,7 @@ ExitCode print_names(const Call& call) {
   const std::string& kind = call.words.front();
   std::set<std::string> names;
   if (kind == "system") {
-    for (const std::string& name : supervisor::running_systems()) names.insert(name);
+    for (const std::string& name : supervisor::running_systems().value_or({})) names.insert(name);
   } else {
     std::variant<Client, Failure> connected = Client::connect(call.system);
     if (auto* const failure = std::get_if<Failure>(&connected)) return failure->code;

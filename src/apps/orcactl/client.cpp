@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "orca/base/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/names.hpp"
@@ -15,25 +16,30 @@ namespace orca::orcactl {
 namespace {
 
 Failure no_system(const std::string& what) {
-  return {fail(Code::not_found, what + "; looked in " + supervisor::control_folder()), ExitCode::no_deployer};
+  return {fail(Code::not_found, what + "; looked in " + OwnFolder::path_of_user()), ExitCode::no_deployer};
 }
+
+// Nobody can be reached: not that there is no system, but that it cannot be trusted, or takes nobody in.
+Failure unreachable(const Error& why) { return {why, ExitCode::no_deployer}; }
 
 }  // namespace
 
 std::variant<Client, Failure> Client::connect(const std::string& system) {
   std::string name = system;
   if (name.empty()) {
-    const std::vector<std::string> running = supervisor::running_systems();
-    if (running.empty()) return no_system("no system runs" + hint_at_orphans(name));
-    if (running.size() > 1)
-      return Failure{fail(Code::invalid_argument, "several systems run: " + listed(running) +
-                                                      "; choose one: --system " + running.front()),
+    const Result<std::vector<std::string>> running = supervisor::running_systems();
+    if (!running) return unreachable(running.error());
+    if (running->empty()) return no_system("no system runs" + hint_at_orphans(name));
+    if (running->size() > 1)
+      return Failure{fail(Code::invalid_argument, "several systems run: " + listed(*running) +
+                                                      "; choose one: --system " + running->front()),
                      ExitCode::usage};
-    name = running.front();
+    name = running->front();
   }
   Result<Descriptor> socket = supervisor::connect_to_system(name);
   if (socket) return Client(std::move(socket).value());
-  const auto nearest = xml::nearest_name(name, supervisor::running_systems());
+  if (socket.error().code != Code::not_found) return unreachable(socket.error());
+  const auto nearest = xml::nearest_name(name, supervisor::running_systems().value_or({}));
   return no_system(socket.error().message + xml::did_you_mean(nearest) + hint_at_orphans(name));
 }
 

@@ -8,6 +8,7 @@
 #include "exit_code.hpp"
 #include "manual.hpp"
 #include "offering.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "tapping.hpp"
 
 namespace {
@@ -40,11 +41,18 @@ ExitCode carry_out(const Call& call) {
   return ExitCode::usage;
 }
 
+// Lack of memory, threads or descriptors is a refusal like others.
+ExitCode carry_out_contained(const Call& call) {
+  const orca::Result<ExitCode> code =
+      orca::contain_exhaustion([&]() -> orca::Result<ExitCode> { return carry_out(call); });
+  return code ? *code : report({code.error()});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const orca::Result<Call> call = parse_call({argv + 1, argv + argc});
-  const ExitCode code = call ? carry_out(*call) : report({call.error(), ExitCode::usage});
+  const ExitCode code = call ? carry_out_contained(*call) : report({call.error(), ExitCode::usage});
   const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
   return static_cast<int>(code == ExitCode::done && lost ? ExitCode::refused : code);
 }

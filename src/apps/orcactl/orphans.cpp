@@ -28,7 +28,7 @@ constexpr int kEndMs = 3000;
 // Returns the systems of which processes run without a deployer.
 std::vector<std::string> orphaned_systems(const std::string& system) {
   std::vector<std::string> orphaned = supervisor::waiting_systems();
-  const std::vector<std::string> running = supervisor::running_systems();
+  const std::vector<std::string> running = supervisor::running_systems().value_or({});
   std::erase_if(orphaned, [&](const std::string& name) {
     return std::ranges::find(running, name) != running.end() || (!system.empty() && name != system);
   });
@@ -79,6 +79,9 @@ ExitCode give_all(const std::string& system, const Call& call) {
       code = report({fail(name.error().code, "process " + std::to_string(waiting.pid) + " of " + system +
                                                  ": " + name.error().message)});
   }
+  if (obeyed.empty() && code == ExitCode::done)
+    return report(
+        {fail(Code::not_found, "no process of " + system + " could be reached"), ExitCode::no_deployer});
   if (!obeyed.empty())
     std::fprintf(stderr, "orcactl: no deployer runs; obeyed by the processes themselves: %s\n",
                  listed(obeyed).c_str());

@@ -13,6 +13,7 @@
 #include "options.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/open_output.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/batch/inputs.hpp"
@@ -139,6 +140,8 @@ ExitCode run(const Options& options) {
                                                  " holds results already; --resume makes what is missing, "
                                                  "--out DIR takes another folder"));
   std::error_code error;
+  if (const Status trusted = check_output_place(folder.string()); !trusted.ok())
+    return refuse(fail(trusted.error().code, folder.string() + ": " + trusted.error().message));
   std::filesystem::create_directories(folder, error);
   if (error) return refuse(fail(Code::unavailable, folder.string() + ": " + error.message()));
   Result<std::unique_ptr<batch::Store>> store = batch::Store::open(
@@ -197,6 +200,8 @@ ExitCode join(const Options& options) {
                        in_quotes(options.out) + " holds results already; --out DIR takes another folder"));
   const Result<std::unique_ptr<batch::Store>> first = open_results(options.subject);
   if (!first) return refuse(first.error());
+  if (const Status trusted = check_output_place(options.out); !trusted.ok())
+    return refuse(fail(trusted.error().code, options.out + ": " + trusted.error().message));
   std::filesystem::create_directories(options.out);
   Result<std::unique_ptr<batch::Store>> all =
       batch::Store::open(file.string(), (*first)->identity(), (*first)->origin());

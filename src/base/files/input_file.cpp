@@ -13,6 +13,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "orca/base/descriptor.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "used_files.hpp"
 
@@ -22,20 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kLimit{5};
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int number() const { return fd_; }
-
- private:
-  const int fd_;
-};
 
 // Waits for more of a pipe or a device; false if the deadline comes first.
 bool wait_for_more(int fd, Clock::time_point deadline) {

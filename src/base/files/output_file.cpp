@@ -9,6 +9,8 @@
 #include <cstring>
 #include <utility>
 
+#include "orca/base/exhaustion.hpp"
+#include "orca/base/open_output.hpp"
 #include "used_files.hpp"
 
 namespace orca {
@@ -18,8 +20,7 @@ constexpr std::size_t kBuffer = 64 * 1024;
 // Without O_NONBLOCK, a pipe that nobody reads would block open() for ever; with it, that is an error.
 constexpr int kFlags = O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
 
-Error cannot_write(const std::string& what, const std::string& path, int reason) {
-  const std::string why = reason == ENXIO ? "nobody reads this pipe" : std::strerror(reason);
+Error cannot_write(const std::string& what, const std::string& path, const std::string& why) {
   return fail(Code::unavailable, "cannot write " + what + ": " + why, path);
 }
 
@@ -34,11 +35,12 @@ OutputFile::~OutputFile() {
 
 Status OutputFile::open(const std::string& path) {
   path_ = path;
-  fd_ = ::open(path.c_str(), kFlags | O_CREAT | O_EXCL, 0666);
-  created_ = fd_ >= 0;
-  if (!created_) fd_ = ::open(path.c_str(), kFlags | O_CREAT, 0666);
+  Result<OpenOutput> opened = contain_exhaustion([&] { return open_output(path, kFlags, 0666); });
+  if (!opened) return cannot_write(what_, path, opened.error().message);
+  created_ = opened->is_new;
+  fd_ = opened->file.release();
   struct stat file {};
-  if (fd_ < 0 || fstat(fd_, &file) != 0) return cannot_write(what_, path, errno);
+  if (fstat(fd_, &file) != 0) return cannot_write(what_, path, std::strerror(errno));
   const std::string use = S_ISREG(file.st_mode) ? UsedFiles::of_process().use_of(file) : "";
   if (!use.empty()) {
     ::close(std::exchange(fd_, -1));
@@ -92,7 +94,7 @@ Status OutputFile::close() {
   UsedFiles::of_process().remove_written(path_);
   if (created_ && !begun_) unlink(path_.c_str());
   if (failure_ == 0) return ok();
-  return cannot_write(what_, path_, failure_);
+  return cannot_write(what_, path_, std::strerror(failure_));
 }
 
 }  // namespace orca

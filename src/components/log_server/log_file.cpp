@@ -10,7 +10,9 @@
 #include <cstring>
 #include <utility>
 
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/input_file.hpp"
+#include "orca/base/open_output.hpp"
 
 namespace orca::logs {
 namespace {
@@ -46,9 +48,10 @@ Status LogFile::open() {
   const std::string folder = slash == std::string::npos ? "." : path_.substr(0, slash + 1);
   if (access(folder.c_str(), X_OK) != 0)
     return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);
-  fd_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0644);
-  if (fd_ < 0)
-    return fail(Code::unavailable, std::string("cannot be written: ") + std::strerror(errno), path_);
+  Result<OpenOutput> opened = contain_exhaustion(
+      [&] { return open_output(path_, O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0644); });
+  if (!opened) return fail(Code::unavailable, "cannot be written: " + opened.error().message, path_);
+  fd_ = opened->file.release();
   struct stat about {};
   regular_ = fstat(fd_, &about) == 0 && S_ISREG(about.st_mode);
   size_ = regular_ ? static_cast<std::uint64_t>(about.st_size) : 0;

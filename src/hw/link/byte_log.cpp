@@ -2,14 +2,15 @@
 #include "orca/hw/link/byte_log.hpp"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 
 #include "log_writer.hpp"
-#include "orca/base/exhaustion.hpp"
 #include "orca/base/input_file.hpp"
+#include "orca/base/open_output.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::hw::link {
@@ -25,14 +26,13 @@ Result<std::unique_ptr<ByteLog>> ByteLog::create(ByteLogOptions options, const s
                 "the byte log would overwrite a file that is read here; give it a name of its own",
                 options.path);
   // A pipe that nobody reads must not hold the strand.
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
-  Descriptor file(::open(options.path.c_str(), kFlags, 0666));
-  if (!file) {
-    throw_if_exhausted(errno);
+  Result<OpenOutput> opened = open_output(options.path, O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, 0666);
+  if (!opened)
+    return fail(Code::unavailable, "cannot write the byte log: " + opened.error().message, options.path);
+  if (ftruncate(opened->file.number(), 0) != 0 && errno != EINVAL)  // a pipe has nothing to cut off
     return fail(Code::unavailable, "cannot write the byte log: " + std::string(std::strerror(errno)),
                 options.path);
-  }
-  auto writer = std::make_unique<LogWriter>(std::move(file), options.path);
+  auto writer = std::make_unique<LogWriter>(std::move(opened->file), options.path);
   std::unique_ptr<ByteLog> log(new ByteLog(std::move(options), std::move(writer)));
   log->write(std::string(kByteLogTitle) + "\n");
   log->remark(about);

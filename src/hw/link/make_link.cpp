@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/link/make_link.hpp"
 
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
-#include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <string>
 
+#include "orca/base/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
@@ -24,6 +26,8 @@ namespace {
 using Made = Result<std::unique_ptr<ByteLink>>;
 
 constexpr Duration kEmulationStarts = 10s;  // another process may have to load a world first
+
+constexpr const char* kEmulated = "emulated";
 
 constexpr const char* kForms =
     "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, pty:PATH, "
@@ -82,6 +86,12 @@ Made make_serial(std::string_view device, const LinkOptions& options) {
   return Made(std::make_unique<SerialLink>(std::move(serial)));
 }
 
+// Somebody else's folder could lead the driver to any line.
+Status check_folder() {
+  const Result<OwnFolder> folder = OwnFolder::open();
+  return folder || folder.error().code == Code::not_found ? ok() : Status(folder.error());
+}
+
 Made make_emulated(std::string_view text, std::string_view name, const LinkOptions& options) {
   constexpr std::string_view kTcp = "tcp:";
   if (name.starts_with(kTcp)) {
@@ -96,6 +106,7 @@ Made make_emulated(std::string_view text, std::string_view name, const LinkOptio
     return wrong(text, "the name of an emulation is no path");
   SerialOptions serial;
   serial.device = emulated_path(name);
+  serial.check = check_folder;
   serial.line = options.line;
   serial.patience = kEmulationStarts;
   serial.now = options.now;
@@ -105,11 +116,15 @@ Made make_emulated(std::string_view text, std::string_view name, const LinkOptio
 }  // namespace
 
 std::string emulated_path(std::string_view name) {
-  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
-  const bool has_folder = runtime != nullptr && *runtime == '/';
-  const std::string folder =
-      has_folder ? std::string(runtime) + "/orca" : "/tmp/orca-" + std::to_string(getuid());
-  return folder + "/emulated/" + std::string(name);
+  return OwnFolder::path_of_user() + "/" + kEmulated + "/" + std::string(name);
+}
+
+Status make_emulated_folder() {
+  const Result<OwnFolder> folder = OwnFolder::make();
+  if (!folder) return folder.error();
+  if (mkdirat(folder->descriptor(), kEmulated, 0700) == 0 || errno == EEXIST) return ok();
+  return fail(Code::unavailable,
+              "cannot make " + folder->path() + "/" + kEmulated + ": " + std::strerror(errno));
 }
 
 std::string real_place(std::string_view text) {

@@ -12,6 +12,7 @@
 
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/open_output.hpp"
 #include "stream.hpp"
 
 namespace orca::hw::link {
@@ -60,6 +61,8 @@ Status PtyLink::await_driver() {
 
 Status PtyLink::place_symlink() const {
   if (symlink_.empty()) return ok();
+  if (const Status trusted = check_output_place(symlink_); !trusted.ok())
+    return fail(trusted.error().code, symlink_ + ": " + trusted.error().message, name());
   std::error_code failure;
   const paths::file_status there = paths::symlink_status(symlink_, failure);
   if (paths::exists(there) && !paths::is_symlink(there))

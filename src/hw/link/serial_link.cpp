@@ -13,6 +13,7 @@
 
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/open_output.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "serial_places.hpp"
 #include "serial_trouble.hpp"
@@ -80,6 +81,10 @@ Result<std::string> SerialLink::locate() const {
 
 // Opens a device for this link alone.
 Result<Descriptor> SerialLink::claim(const std::string& path) {
+  if (options_.check)
+    if (const Status trusted = options_.check(); !trusted.ok()) return trusted.error();
+  if (const Status trusted = check_output_place(path); !trusted.ok())
+    return fail(trusted.error().code, path + ": " + trusted.error().message, name());
   if (const Status kind = check_kind(path, name()); !kind.ok()) return kind.error();
   Descriptor terminal(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (!terminal) {

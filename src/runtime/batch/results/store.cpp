@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "orca/base/hash.hpp"
+#include "orca/base/open_output.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::batch {
@@ -365,6 +366,8 @@ class SqliteStore final : public Store {
 Result<std::unique_ptr<Store>> Store::open(const std::string& file, const std::string& identity,
                                            const Origin& origin) {
   sqlite3* opened = nullptr;
+  if (Status trusted = check_output_place(file); !trusted.ok())
+    return fail(trusted.error().code, trusted.error().message, file);
   const int result = sqlite3_open(file.c_str(), &opened);
   Database database(opened);
   if (result != SQLITE_OK)

@@ -15,7 +15,7 @@ constexpr auto kNames = std::to_array<const char*>(
      "FOREIGN_THREAD", "FLOATING_POINT", "LOCALE",  "TERMINATE_HANDLER", "SIGNAL_MASK",
      "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",   "RESOURCE_LIMIT",    "REDIRECTION",
      "DESCRIPTORS",    "PROCESS_ENDED",  "GAVE_UP", "MACHINE_LOST",      "ESTOP",
-     "SWAP_UNDONE"});
+     "CONTROL_LOST",   "SWAP_UNDONE"});
 static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::swap_undone) + 1);
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
@@ -23,6 +23,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
     case AlarmKind::hardware_fault:
     case AlarmKind::machine_lost:
     case AlarmKind::estop:
+    case AlarmKind::control_lost:
     case AlarmKind::gave_up: return idl::ALARM_CRITICAL;
     case AlarmKind::failed:
     case AlarmKind::process_ended:

@@ -15,6 +15,8 @@
 namespace orca::supervisor {
 namespace {
 
+constexpr Duration kSocketLook = 1s;  // until the next look at the socket's file
+
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
   return std::ranges::find(ask.words, option) != ask.words.end();
@@ -71,10 +73,25 @@ void ControlDesk::add_to(std::vector<pollfd>& all) const {
 
 void ControlDesk::serve(Moment now) {
   if (server_) server_->serve(now);
+  if (server_ && now - socket_seen_ >= kSocketLook) look_after_socket(now);
   if (watch_) look_at_files(now);
   exchanging_.go_on();
   applying_.go_on();
   log_.pass_on();
+}
+
+// Whoever cleans up folders may have removed it, and with it the emergency stop.
+void ControlDesk::look_after_socket(Moment now) {
+  socket_seen_ = now;
+  const Result<bool> restored = server_->restore_socket();
+  if (!restored && !ledger_.is_active(host::AlarmKind::control_lost, ""))
+    ledger_.raise(
+        host::AlarmKind::control_lost, "",
+        "neither orcactl nor its emergency stop can reach this system, because its socket was removed: " +
+            restored.error().message);
+  if (!restored) return;
+  if (*restored) log::warning(kLogName, "somebody has removed the socket of this system; it is made again");
+  ledger_.settle(host::AlarmKind::control_lost, "", "orcactl reaches this system again");
 }
 
 void ControlDesk::watch(std::vector<std::string> graph_files) {

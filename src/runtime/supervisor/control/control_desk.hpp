@@ -73,6 +73,7 @@ class ControlDesk {
   void show_missions(const Ask& ask, Reply& reply) const;
   void open_line(const Ask& ask, const ReplyPtr& reply);
   void look_at_files(Moment now);
+  void look_after_socket(Moment now);
 
   Ledger& ledger_;
   const SystemNames names_;
@@ -84,6 +85,7 @@ class ControlDesk {
   const Showing showing_;
   MotorHold motors_;
   LogBook log_;
+  Moment socket_seen_{};
   std::optional<ControlServer> server_;  // the last member: its clients are gone first
 };
 

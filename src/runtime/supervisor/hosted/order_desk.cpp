@@ -27,6 +27,7 @@ namespace {
 
 constexpr int kBeatMs = 20;
 constexpr int kBeatsToGlance = 5;
+constexpr Duration kPlaceLook = 1s;  // until the next look at the file of the meeting place
 
 Descriptor make_wake() {
   Descriptor wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
@@ -104,7 +105,19 @@ void OrderDesk::work() {
     site_.heartbeat.fetch_add(1, std::memory_order_relaxed);
     wait();
     channel_ != nullptr ? hear_supervisor() : keep_vigil();
+    if (place_) look_after_place();
   }
+}
+
+// A deployer that does not find this process would start another one in its place.
+void OrderDesk::look_after_place() {
+  const Moment now = Moment::clock::now();
+  if (now - place_seen_ < kPlaceLook) return;
+  place_seen_ = now;
+  const Result<bool> restored = place_->restore();
+  if (restored && *restored)
+    log::warning(site_.process,
+                 "somebody has removed the socket at which a deployer finds this process; it is made again");
 }
 
 void OrderDesk::wait() const {

@@ -56,6 +56,7 @@ class OrderDesk {
   void turn_away_all();
   void keep_vigil();
   void lose_supervisor(const Error& reason);
+  void look_after_place();
   void carry_out(Told told);
   void adopt(const Told& told);
   Status prepare_to_outlive(Outlive& order);
@@ -77,7 +78,8 @@ class OrderDesk {
   PortLines lines_;
   std::optional<Outlive> will_;         // what to do without a supervisor; none: to end
   std::optional<ControlSocket> place_;  // while there is a will
-  std::optional<Vigil> vigil_;          // while there is no supervisor
+  Moment place_seen_{};
+  std::optional<Vigil> vigil_;  // while there is no supervisor
   Moment vigil_ends_at_{};
   std::optional<std::uint64_t> graph_mark_;  // of the run's present graph; none: it is that of the start
   bool is_taken_down_ = false;

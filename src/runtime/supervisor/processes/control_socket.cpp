@@ -3,37 +3,36 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/hash.hpp"
+#include "orca/base/own_folder.hpp"
 
 namespace orca::supervisor {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kSuffix = ".sock";
-constexpr int kWaiting = 16;             // clients that have not been accepted yet
+constexpr const char* kSuffix = ".sock";
+constexpr int kWaiting = 128;            // clients that have not been accepted yet
 constexpr int kSendBuffer = 256 * 1024;  // [bytes]
+constexpr timeval kPatience{1, 0};       // with a system that many want to talk to
 
-bool is_folder(const char* path) {
-  struct stat found {};
-  return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
-}
+std::string file_of(const std::string& system) { return system + kSuffix; }
 
-std::string file_of(const std::string& system) { return system + std::string(kSuffix); }
-
-std::string path_of(const std::string& file) { return control_folder() + "/" + file; }
+std::string path_of(const std::string& file) { return OwnFolder::path_of_user() + "/" + file; }
 
 Error refused(const std::string& what, int reason) {
   throw_if_exhausted(reason);
@@ -45,18 +44,42 @@ void make_room(const Descriptor& socket) {
   setsockopt(socket.number(), SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
 }
 
-Descriptor make_socket() {
-  Descriptor made(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+Descriptor make_socket(int flags = 0) {
+  Descriptor made(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | flags, 0));
   if (!made) throw_if_exhausted(errno);
   make_room(made);
   return made;
 }
 
-std::optional<sockaddr_un> address_of(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) return std::nullopt;
-  std::memcpy(address.sun_path, path.data(), path.size());
+// An address of the system, with its length.
+struct Address {
+  sockaddr_un name{};
+  socklen_t size = sizeof name;
+};
+
+std::optional<Address> address_of(const std::string& path) {
+  Address address;
+  address.name.sun_family = AF_UNIX;
+  if (path.size() >= sizeof address.name.sun_path) return std::nullopt;
+  std::memcpy(address.name.sun_path, path.data(), path.size());
+  return address;
+}
+
+// A name without a file, so that nobody loses it with the file. Processes with other folders have other names.
+Address name_in_memory(const std::string& path) {
+  struct stat mounts {};
+  (void)stat("/proc/self/ns/mnt", &mounts);
+  Fnv1a hash;
+  hash.add_text(path);
+  hash.add_u64(mounts.st_ino);
+  char text[64];
+  const int length = std::snprintf(text, sizeof text, "orca-%u-%016llx", geteuid(),
+                                   static_cast<unsigned long long>(hash.value()));
+  Address address;
+  address.name.sun_family = AF_UNIX;
+  std::memcpy(address.name.sun_path + 1, text, static_cast<std::size_t>(length));  // behind a zero: no file
+  address.size =
+      static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + static_cast<std::size_t>(length));
   return address;
 }
 
@@ -64,51 +87,61 @@ Error too_long(const std::string& path) {
   return fail(Code::unavailable, "the path of the socket is too long: " + path);
 }
 
+const sockaddr* plain(const Address& address) { return reinterpret_cast<const sockaddr*>(&address.name); }
+
 // Returns 0 if somebody listens there, otherwise the system's number.
-int connect_to(const Descriptor& socket, const sockaddr_un& address) {
+int connect_to(const Descriptor& socket, const Address& address) {
   if (!socket) return EMFILE;
-  return connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? 0
-                                                                                                    : errno;
+  return connect(socket.number(), plain(address), address.size) == 0 ? 0 : errno;
 }
 
-// Makes the folder of the sockets, or checks that nobody else can put something there. Returns it locked.
-Result<Descriptor> lock_folder() {
-  const std::string folder = control_folder();
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    return refused("cannot make the folder " + folder, errno);
-  Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-  if (!opened) return refused("cannot open the folder " + folder, errno);
-  struct stat found {};
-  if (fstat(opened.number(), &found) != 0) return refused("cannot look at the folder " + folder, errno);
-  if (found.st_uid != geteuid() || (found.st_mode & 077) != 0)
-    return fail(
-        Code::unavailable,
-        "the folder " + folder + " does not belong to this user alone; remove it, or make it so (chmod 700)");
-  while (flock(opened.number(), LOCK_EX) != 0)
-    if (errno != EINTR) return refused("cannot lock the folder " + folder, errno);
-  return opened;
+bool is_trusted(uid_t user) { return user == geteuid() || user == 0; }
+
+// Checks that somebody else has not put a socket in the place of ours.
+Status prove_listener(const Descriptor& socket, const std::string& path) {
+  const std::optional<ucred> peer = peer_of(socket);
+  if (peer && is_trusted(peer->uid)) return ok();
+  const std::string who = peer ? "user " + std::to_string(peer->uid) : std::string("nobody knows who");
+  return fail(Code::unavailable, "at the socket " + path + " listens " + who +
+                                     ", and no deployer of yours; have that process ended");
 }
 
-// Binds the socket and listens.
-Status listen_at(const Descriptor& socket, const std::string& path, const sockaddr_un& address) {
-  const int bound = bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
-  if (bound != 0 || chmod(path.c_str(), 0600) != 0) return refused("cannot make the socket " + path, errno);
-  if (listen(socket.number(), kWaiting) != 0) return refused("cannot listen at the socket " + path, errno);
-  return ok();
+Result<OwnFolder> lock_folder() {
+  Result<OwnFolder> folder = OwnFolder::make();
+  if (!folder) return folder.error();
+  while (flock(folder->descriptor(), LOCK_EX) != 0)
+    if (errno != EINTR) return refused("cannot lock the folder " + folder->path(), errno);
+  return folder;
 }
 
-bool is_of_this_user(const Descriptor& client) {
-  ucred peer{};
-  socklen_t size = sizeof peer;
-  return getsockopt(client.number(), SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.uid == geteuid();
+// Takes the name that keeps others out.
+Result<Descriptor> take_name(const std::string& path, const Error& taken) {
+  const Address address = name_in_memory(path);
+  Descriptor name = make_socket(SOCK_NONBLOCK);
+  if (!name) return refused("cannot make a socket", errno);
+  if (bind(name.number(), plain(address), address.size) == 0) {
+    if (listen(name.number(), 1) == 0) return name;
+    return refused("cannot keep the name of the socket " + path, errno);
+  }
+  if (errno != EADDRINUSE) return refused("cannot take the name of the socket " + path, errno);
+  const Descriptor asking = make_socket(SOCK_NONBLOCK);
+  const int reason = connect_to(asking, address);
+  const std::optional<ucred> holder = reason == 0 ? peer_of(asking) : std::nullopt;
+  if (reason == EAGAIN || (holder && holder->uid == geteuid())) return taken;
+  return fail(Code::unavailable, "the name of the socket " + path + " is held by " +
+                                     (holder ? "process " + std::to_string(holder->pid) + " of user " +
+                                                   std::to_string(holder->uid)
+                                             : std::string("a process that does not say who it is")) +
+                                     "; have that process ended (ss -xlp shows it)");
 }
 
 }  // namespace
 
-std::string control_folder() {
-  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
-  if (runtime != nullptr && runtime[0] == '/' && is_folder(runtime)) return std::string(runtime) + "/orca";
-  return "/tmp/orca-" + std::to_string(geteuid());
+std::optional<ucred> peer_of(const Descriptor& socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (getsockopt(socket.number(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
+  return peer;
 }
 
 Result<ControlSocket> ControlSocket::open(const std::string& system) {
@@ -120,20 +153,51 @@ Result<ControlSocket> ControlSocket::open(const std::string& system) {
 
 Result<ControlSocket> ControlSocket::open_file(const std::string& file, const Error& taken) {
   const std::string path = path_of(file);
-  const std::optional<sockaddr_un> address = address_of(path);
+  const std::optional<Address> address = address_of(path);
   if (!address) return too_long(path);
-  const Result<Descriptor> lock = lock_folder();  // two deployers may begin at the same time
+  const Result<OwnFolder> lock = lock_folder();  // two deployers may begin at the same time
   if (!lock) return lock.error();
-  if (connect_to(make_socket(), *address) == 0) return taken;
-  unlink(path.c_str());
-  Descriptor socket = make_socket();
-  if (!socket) return refused("cannot make a socket", errno);
-  if (Status listens = listen_at(socket, path, *address); !listens.ok()) return listens.error();
-  return ControlSocket(std::move(socket), path);
+  const int reason = connect_to(make_socket(SOCK_NONBLOCK), *address);
+  if (reason == 0 || reason == EAGAIN) return taken;
+  Result<Descriptor> name = take_name(path, taken);
+  if (!name) return name.error();
+  ControlSocket socket(std::move(name).value(), path);
+  if (Status listens = socket.listen(); !listens.ok()) return listens.error();
+  return socket;
 }
 
 ControlSocket::~ControlSocket() {
-  if (listening_) unlink(path_.c_str());
+  struct stat found {};
+  const bool is_own =
+      listening_ && lstat(path_.c_str(), &found) == 0 && found.st_dev == device_ && found.st_ino == number_;
+  if (is_own) unlink(path_.c_str());
+}
+
+// Called with the folder locked.
+Status ControlSocket::listen() {
+  const std::optional<Address> address = address_of(path_);
+  if (!address) return too_long(path_);
+  unlink(path_.c_str());
+  Descriptor made = make_socket(SOCK_NONBLOCK);
+  if (!made) return refused("cannot make a socket", errno);
+  struct stat found {};
+  if (bind(made.number(), plain(*address), address->size) != 0 || chmod(path_.c_str(), 0600) != 0 ||
+      lstat(path_.c_str(), &found) != 0)
+    return refused("cannot make the socket " + path_, errno);
+  if (::listen(made.number(), kWaiting) != 0) return refused("cannot listen at the socket " + path_, errno);
+  listening_ = std::move(made);
+  device_ = found.st_dev;
+  number_ = found.st_ino;
+  return ok();
+}
+
+Result<bool> ControlSocket::restore() {
+  struct stat found {};
+  if (lstat(path_.c_str(), &found) == 0 && found.st_dev == device_ && found.st_ino == number_) return false;
+  const Result<OwnFolder> lock = lock_folder();
+  if (!lock) return lock.error();
+  if (Status listens = listen(); !listens.ok()) return listens.error();
+  return true;
 }
 
 Result<Descriptor> ControlSocket::accept() const {
@@ -142,27 +206,36 @@ Result<Descriptor> ControlSocket::accept() const {
     if (!client && errno == EINTR) continue;
     if (!client && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM))
       return fail(Code::unavailable, std::string("cannot accept a client: ") + std::strerror(errno));
-    if (client && !is_of_this_user(client)) continue;
-    if (client) make_room(client);
+    if (!client) return client;
+    const std::optional<ucred> peer = peer_of(client);
+    if (!peer || !is_trusted(peer->uid)) continue;
+    make_room(client);
     return client;
   }
 }
 
 Result<Descriptor> connect_to_file(const std::string& file) {
   const std::string path = path_of(file);
-  const std::optional<sockaddr_un> address = address_of(path);
+  const std::optional<Address> address = address_of(path);
   if (!address) return too_long(path);
+  const Result<OwnFolder> folder = OwnFolder::open();
+  const Error nobody = fail(Code::not_found, "nobody listens at the socket " + path);
+  if (!folder) return folder.error().code == Code::not_found ? nobody : folder.error();
   Descriptor socket = make_socket();
+  setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
   const int reason = connect_to(socket, *address);
-  if (reason == 0) return socket;
-  if (reason == ENOENT || reason == ECONNREFUSED)
-    return fail(Code::not_found, "nobody listens at the socket " + path);
-  return refused("cannot connect to " + path, reason);
+  if (reason == ENOENT || reason == ECONNREFUSED) return nobody;
+  if (reason == EAGAIN)
+    return fail(Code::unavailable,
+                "the system at the socket " + path + " takes in no more clients; try again");
+  if (reason != 0) return refused("cannot connect to " + path, reason);
+  if (Status proven = prove_listener(socket, path); !proven.ok()) return proven.error();
+  return socket;
 }
 
 // Somebody who is just about to listen holds the lock.
 void remove_dead_file(const std::string& file) {
-  const Result<Descriptor> lock = lock_folder();
+  const Result<OwnFolder> lock = lock_folder();
   if (!lock) return;
   const Result<Descriptor> socket = connect_to_file(file);
   if (!socket && socket.error().code == Code::not_found) unlink(path_of(file).c_str());
@@ -175,15 +248,28 @@ Result<Descriptor> connect_to_system(const std::string& system) {
   return socket;
 }
 
-std::vector<std::string> running_systems() {
-  std::vector<std::string> names;
+Result<std::vector<std::string>> files_of_user(const std::string& ending) {
+  std::vector<std::string> files;
+  const Result<OwnFolder> folder = OwnFolder::open();
+  if (!folder && folder.error().code == Code::not_found) return files;
+  if (!folder) return folder.error();
   std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(control_folder(), none)) {
-    if (entry.path().extension() != kSuffix) continue;
-    const std::string name = entry.path().stem().string();
-    if (connect_to_system(name)) names.push_back(name);
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder->path(), none))
+    if (entry.path().extension() == ending) files.push_back(entry.path().filename().string());
+  std::ranges::sort(files);
+  return files;
+}
+
+// One that is too busy to answer runs, too.
+Result<std::vector<std::string>> running_systems() {
+  const Result<std::vector<std::string>> files = files_of_user(kSuffix);
+  if (!files) return files.error();
+  std::vector<std::string> names;
+  for (const std::string& file : *files) {
+    const std::string name = fs::path(file).stem().string();
+    const Result<Descriptor> socket = connect_to_system(name);
+    if (socket || socket.error().code != Code::not_found) names.push_back(name);
   }
-  std::ranges::sort(names);
   return names;
 }
 

@@ -9,14 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <optional>
 #include <set>
 
 namespace orca::supervisor {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* kOrphanSuffix = ".orphan";
 constexpr char kBetween = '@';  // is in no name
@@ -30,26 +27,18 @@ std::string file_of(const std::string& system, std::string process) {
   return system + kBetween + process + kOrphanSuffix;
 }
 
-std::vector<std::string> files_in_folder() {
-  std::vector<std::string> files;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(control_folder(), none))
-    if (entry.path().extension() == kOrphanSuffix) files.push_back(entry.path().filename().string());
-  std::ranges::sort(files);
-  return files;
-}
+// In a folder that cannot be trusted is nobody: a deployer is not started there either.
+std::vector<std::string> files_in_folder() { return files_of_user(kOrphanSuffix).value_or({}); }
 
 std::string system_of(const std::string& file) { return file.substr(0, file.find(kBetween)); }
 
 // Tells which process listens at the other end.
 std::optional<Waiting> look_at(Descriptor connection) {
-  ucred peer{};
-  socklen_t size = sizeof peer;
-  if (getsockopt(connection.number(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
-  if (peer.uid != geteuid()) return std::nullopt;
-  Descriptor pidfd(static_cast<int>(syscall(SYS_pidfd_open, peer.pid, 0)));
+  const std::optional<ucred> peer = peer_of(connection);
+  if (!peer || peer->uid != geteuid()) return std::nullopt;
+  Descriptor pidfd(static_cast<int>(syscall(SYS_pidfd_open, peer->pid, 0)));
   if (!pidfd) return std::nullopt;
-  return Waiting{peer.pid, std::move(pidfd), std::move(connection)};
+  return Waiting{peer->pid, std::move(pidfd), std::move(connection)};
 }
 
 }  // namespace

@@ -393,13 +393,21 @@ host::RunResult refuse(const Error& error, const std::string& log_name, host::Ru
   return result;
 }
 
+// A robot that no emergency stop can reach does not begin to move.
+Error unreachable(Error why) {
+  if (why.code != Code::already_exists)
+    why.message =
+        "nothing is started, because no emergency stop (orcactl estop) could reach it: " + why.message;
+  return why;
+}
+
 }  // namespace
 
 host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOptions& options,
                                host::StopSignal& stop, host::RunListener& listener) {
   Result<ControlSocket> socket = ControlSocket::open(graph.name);
-  if (!socket && socket.error().code == Code::already_exists)
-    return refuse(socket.error(), options.log_name, listener);
+  if (!socket && (socket.error().code == Code::already_exists || !graph.hardware.empty()))
+    return refuse(unreachable(socket.error()), options.log_name, listener);
   Result<Beginning> beginning = begin_or_go_on(graph, options.machine);
   if (!beginning) return refuse(beginning.error(), options.log_name, listener);
   log::set_clock([start = beginning->run.start] { return TimePoint(steady_now() - start); });

@@ -4,6 +4,8 @@
 
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -188,4 +190,72 @@ TEST_CASE("a client that waits while there are no descriptors left keeps nobody 
   CHECK(system.has_something_to_do());
   system.serve(1, kServerStart + 1s);
   CHECK(system.asked == 1);
+}
+
+TEST_CASE("a process with many connections loses its own, and none of another that has just come",
+          "[supervisor][control]") {
+  Served system;
+  std::vector<Descriptor> crowd;
+  const auto flood = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      crowd.push_back(system.connect());
+      system.serve();
+    }
+  };
+  flood(ControlServer::kMostClients);
+  int ready[2] = {-1, -1};
+  int go[2] = {-1, -1};
+  REQUIRE(pipe(ready) == 0);
+  REQUIRE(pipe(go) == 0);
+  const pid_t other = fork();
+  if (other == 0) {
+    Channel client(system.connect());
+    char byte = 'x';
+    (void)!write(ready[1], &byte, 1);
+    (void)!read(go[0], &byte, 1);
+    (void)client.post(encode(Ask{"no", {}, false}, 1));
+    const Result<Message> answer = client.wait_for_message(kAnswerLimit);
+    _exit(answer ? 0 : 1);
+  }
+  char byte = 0;
+  REQUIRE(read(ready[0], &byte, 1) == 1);
+  flood(3 * ControlServer::kMostClients);
+  REQUIRE(write(go[1], &byte, 1) == 1);
+  int status = -1;
+  for (int i = 0; i < 2000 && waitpid(other, &status, WNOHANG) == 0; ++i) {
+    system.serve();
+    usleep(1000);
+  }
+  CHECK(status == 0);
+  CHECK(system.asked == 1);
+  for (const int one : {ready[0], ready[1], go[0], go[1]}) close(one);
+}
+
+TEST_CASE("a client that waits for an answer stays, while others come and ask nothing",
+          "[supervisor][control]") {
+  Served system;
+  Channel first(system.connect());
+  REQUIRE(first.post(encode(Ask{"wait", {}, false}, 1)).ok());
+  std::vector<Descriptor> crowd;
+  for (std::size_t i = 0; i < 2 * ControlServer::kMostClients; ++i) {
+    crowd.push_back(system.connect());
+    system.serve();
+  }
+  REQUIRE(system.kept.size() == 1);
+  system.kept.clear();
+  CHECK(std::get<EndAnswer>(next(first)).outcome.ok());
+}
+
+TEST_CASE("a client is taken in although there are no descriptors left", "[supervisor][control]") {
+  Served system;
+  Channel client(system.connect());
+  REQUIRE(client.post(encode(Ask{"ps", {}, false}, 1)).ok());
+  system.serve();  // before descriptors are scarce
+  (void)next(client), (void)next(client);
+  Channel late(system.connect());
+  REQUIRE(late.post(encode(Ask{"ps", {}, false}, 1)).ok());
+  std::vector<Descriptor> all;
+  while (Descriptor one{dup(0)}) all.push_back(std::move(one));
+  system.serve();
+  CHECK(system.asked == 2);
 }

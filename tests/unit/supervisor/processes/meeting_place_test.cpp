@@ -29,7 +29,7 @@ TEST_CASE("a process is met at its place, which is for its user alone and gone w
     REQUIRE(place);
     CHECK(mode_of(file) == 0600);
     CHECK(waiting_systems() == std::vector<std::string>{"scout"});
-    CHECK(running_systems().empty());
+    CHECK(running_systems()->empty());
     while (place->accept().value()) continue;  // what asked who waits
     const std::vector<Waiting> found = connect_to_waiting("scout");
     REQUIRE(found.size() == 1);

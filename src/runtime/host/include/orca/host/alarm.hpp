@@ -31,6 +31,7 @@ enum class AlarmKind {
   gave_up,        ///< Processes were restarted too often; the run ends.
   machine_lost,   ///< Another machine of the system is silent, or could not start again.
   estop,          ///< Motors are held: an operator has stopped all, or the process of some was lost.
+  control_lost,   ///< Nobody can reach this system with orcactl any more, not even to stop it.
   swap_undone  ///< A new version of a component failed soon after it had taken over, and the old one is back.
 };
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <sys/socket.h>
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,15 +14,18 @@
 
 namespace orca::supervisor {
 
-/// The Unix socket of a running system: `$XDG_RUNTIME_DIR/orca/<graph>.sock`, or `/tmp/orca-<uid>/<graph>.sock` where there
-/// is no such folder. The socket has mode 0600 and lies in a folder of mode 0700 that belongs to the user. It keeps packets
-/// apart, as a Channel needs it.
+/// The Unix socket of a running system: `<graph>.sock` in the folder of the user (orca/base/own_folder.hpp), with mode 0600.
+/// It keeps packets apart, as a Channel needs it. Both ends are proven: the folder is this user's alone, and who is at the
+/// other end is this user, or root.
 
-/// Returns the folder of the sockets of this user. It need not exist.
+/// Returns who is at the other end of a Unix socket, as the system says; nothing if it does not know.
 /// @thread  any.
-[[nodiscard]] std::string control_folder();
+[[nodiscard]] std::optional<ucred> peer_of(const Descriptor& socket);
 
 /// The listening end of a system's socket. The destructor removes it.
+///
+/// As long as the object lives, nobody else gets a socket of the same name, even if its file was removed: a name in memory
+/// keeps the others out.
 ///
 /// Thread contract: not synchronised.
 class ControlSocket {
@@ -37,7 +44,13 @@ class ControlSocket {
   ControlSocket(ControlSocket&&) = default;
   ControlSocket& operator=(ControlSocket&&) = delete;
 
-  /// Accepts the next client that waits; empty if there is none. A client of another user is turned away.
+  /// Looks whether the file still leads to this socket, and makes file and folder again if somebody has removed them.
+  /// Clients that are connected notice nothing.
+  /// @return whether they were made again.
+  /// @errors  unavailable, with the reason, if they cannot be made again: nobody can reach the socket.
+  [[nodiscard]] Result<bool> restore();
+
+  /// Accepts the next client that waits; empty if there is none. A client of another user, except root, is turned away.
   /// @errors  unavailable if there are no descriptors left: the client waits on, and poll() reports it all the time.
   [[nodiscard]] Result<Descriptor> accept() const;
   /// Returns the number of the socket, for poll().
@@ -45,20 +58,23 @@ class ControlSocket {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  ControlSocket(Descriptor listening, std::string path)
-      : listening_(std::move(listening)), path_(std::move(path)) {}
+  ControlSocket(Descriptor name, std::string path) : name_(std::move(name)), path_(std::move(path)) {}
+  [[nodiscard]] Status listen();
 
+  Descriptor name_;       // keeps others out; empty after a move
   Descriptor listening_;  // empty after a move
   std::string path_;
+  dev_t device_ = 0;  // of the file
+  ino_t number_ = 0;
 };
 
-/// Connects to a running system of this user.
-/// @errors  not_found if none of this name runs; unavailable with the system's reason.
+/// Connects to a running system of this user. Waits up to 1 s if many others want to, too.
+/// @errors  not_found if none of this name runs; unavailable with the reason, also if another user answers in its place.
 /// @thread  any.
 [[nodiscard]] Result<Descriptor> connect_to_system(const std::string& system);
 
-/// Connects to a socket of ControlSocket::open_file().
-/// @errors  not_found if nobody listens there; unavailable with the system's reason.
+/// Connects to a socket of ControlSocket::open_file(), in the same way.
+/// @errors  not_found if nobody listens there; unavailable as above.
 /// @thread  any.
 [[nodiscard]] Result<Descriptor> connect_to_file(const std::string& file);
 
@@ -66,8 +82,14 @@ class ControlSocket {
 /// @thread  any.
 void remove_dead_file(const std::string& file);
 
-/// Returns the names of the systems of this user that run, sorted.
+/// Returns the names of the files with an ending in the folder of the user, sorted.
+/// @errors  unavailable if the folder cannot be trusted.
 /// @thread  any.
-[[nodiscard]] std::vector<std::string> running_systems();
+[[nodiscard]] Result<std::vector<std::string>> files_of_user(const std::string& ending);
+
+/// Returns the names of the systems of this user that run, sorted.
+/// @errors  unavailable if the folder of their sockets cannot be trusted.
+/// @thread  any.
+[[nodiscard]] Result<std::vector<std::string>> running_systems();
 
 }  // namespace orca::supervisor

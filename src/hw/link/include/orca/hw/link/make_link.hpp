@@ -40,9 +40,14 @@ struct LinkOptions {
 /// @thread  any.
 [[nodiscard]] std::string real_place(std::string_view text);
 
-/// Returns the path at which an emulation of that name offers its line: `$XDG_RUNTIME_DIR/orca/emulated/NAME`, or
-/// `/tmp/orca-<uid>/emulated/NAME` where there is no such folder.
+/// Returns the path at which an emulation of that name offers its line: `emulated/NAME` in the folder of the user
+/// (orca/base/own_folder.hpp).
 /// @thread  any that may read the environment.
 [[nodiscard]] std::string emulated_path(std::string_view name);
+
+/// Makes the folder of that path if necessary.
+/// @errors  unavailable, as OwnFolder::make(): it must be this user's alone.
+/// @thread  any that may read the environment.
+[[nodiscard]] Status make_emulated_folder();
 
 }  // namespace orca::hw::link

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct SerialOptions {
   /// For how long open() waits for a device that is not there yet [s].
   Duration patience{0};
   NowFunction now = steady_now;  ///< The clock of that.
+  /// Says before each opening whether the place may be trusted; empty: it may.
+  std::function<Status()> check{};
 };
 
 /// A serial line: raw bytes, any rate, no flow control. The port is this link's alone while it is open.
