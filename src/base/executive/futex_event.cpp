@@ -17,11 +17,13 @@ namespace orca::detail {
 namespace {
 
 // Only the waiter sets kAsleep, and only the waiter leaves it at a timeout. Any other way out is a notification,
-// so none is lost. Whatever else another process may write counts as a notification, too.
+// so none is lost. Whatever else another process may write counts as a notification, too; it wakes nobody, and may take the place
+// of one. So a word of several processes counts as rung after kLongestTrust.
 enum State : std::uint32_t { kIdle, kNotified, kAsleep };
 
 constexpr int kChecksPerClockReading = 32;
 constexpr int kAllProcesses = 0;
+constexpr Duration kLongestTrust = std::chrono::milliseconds(500);
 
 void relax_processor() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -97,16 +99,19 @@ bool FutexEvent::spin(TimePoint until) {
 
 bool FutexEvent::sleep(TimePoint deadline) {
   std::uint32_t seen = kIdle;
-  if (!state_.compare_exchange_strong(seen, kAsleep, std::memory_order_acquire)) return take();
+  const TimePoint look = scope_ == kAllProcesses ? steady_now() + kLongestTrust : kForever;
+  const TimePoint end = std::min(deadline, look);
+  (void)state_.compare_exchange_strong(seen, kAsleep, std::memory_order_acquire);  // it may be rung just now
   while (state_.load(std::memory_order_acquire) == kAsleep) {
-    if (deadline != kForever && steady_now() >= deadline) {
+    if (end != kForever && steady_now() >= end) {
       seen = kAsleep;
-      if (state_.compare_exchange_strong(seen, kIdle, std::memory_order_acquire)) return false;
+      if (state_.compare_exchange_strong(seen, kIdle, std::memory_order_acquire)) return look < deadline;
     } else {
-      sleep_once(state_, scope_, deadline);
+      sleep_once(state_, scope_, end);
     }
   }
-  return take();
+  (void)take();
+  return true;
 }
 
 Duration useful_spin(Duration limit) {

@@ -118,6 +118,28 @@ TEST_CASE("whatever stands in the word when a strand takes it over counts as a r
   });
 }
 
+TEST_CASE("a stray write into the word of a sleeper does not keep it from hearing the next ring",
+          "[base][doorbell]") {
+  const std::uint32_t stray = GENERATE(0U, 1U, 2U, 3U, 0x80000000U, 0xffffffffU);
+  CAPTURE(stray);
+  DoorbellWord bell{0};
+  with_bell(bell, [&](Executive& executive, Strand& strand) {
+    std::atomic<bool> rung{false};
+    std::thread writer([&] {
+      std::this_thread::sleep_for(20ms);
+      bell.store(stray);
+      std::this_thread::sleep_for(20ms);
+      rung = true;
+      ring(bell);
+      bell.store(stray);
+    });
+    const TimePoint start = executive.now();
+    CHECK(strand.wait_for(start + 10s, [&] { return rung.load(); }));
+    CHECK(executive.now() < start + 5s);
+    writer.join();
+  });
+}
+
 TEST_CASE("no ring between two processes is lost", "[base][doorbell]") {
   constexpr int kRounds = 20'000;
   Shared<Game> game;

@@ -17,10 +17,8 @@ namespace {
 constexpr std::size_t kLine = 64;  // [bytes] of a cache line
 
 struct alignas(kLine) PageHead {
-  std::uint64_t magic;
   std::atomic<std::uint64_t> missions;
 };
-constexpr std::uint64_t kMagic = 0x3165'6761'7061'7263;  // another layout has another number
 
 static_assert(sizeof(PageHead) == kLine && std::atomic<std::uint64_t>::is_always_lock_free,
               "processes cannot share locks");
@@ -51,7 +49,6 @@ Result<RunPage> RunPage::create(std::size_t processes, std::size_t components) {
   if (!file) return file.error();
   auto memory = SharedMemory::map(file->descriptor());
   if (!memory) return memory.error();
-  head_of(*memory).magic = kMagic;
   return RunPage(copy_of(file->descriptor()), std::move(*memory), processes, components);
 }
 
@@ -59,7 +56,7 @@ Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t
   auto memory = SharedMemory::map(file.number());
   if (!memory) return fail(Code::data_loss, "the run page: " + memory.error().message);
   const std::size_t size = memory->bytes().size();
-  if (size < size_of(processes, components) || size % kLine != 0 || head_of(*memory).magic != kMagic)
+  if (size < size_of(processes, components) || size % kLine != 0)  // the size that nobody can change
     return fail(Code::data_loss, "the run page is for another graph, or of another version of the deployer");
   return RunPage(std::move(file), std::move(*memory), processes, (size - size_of(processes, 0)) / kLine);
 }

@@ -67,11 +67,24 @@ TEST_CASE("Memory that is no run page of this graph is refused", "[supervisor][r
   const auto made = RunPage::create(2, 3);
   REQUIRE(made);
   CHECK(RunPage::map(made->descriptor(), 2, 4).error().code == Code::data_loss);
-  CHECK(RunPage::map(memory_of(64 * 8, kSeals), 2, 3).error().code ==
-        Code::data_loss);  // right size, no page
+  CHECK(RunPage::map(memory_of(64 * 8 + 1, kSeals), 2, 3).error().code == Code::data_loss);
   CHECK(RunPage::map(memory_of(64 * 8, 0), 2, 3).error().code == Code::data_loss);
   CHECK(RunPage::map(Descriptor(open("/dev/null", O_RDWR)), 2, 3).error().code == Code::data_loss);
   CHECK(test::open_descriptors() == before + 1);
+}
+
+TEST_CASE("A run page can be mapped whatever was written into it", "[supervisor][run_page]") {
+  const auto made = RunPage::create(2, 3);
+  REQUIRE(made);
+  const auto memory = SharedMemory::map(made->descriptor().number());
+  REQUIRE(memory);
+  std::ranges::fill(memory->bytes(), std::byte{0xff});
+  const auto mapped = RunPage::map(made->descriptor(), 2, 3);
+  REQUIRE(mapped);
+  CHECK(mapped->processes() == 2);
+  CHECK(mapped->components() == made->components());
+  CHECK(&mapped->process_doorbell(1) - &mapped->doorbell(0) ==
+        &made->process_doorbell(1) - &made->doorbell(0));
 }
 
 TEST_CASE("Nobody can take a run page away from those who have mapped it", "[supervisor][run_page]") {
