@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Malformed packets for a process that has DDS: it may die of them, and nobody else.
+// Malformed packets for a process that has DDS: it may die of them, and nobody else. Rubbish in the memory that processes share.
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "hosted_system.hpp"
 #include "internet_sockets.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -99,6 +105,58 @@ class Spoiler {
   const std::vector<Packet> good_;
 };
 
+// The memory that all processes of a system share, mapped by one that has no business there.
+class RunMemory {
+ public:
+  explicit RunMemory(pid_t process) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/fd")) {
+      std::error_code none;
+      if (!std::filesystem::read_symlink(entry.path(), none).string().starts_with("/memfd:orca-run"))
+        continue;
+      const int file = open(entry.path().c_str(), O_RDWR | O_CLOEXEC);
+      REQUIRE(file >= 0);
+      const auto size = static_cast<std::size_t>(lseek(file, 0, SEEK_END));
+      void* const place = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+      close(file);
+      REQUIRE(place != MAP_FAILED);
+      all_.push_back({static_cast<std::uint32_t*>(place), size / sizeof(std::uint32_t)});
+    }
+    REQUIRE_FALSE(all_.empty());
+  }
+  ~RunMemory() {
+    for (const auto words : all_) munmap(words.data(), words.size_bytes());
+  }
+  RunMemory(const RunMemory&) = delete;
+  RunMemory& operator=(const RunMemory&) = delete;
+
+  // Writes something into each word, or into some.
+  void scribble(std::mt19937& random) const {
+    constexpr std::uint32_t kValues[] = {0, 1, 2, 3, 0x7fffffff, 0x80000000, 0xffffffff};
+    const auto share = 1 + random() % 8;
+    for (const auto words : all_)
+      for (std::uint32_t& word : words) {
+        const auto any = static_cast<std::uint32_t>(random());
+        if (any % share == 0) word = random() % 2 == 0 ? kValues[random() % std::size(kValues)] : any;
+      }
+  }
+
+ private:
+  std::vector<std::span<std::uint32_t>> all_;
+};
+
+// Returns a thread of Fast DDS in a process; 0 if it has none.
+pid_t network_thread_of(pid_t process) {
+  std::error_code none;
+  for (const auto& task :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task", none)) {
+    std::string name;
+    std::ifstream(task.path() / "comm") >> name;
+    if (name == "dds") return static_cast<pid_t>(std::stoi(task.path().filename()));
+  }
+  return 0;
+}
+
 // Throws bad packets at a process of a flow, and checks that the others live and that objects come again.
 void bombard(int rounds, int packets) {
   constexpr unsigned kSeed = 20041112;
@@ -138,6 +196,56 @@ void bombard(int rounds, int packets) {
 }  // namespace
 
 TEST_CASE("bad packets for one process of DDS harm no other", "[system][dds]") { bombard(3, 300); }
+
+TEST_CASE(
+    "whatever is written into the memory that processes share, objects flow, a lost process comes back, and "
+    "all ends well",
+    "[system]") {
+  constexpr unsigned kSeed = 20261127;
+  std::mt19937 random(kSeed);
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const RunMemory memory(system.program().pid());
+  for (int round = 0; round < 20; ++round) {
+    CAPTURE(kSeed, round);
+    memory.scribble(random);
+    CHECK(run_orcactl({"echo", "sink.in", "--count", "3"}, Seconds(2)).exit_code() == 0);
+    if (round % 10 != 9) continue;
+    const std::size_t mark = system.mark();
+    const pid_t relay = system.process("relay");
+    REQUIRE(kill(relay, SIGKILL) == 0);
+    memory.scribble(random);
+    system.flows_without(relay, mark);
+  }
+  const Run run = stop(system);
+  CHECK_FALSE(run.says("SIGSEGV"));
+  CHECK_FALSE(run.says("GAVE_UP"));
+}
+
+TEST_CASE("a system does not give up because its network code is made to crash again and again",
+          "[system][dds]") {
+  constexpr int kDeaths = 6;
+  const TempFolder folder;
+  std::string text = read_text(system_graph("flow.xml"));
+  const std::string rule = R"(restarts="1000" within="100 ms")";
+  REQUIRE(text.find(rule) != std::string::npos);
+  text.replace(text.find(rule), rule.size(), R"(restarts="3" within="60 s")");
+  System system(Words{folder.write("flow.xml", text), "--set", "link=dds"} + with_test_plugins());
+  system.when("flow ", 0, Seconds(10));
+  const pid_t source = system.process("source");
+  const pid_t sink = system.process("sink");
+  for (int i = 0; i < kDeaths; ++i) {
+    const pid_t relay = system.process("relay");
+    const std::size_t mark = system.mark();
+    REQUIRE(comes_true([&] { return network_thread_of(relay) != 0; }, Seconds(5)));
+    REQUIRE(syscall(SYS_tgkill, relay, network_thread_of(relay), SIGABRT) == 0);
+    system.when("the network code (Fast DDS) ended the process", mark);
+    system.flows_without(relay, mark, Seconds(10));
+  }
+  CHECK(system.process("source") == source);
+  CHECK(system.process("sink") == sink);
+  CHECK_FALSE(stop(system).says("GAVE_UP"));
+}
 
 TEST_CASE("a million bad packets for one process of DDS harm no other", "[.][slow][dds]") {
   bombard(1000, 1000);

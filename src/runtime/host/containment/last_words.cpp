@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -71,11 +72,17 @@ class Line {
   std::size_t size_ = 0;
 };
 
+// Fast DDS does not name its threads, so they have the name of the one that has made them (patterns/dds/backend).
+bool is_of_network() {
+  std::array<char, 16> name{};
+  return prctl(PR_GET_NAME, name.data()) == 0 && std::string_view(name.data()).starts_with("dds");
+}
+
 // Adds "error: avoid: work() ".
 void start_line(Line& line, const Activity* activity) {
   line << "error: ";
   if (activity == nullptr) {
-    line << "a thread that runs no component ";
+    line << (is_of_network() ? kNetworkCode : "a thread that runs no component ");
   } else {
     line << activity->who() << ": ";
     if (activity->hook() == Hook::handler) {

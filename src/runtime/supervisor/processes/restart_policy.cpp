@@ -21,7 +21,7 @@ RestartPolicy::RestartPolicy(const std::vector<graph::ProcessNode>& processes,
                           .state = process.on_demand ? State::asleep : State::running});
 }
 
-RestartDecision RestartPolicy::ended(std::size_t process, bool is_normal, Moment now) {
+RestartDecision RestartPolicy::ended(std::size_t process, bool is_normal, Moment now, bool counts) {
   Process& one = processes_.at(process);
   if (one.state == State::ending) one.state = to_start_again(one);
   if (one.state == State::dozing) one.state = State::asleep;
@@ -29,7 +29,7 @@ RestartDecision RestartPolicy::ended(std::size_t process, bool is_normal, Moment
   if (one.state != State::running) return {};
   one.state = State::finished;
   if (!is_restarted(one, is_normal)) return {};
-  if (are_too_many(now)) return give_up();
+  if (counts && are_too_many(now)) return give_up();
   return restart_from(process, now + delay_after_fault(one, now));
 }
 

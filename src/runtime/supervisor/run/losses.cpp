@@ -6,6 +6,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/alarm.hpp"
+#include "orca/host/last_words.hpp"
 #include "taking_down.hpp"
 
 namespace orca::supervisor {
@@ -23,7 +24,10 @@ void Losses::ended(Member& member, const ExitReason& reason) {
       reason.text() +
       (words.empty() ? "; it ran " + listed(place_.starter.components_of(member)) : ": " + words);
   lose(member, how,
-       {.is_normal = reason.is_normal(), .is_unasked = unasked, .had_come_up = member.has_come_up()});
+       {.is_normal = reason.is_normal(),
+        .is_unasked = unasked,
+        .had_come_up = member.has_come_up(),
+        .counts = !words.starts_with(host::kNetworkCode)});
 }
 
 void Losses::could_not_start(Member& member, const Error& error) {
@@ -45,7 +49,8 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   if (place_.renewal.lose(member, loss.is_normal, how)) return;
   if (loss.is_unasked) place_.ledger.raise(host::AlarmKind::process_ended, member.name(), text);
   if (!conclusion.has_come_up()) return conclusion.fail_with(fail(Code::unavailable, text));
-  const RestartDecision decision = place_.policy.ended(member.index(), loss.is_normal, Moment::clock::now());
+  const RestartDecision decision =
+      place_.policy.ended(member.index(), loss.is_normal, Moment::clock::now(), loss.counts);
   if (place_.policy.has_finished(member.index()) && !decision.gives_up && runs_an_end(place_.graph, member))
     return conclusion.fail_with(fail(Code::unavailable, text));
   obey(decision, text);

@@ -62,6 +62,7 @@ class Losses {
     bool is_normal;
     bool is_unasked;
     bool had_come_up;
+    bool counts = true;  // against the process
   };
 
   void lose(Member& member, const std::string& how, const Loss& loss);

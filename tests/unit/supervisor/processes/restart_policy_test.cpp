@@ -109,6 +109,24 @@ TEST_CASE("Too many restarts within the period end everything", "[supervisor][re
   CHECK(policy.take_due(kStart + 100s).empty());
 }
 
+TEST_CASE("Faults that another program has caused are never too many, and wait like others",
+          "[supervisor][restart]") {
+  RestartPolicy policy(nodes(kAllPermanent), supervision(Strategy::one_for_one));
+  Moment now = kStart;
+  for (int i = 0; i < 100; ++i) {
+    REQUIRE_FALSE(policy.ended(1, false, now, false).gives_up);
+    now = *policy.due();
+    REQUIRE(policy.take_due(now) == Indices{1});
+  }
+  CHECK(now - kStart > 90 * 2s);
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE_FALSE(policy.ended(0, false, now).gives_up);
+    now = *policy.due();
+    REQUIRE(policy.take_due(now) == Indices{0});
+  }
+  CHECK(policy.ended(0, false, now).gives_up);
+}
+
 TEST_CASE("Restarts that are spread out are never too many", "[supervisor][restart]") {
   RestartPolicy policy(nodes({kPermanent}), supervision(Strategy::one_for_one, 3, 10s));
   for (int i = 0; i < 100; ++i) {

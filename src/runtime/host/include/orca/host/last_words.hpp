@@ -8,6 +8,10 @@
 
 namespace orca::host {
 
+/// The beginning of the last words of a process that has died in a thread of Fast DDS: anybody who can send packets to it may have
+/// caused that.
+inline constexpr const char* kNetworkCode = "the network code (Fast DDS) ";
+
 /// The last line of a process that dies of a plugin, on stderr: which component, which hook, which plugin,
 /// what happened. It prevents nothing, but stops the motors as far as possible (StopSignal::on_crash()). A signal
 /// or an exception that nobody may catch still ends the process in the same way, and exit() in a plugin ends it

@@ -33,7 +33,7 @@ struct RestartDecision {
 /// * A process that is started on demand is asleep at first, and again after each end: it is started when it is needed. What
 ///   is said above of restarts then says when it may be at the earliest.
 /// * More than `restarts` restarts within `within`, of all processes together, are too many. Processes that are started
-///   again only because of another one do not count.
+///   again only because of another one do not count, nor do those after a fault that another program has caused.
 ///
 /// Thread contract: not synchronised.
 class RestartPolicy {
@@ -48,7 +48,8 @@ class RestartPolicy {
   /// Reports that a process has ended, also one that was to be ended by a decision, and one that could not be started.
   /// @param is_normal  it ended by itself, with exit status 0.
   /// @param now        not before the times of earlier calls.
-  [[nodiscard]] RestartDecision ended(std::size_t process, bool is_normal, Moment now);
+  /// @param counts     whether its restart is one of those that can be too many. It waits like others.
+  [[nodiscard]] RestartDecision ended(std::size_t process, bool is_normal, Moment now, bool counts = true);
 
   /// Returns whether a process has ended and is not to be started again.
   [[nodiscard]] bool has_finished(std::size_t process) const {
