@@ -63,8 +63,9 @@ void PlayerFirmware::connect(TimePoint now) {
 void PlayerFirmware::disconnect() {
   while (!open_.empty()) close(*open_.begin());
   greet_at_.reset();
-  connected_ = pulls_ = false;
+  connected_ = pulls_ = asked_ = false;
   heard_.clear();
+  waiting_.clear();
   out_.clear();
   queue_.clear();
 }
@@ -96,30 +97,45 @@ void PlayerFirmware::take(Bytes bytes, std::uint32_t /*baud*/, TimePoint now) {
     }
     const std::size_t size = kPlayerHeader + header.size;
     if (heard_.size() < size) return;
-    obey(header, Bytes(heard_).subspan(kPlayerHeader, header.size));
+    obey(Bytes(heard_).first(size));
     heard_.erase(heard_.begin(), heard_.begin() + static_cast<std::ptrdiff_t>(size));
   }
 }
 
-void PlayerFirmware::obey(const PlayerHeader& header, Bytes payload) {
+void PlayerFirmware::obey(Bytes message) {
+  const PlayerHeader header = read_player_header(message);
+  const Bytes payload = message.subspan(kPlayerHeader);
   if (header.interface == kPlayerServer && header.index == 0 && header.type == kPlayerRequest)
     return serve(header, payload);
   const std::optional<std::uint32_t> device = robot_->device_at({header.interface, header.index});
   if (!device || !open_.contains(*device) || settings_.silent.contains(*device)) {
     ++dropped_;
+  } else if (is_starting(*device)) {
+    waiting_.emplace_back(message.begin(), message.end());
   } else if (header.type == kPlayerRequest && header.subtype == kAskCapability) {
     const bool knows = robot_->knows(*device, player_word(payload, 0), player_word(payload, 4));
     answer(header, knows ? kPlayerAck : kPlayerNack, {});
   } else if (header.type == kPlayerRequest) {
-    const auto reply = robot_->request(*device, header.subtype, payload);
-    if (reply)
-      answer(header, kPlayerAck, *reply);
-    else
-      ++dropped_;
+    ask(*device, header, payload);
   } else if (header.type != kPlayerCommand || *device != kPlayerPosition ||
              !robot_->command(header.subtype, payload)) {
     ++dropped_;
   }
+}
+
+// Its driver's queue holds what comes until it has started.
+bool PlayerFirmware::is_starting(std::uint32_t device) const {
+  const auto takes = settings_.starting.find(device);
+  return takes != settings_.starting.end() && now_ - opened_at_.at(device) < takes->second;
+}
+
+void PlayerFirmware::obey_waiting() {
+  for (const std::vector<std::uint8_t>& message : std::exchange(waiting_, {})) obey(message);
+}
+
+void PlayerFirmware::ask(std::uint32_t device, const PlayerHeader& header, Bytes payload) {
+  const auto reply = robot_->request(device, header.subtype, payload);
+  answer(header, reply ? kPlayerAck : kPlayerNack, reply.value_or(std::vector<std::uint8_t>{}));
 }
 
 // The device that is the server itself.
@@ -132,7 +148,7 @@ void PlayerFirmware::serve(const PlayerHeader& header, Bytes payload) {
     case 4: return give_data(header);
     case 5: return set_data_mode(header, payload);
     case 10: return answer(header, kPlayerAck, {});  // the newest data replace older ones in any case
-    default: ++dropped_; return;
+    default: return answer(header, kPlayerNack, {});
   }
 }
 
@@ -166,6 +182,7 @@ void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
     next_cycle_ = now_ + settings_.cycle;
   if (access == kAccessOpen && open_.insert(*device).second) {
     robot_->open(*device);
+    opened_at_[*device] = now_;
     if (*device == kPlayerLaser) scans_ = robot_->scans();
   }
   PlayerWriter out = written_address(settings_.port, read_address(payload));
@@ -181,12 +198,21 @@ void PlayerFirmware::set_data_mode(const PlayerHeader& header, Bytes payload) {
   const std::uint32_t mode = player_word(payload, 0);
   if (mode < 1 || mode > kPullMode) return answer(header, kPlayerNack, {});
   pulls_ = mode == kPullMode;
+  asked_ = false;
   queue_.clear();
   answer(header, kPlayerAck, {});
 }
 
 void PlayerFirmware::give_data(const PlayerHeader& header) {
   answer(header, kPlayerAck, {});
+  asked_ = true;
+  end_round();
+}
+
+// A round that has no data yet waits for some.
+void PlayerFirmware::end_round() {
+  if (!asked_ || queue_.empty()) return;
+  asked_ = false;
   for (const auto& [device, payload] : std::exchange(queue_, {})) send_data(device, payload);
   send({.interface = kPlayerServer, .type = kPlayerSynch, .subtype = 1}, {});
 }
@@ -198,14 +224,16 @@ const std::string& PlayerFirmware::driver_of(std::uint32_t device) const {
 std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
   now_ = now;
   if (greet_at_ && now >= *greet_at_) greet();
+  if (!waiting_.empty()) obey_waiting();
   for (; !open_.empty() && now >= next_cycle_; next_cycle_ += settings_.cycle)
     for (const std::uint32_t device : open_)
-      if (device != kPlayerLaser) publish(device, robot_->data(device));
+      if (device != kPlayerLaser && !is_starting(device)) publish(device, robot_->data(device));
   if (open_.contains(kPlayerLaser)) {
     robot_->look(now);
     if (scans_ != robot_->scans()) publish(kPlayerLaser, robot_->scan());
     scans_ = robot_->scans();
   }
+  end_round();
   return std::exchange(out_, {});
 }
 

@@ -77,12 +77,13 @@ void ClientSession::answer_server(const Message& message) {
   }
   if (id == kAskDriver) return tell_driver(message);
   if (id == kSubscribe) return subscribe(message);
-  if (id == kAskData) return send_round(header);
+  if (id == kAskData) return begin_round(header);
   if (id == kAddReplaceRule) return accept(header);  // the newest replaces others in any case
-  if (id != kSetDataMode) return;
+  if (id != kSetDataMode) return refuse(header);
   const Result<DataMode> mode = decode<DataMode>(message.payload);
   if (!mode) return refuse(header);
   pulls_ = mode->mode == DataMode::Mode::pull;
+  asked_ = false;
   accept(header);
 }
 
@@ -110,9 +111,16 @@ void ClientSession::subscribe(const Message& message) {
   accept(message.header, encode(*wish));
 }
 
-// The answer, what is new of each device, and the end of the round, which a client waits for.
-void ClientSession::send_round(const Header& request) {
+void ClientSession::begin_round(const Header& request) {
   accept(request);
+  asked_ = true;
+  end_round();
+}
+
+// What is new of each device, and the synch that a client waits for. A round without anything new waits, as a server of Player does.
+void ClientSession::end_round() {
+  if (!asked_ || fresh_.empty()) return;
+  asked_ = false;
   for (const auto& [device, stamp] : std::exchange(fresh_, {})) send_data(device, stamp);
   send({.address = {.interface = Interface::player}, .type = MessageType::synch, .subtype = kSynch.subtype});
 }
@@ -190,6 +198,7 @@ bool ClientSession::has(const Address& device) const {
 void ClientSession::offer(const DeviceName& device, double stamp) {
   if (!uses(device)) return;
   fresh_[device] = stamp;
+  end_round();
   if (pulls_ || output_.size() > kMostUnread) return;
   for (const auto& [waiting, since] : std::exchange(fresh_, {})) send_data(waiting, since);
 }

@@ -66,7 +66,8 @@ class ClientSession {
   bool set_odometry(const Result<hw::player::Planar>& wanted);
   void subscribe(const hw::player::Message& message);
   void tell_driver(const hw::player::Message& message);
-  void send_round(const hw::player::Header& request);
+  void begin_round(const hw::player::Header& request);
+  void end_round();
   [[nodiscard]] bool knows(const hw::player::MessageId& id) const;
   [[nodiscard]] bool has(const hw::player::Address& device) const;
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> data_of(const DeviceName& device) const;
@@ -83,6 +84,7 @@ class ClientSession {
   std::set<DeviceName> uses_;
   std::map<DeviceName, double> fresh_;  // of each device, when what was not sent yet was measured [s]
   bool pulls_ = false;
+  bool asked_ = false;  // for a round that had nothing new yet
   bool motors_on_ = true;
   Pose2 origin_{};  // of the odometry that this client sees
   std::optional<Wish> wish_;

@@ -47,6 +47,8 @@ struct PlayerSettings {
   std::set<std::uint32_t> missing{};  ///< Devices that it does not have.
   std::set<std::uint32_t> refused{};  ///< Devices whose driver does not start.
   std::set<std::uint32_t> silent{};   ///< Devices whose requests get no answer.
+  std::map<std::uint32_t, Duration>
+      starting{};  ///< How long devices only queue messages after a client opened them.
 };
 
 /// A Player server with one robot, as one of its clients sees it: it lists its devices, lets the client subscribe, answers requests,
@@ -59,11 +61,11 @@ struct PlayerSettings {
 /// A connection begins when the line says that a host is there, with the banner, and ends when the host has gone: all its devices are
 /// closed then. Bytes from a host of which the line has said nothing begin one too. The base has no watchdog: without another
 /// command it does for ever what it was told. Its motors turn while they have power and the last command says so. Messages to a device that
-/// is not open, or of a kind that is not known, are dropped, as are commands of a wrong size. Of a stream whose header is
+/// is not open are dropped, as are commands that are not known or of a wrong size; such requests are refused. Of a stream whose header is
 /// nonsense, what has come so far is forgotten.
 ///
 /// No rate of a line is enforced. The configuration of the laser is told, and does not change. In pull mode the newest data of each device
-/// wait for the client.
+/// wait for the client, or the client for them: a round ends with data.
 ///
 /// Thread contract: not synchronised.
 /// @source  Player 3.1 server, TCP protocol in XDR.
@@ -98,7 +100,10 @@ class PlayerFirmware final : public Firmware {
   void connect(TimePoint now);
   void disconnect();
   void greet();
-  void obey(const PlayerHeader& header, Bytes payload);
+  void obey(Bytes message);
+  void obey_waiting();
+  void ask(std::uint32_t device, const PlayerHeader& header, Bytes payload);
+  [[nodiscard]] bool is_starting(std::uint32_t device) const;
   void serve(const PlayerHeader& header, Bytes payload);
   void subscribe(const PlayerHeader& header, Bytes payload);
   void close(std::uint32_t device);
@@ -106,6 +111,7 @@ class PlayerFirmware final : public Firmware {
   void tell_driver(const PlayerHeader& header, Bytes payload);
   void set_data_mode(const PlayerHeader& header, Bytes payload);
   void give_data(const PlayerHeader& header);
+  void end_round();
   [[nodiscard]] const std::string& driver_of(std::uint32_t device) const;
   void publish(std::uint32_t device, Bytes payload);
   void send_data(std::uint32_t device, Bytes payload);
@@ -121,7 +127,10 @@ class PlayerFirmware final : public Firmware {
   std::vector<std::uint8_t> heard_;    // of a message whose rest is awaited
   std::vector<std::uint8_t> out_;
   std::set<std::uint32_t> open_;  // devices
+  std::map<std::uint32_t, TimePoint> opened_at_;
+  std::vector<std::vector<std::uint8_t>> waiting_;  // messages to devices that are starting
   bool pulls_ = false;
+  bool asked_ = false;                                        // for a round that had no data yet
   std::map<std::uint32_t, std::vector<std::uint8_t>> queue_;  // in pull mode, by device
   TimePoint next_cycle_{};
   std::uint32_t scans_ = 0;  // of the robot, when the client got one or opened the laser
