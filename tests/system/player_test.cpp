@@ -224,6 +224,31 @@ TEST_CASE("without sonars, bumpers and battery a Player base drives, and what is
   }));
 }
 
+// A p2os driver takes 2 s, and that of a SICK up to 35 s.
+TEST_CASE(
+    "a driver that still starts is waited for as long as \"patience\" says, and its late answer is taken",
+    "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("server");
+  PlayerSettings settings;
+  settings.starting = {{5, 2500ms}};
+  OnTerminal server(device, settings);
+  SECTION("in time") {
+    const Run run = run_deployer(drive(device), Seconds(60));
+    check_reaches_goals(server, run);
+    CHECK_FALSE(run.says("does not say where sonar:0 is"));
+  }
+  SECTION("late") {
+    Subprocess program(deployer(drive(device, far_goal() + Words{"--set", "robot.patience=1"})));
+    CHECK(program.wait_for_output("so the sonars are not used until it does", Seconds(20 * kSlowdown)));
+    CHECK(program.wait_for_output("the server says now where sonar:0 is", Seconds(20 * kSlowdown)));
+    CHECK(eventually([] {
+      return run_orcactl({"query", "base.SonarRangeReadingsQuery", "<AskReading/>"}).out.find("ranges=") !=
+             std::string::npos;
+    }));
+  }
+}
+
 TEST_CASE("a device that \"uses\" does not know is found before anything is opened", "[system][hardware]") {
   const Run run = run_deployer(drive("tcp:localhost:1", {"--set", "uses=sonar camera"}), Seconds(60));
   CHECK(run.exit_code() == 2);

@@ -195,6 +195,7 @@ class PlayerBase final : public orca::hw::LineDriver {
     const auto use = std::ranges::find_if(
         uses_, [&](const Use& used) { return used.interface == from.interface && used.index == from.index; });
     if (use == uses_.end()) return;
+    if (session_->take_late(message)) return learn(*use);
     const MessageId id = id_of(message.header);
     if (id == kPosition2dState) {
       take_state(message, now);
@@ -211,6 +212,13 @@ class PlayerBase final : public orca::hw::LineDriver {
     } else if (const auto ranges = read_ranges(message)) {
       take_ranges(*use, *ranges, now);
     }
+  }
+
+  // A driver has started, and says where its device is.
+  void learn(const Use& use) {
+    host().write_log(orca::log::Level::info, "the server says now where " + device_name(use) + " is");
+    compare_shape(session_->facts());
+    senses_->learn(session_->facts());
   }
 
   void take_answer(const MessageId& id) {
@@ -306,8 +314,8 @@ class PlayerBase final : public orca::hw::LineDriver {
       {.unit = "s",
        .min = 0.1,
        .max = 600.0,
-       .text = "Longest time in which a device opens; a laser may need half a minute. The deployer gives up "
-               "after 10 s."}};
+       .text = "Longest time in which a device opens, and in which its driver says where it is; a laser may "
+               "need half a minute. The deployer gives up after 10 s."}};
   orca::Param<double> radius_{
       *this, "radius", 0.26, {.unit = "m", .min = 0.0, .text = "Of the circle that holds the body."}};
   orca::Param<double> length_{

@@ -48,12 +48,16 @@ PlayerSenses::PlayerSenses(const std::vector<Use>& uses, const PlayerRobotShape&
 }
 
 void PlayerSenses::connect(const PlayerRobotFacts& facts) {
-  facts_ = facts;
   server_zero_.reset();
+  touched_.clear();
+  learn(facts);
+}
+
+void PlayerSenses::learn(const PlayerRobotFacts& facts) {
+  facts_ = facts;
   const std::size_t sonars = facts_.sonars ? facts_.sonars->poses.size() : 0;
   ranges_.assign(sonars, shape_.sonar_range);
   stamps_.assign(sonars, TimePoint{});
-  touched_.clear();
 }
 
 bool PlayerSenses::take(const Position2dState& state, TimePoint stamp, bool publish) {
@@ -158,7 +162,7 @@ bool PlayerSenses::take(const PowerState& power, TimePoint stamp, bool publish) 
   object->name("drive");
   object->voltage(power.voltage ? *power.voltage : std::nan(""));
   object->current(std::nan(""));
-  object->charge(power.charge ? 0.01 * *power.charge : std::nan(""));
+  object->charge(power.charge ? std::clamp(0.01 * *power.charge, 0.0, 1.0) : std::nan(""));
   object->charging(power.charging.value_or(0) == 1);
   object->stamp(to_time_value(stamp));
   battery_.publish(std::move(object));

@@ -39,6 +39,8 @@ class PlayerSenses {
 
   /// Begins anew with a robot. The pose of the odometry goes on from where it was.
   void connect(const PlayerRobotFacts& facts);
+  /// Takes what the server has said later of the same robot.
+  void learn(const PlayerRobotFacts& facts);
 
   /// Takes data. @return whether they have numbers that mean something.
   /// @param stamp    when they came.

@@ -16,7 +16,7 @@ namespace orca::hw::player {
 namespace {
 
 constexpr Duration kBannerTime = 2s;  // for the banner; it comes at once
-constexpr Duration kAnswerTime = 1s;  // for an answer of the server, and of a driver that runs
+constexpr Duration kAnswerTime = 1s;  // for an answer of the server itself
 constexpr int kMostReads = 64;        // at a time; a server that never pauses must not hold the strand
 constexpr const char* kSeeServer = "what the server itself has printed says why";
 
@@ -48,6 +48,8 @@ PlayerSession::PlayerSession(link::ByteLink& link, std::vector<Use> wishes, Dura
 Status PlayerSession::begin(TimePoint now) {
   reader_ = MessageReader(MessageReader::Side::client);
   questions_.clear();
+  late_.clear();
+  places_due_.reset();
   greeted_ = false;
   facts_ = {};
   messages_ = bad_ = 0;
@@ -58,6 +60,10 @@ Status PlayerSession::begin(TimePoint now) {
 Status PlayerSession::ask(TimePoint now) {
   const Question& question = questions_.front();
   deadline_ = now + (question.id == kSubscribe ? patience_ : kAnswerTime);
+  if (question.is_about_place()) {
+    if (!places_due_) places_due_ = now + patience_;
+    deadline_ = std::max(deadline_, *places_due_);
+  }
   return send(question.id, question.payload, question.index());
 }
 
@@ -126,6 +132,20 @@ Status PlayerSession::take(const Message& message, TimePoint now) {
       message.header.type == MessageType::ack ? take_answer(question, message.payload) : refuse(question);
   if (!taken.ok() || questions_.empty()) return taken;
   return ask(now);
+}
+
+bool PlayerSession::take_late(const Message& message) {
+  const Header& header = message.header;
+  const bool is_answer = header.type == MessageType::ack || header.type == MessageType::nack;
+  if (!is_answer) return false;
+  const auto asked = std::ranges::find_if(late_, [&](const Question& question) {
+    return question.id.interface == header.address.interface && question.index() == header.address.index &&
+           question.id.subtype == header.subtype;
+  });
+  if (asked == late_.end()) return false;
+  const Question question = *asked;
+  late_.erase(asked);
+  return header.type == MessageType::ack && take_answer(question, message.payload).ok();
 }
 
 // A device that was too slow to open answers while the next one is awaited.
@@ -232,18 +252,18 @@ Status PlayerSession::refuse(const Question& question) {
   return miss(question);
 }
 
-// The server says nothing. Drivers that do not know a request drop it.
+// The server says nothing. Drivers that do not know a request drop it, and drivers that still start answer later.
 Status PlayerSession::miss(const Question& question) {
-  const bool is_about_place = question.id.interface != Interface::player;
+  if (question.is_about_place()) late_.push_back(question);
   if (question.id == kRangerAskConfig) {
     facts_.shortcomings.push_back("the server does not say between which angles " +
                                   device_name(question.about) + " sees; those of \"laser_angle\" are taken");
     return ok();
   }
-  if (is_about_place) {
+  if (question.is_about_place()) {
     const bool is_sonar = question.about.part == Part::sonar;
     facts_.shortcomings.push_back("the server does not say where " + device_name(question.about) + " is" +
-                                  (is_sonar ? ", so the sonars are not used" : ""));
+                                  (is_sonar ? ", so the sonars are not used until it does" : ""));
     return ok();
   }
   if (question.id == kSubscribe)

@@ -36,7 +36,8 @@ struct PlayerRobotFacts {
 /// The connection to a Player server: waits for the banner, lets data come by themselves, asks what devices there are, opens the base and
 /// those others that are wished, and asks where they are. Then it passes messages on.
 ///
-/// One request is made at a time. Without a base there is no hope; without another device, or its place, it goes on.
+/// One request is made at a time. Without a base there is no hope; without another device, or its place, it goes on. Drivers answer when
+/// they have started, which takes some of them half a minute: what comes later is taken then.
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  Player 3.1 server and its client library libplayerc.
@@ -46,7 +47,7 @@ class PlayerSession {
 
   /// @param link      outlives the object.
   /// @param wishes    the base, and other devices that are used as far as the server has them.
-  /// @param patience  [s] for the answer when a device is opened, whose driver starts then.
+  /// @param patience  [s] for the answer when a device is opened, whose driver starts then, and for the first answers of all drivers.
   PlayerSession(link::ByteLink& link, std::vector<Use> wishes, Duration patience);
 
   /// Begins anew. @pre  the link has just been opened: what it has brought since is not dropped, for that is the banner.
@@ -63,6 +64,10 @@ class PlayerSession {
   /// Reads what there is and hands out the messages.
   /// @errors  those of the link and of MessageReader.
   Status receive(const Take& take);
+
+  /// Takes an answer that did not come in time: of a driver that was still starting.
+  /// @return whether it has changed facts().
+  bool take_late(const Message& message);
 
   /// Sends a message to the device of an interface with this number.
   /// @errors  those of ByteLink::write().
@@ -82,6 +87,8 @@ class PlayerSession {
 
     // Of the device that is asked, which is the server itself if it is to open one.
     [[nodiscard]] std::uint32_t index() const { return id.interface == Interface::player ? 0 : about.index; }
+    // The driver of the device answers, not the server.
+    [[nodiscard]] bool is_about_place() const { return id.interface != Interface::player; }
   };
 
   void ask_place(const Use& device);
@@ -101,7 +108,9 @@ class PlayerSession {
   const std::vector<Use> wishes_;
   const Duration patience_;
   MessageReader reader_{MessageReader::Side::client};
-  std::deque<Question> questions_;  // the first one was asked
+  std::deque<Question> questions_;       // the first one was asked
+  std::vector<Question> late_;           // that were asked, and not answered in time
+  std::optional<TimePoint> places_due_;  // the answers of drivers; nothing: none was asked
   bool greeted_ = false;
   TimePoint deadline_{};
   PlayerRobotFacts facts_;
