@@ -327,7 +327,7 @@ int Create2Firmware::motor_value(int packet) const {
     return static_cast<int>(std::llround(turns * settings_.counts_per_turn) & 0xFFFF);
   };
   switch (packet) {
-    case 35: return static_cast<int>(mode_);
+    case 35: return static_cast<int>(mode_) + settings_.mode_offset;
     case 38: return static_cast<int>(stream_.size());
     case 39: return arc_[0];
     case 40: return arc_[1];

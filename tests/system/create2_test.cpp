@@ -99,6 +99,15 @@ TEST_CASE("the rate of a Create 2 that was started with 19200 baud is found", "[
   CHECK(run.says("connected to a Create 2 at 19200 baud"));
 }
 
+TEST_CASE("a Roomba whose firmware reports its mode plus one drives to its goals", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("create");
+  Create2Settings settings;
+  settings.mode_offset = 1;
+  Create create(device, settings);
+  check_goals(create, device);
+}
+
 TEST_CASE("without a Create 2 on the line nothing starts, and what to look at is said",
           "[system][hardware]") {
   const TempFolder folder;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr Duration kFrameTime = 250ms;  // until the first frame of a stream; it takes 15 ms
 constexpr int kTries = 3;               // at each rate
+constexpr int kFirstFrames = 4;         // until what is reported is surely of after the start command
 constexpr double kSlowByte = 0.0002;    // [s] a line with slower bytes does not carry all packets
 
 // Bumps, cliffs, currents, mode, counts and voltage fit into 15 ms at 19200 baud.
@@ -33,6 +34,9 @@ constexpr std::array<std::uint8_t, 14> kPackets{kPacketBumpsAndDrops,
                                                 kPacketCapacity,
                                                 34};
 
+// The start command leads to passive mode. Firmware of some Roombas 600 reports the number of each mode plus 1.
+constexpr auto kPassivePlusOne = static_cast<Mode>(static_cast<int>(Mode::passive) + 1);
+
 std::span<const std::uint8_t> packets_for(const link::ByteLink& link) {
   if (link.byte_time() > kSlowByte) return kFewPackets;
   return kPackets;
@@ -47,6 +51,7 @@ Status Create2Session::begin(TimePoint now) {
   rate_ = 0;
   tries_ = 0;
   found_ = false;
+  mode_offset_ = 0;
   if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
   return call(now);
 }
@@ -54,6 +59,7 @@ Status Create2Session::begin(TimePoint now) {
 // A command that was cut short may wait for its data, of which it takes at most four here.
 Status Create2Session::call(TimePoint now) {
   deadline_ = now + kFrameTime;
+  frames_ = 0;
   link_.discard_input();
   scanner_ = framing::Scanner(kProtocol);
   if (tries_ > 0)
@@ -65,7 +71,11 @@ Status Create2Session::call(TimePoint now) {
 }
 
 Result<bool> Create2Session::advance(TimePoint now) {
-  const auto meet = [this](const Sensors& sensors, TimePoint) { found_ |= sensors.left_counts.has_value(); };
+  const auto meet = [this](const Sensors& sensors, TimePoint) {
+    if (!sensors.left_counts || ++frames_ < kFirstFrames) return;
+    found_ = true;
+    mode_offset_ = sensors.mode == kPassivePlusOne ? 1 : 0;
+  };
   if (Status read = receive(now, meet); !read.ok()) return read.error();
   if (found_) return true;
   if (now < deadline_) return false;
@@ -99,7 +109,10 @@ Status Create2Session::receive(TimePoint now, const Take& take) {
   return read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
     Sensors sensors;
     // The scanner has looked whether it fits.
-    if (sensors.apply_body(body_of(frame.bytes)).ok()) take(sensors, stamp);
+    if (!sensors.apply_body(body_of(frame.bytes)).ok()) return;
+    if (found_ && sensors.mode)
+      sensors.mode = static_cast<Mode>(static_cast<int>(*sensors.mode) - mode_offset_);
+    take(sensors, stamp);
   });
 }
 

@@ -18,10 +18,12 @@ namespace orca::hw::create2 {
 /// The connection to a Create 2: finds the rate of the line, opens the robot's interface in passive mode, and takes the frames of
 /// a stream that it asks for.
 ///
-/// A slow line carries fewer packets: without the charge of the battery.
+/// A slow line carries fewer packets: without the charge of the battery. Of firmware that reports its mode plus 1, as some Roombas 600
+/// have, the true mode is handed out.
 ///
 /// Thread contract: not synchronised; the container's strand.
-/// @source  "iRobot Create 2 Open Interface (OI) Specification based on the iRobot Roomba 600", 2016.
+/// @source  "iRobot Create 2 Open Interface (OI) Specification based on the iRobot Roomba 600", 2016; libcreate, its workaround for
+///          the reported mode.
 class Create2Session {
  public:
   /// A function that takes the readings of a frame, and when its first byte arrived.
@@ -62,7 +64,9 @@ class Create2Session {
   std::size_t rate_ = 0;
   int tries_ = 0;  // at this rate
   TimePoint deadline_{};
+  int frames_ = 0;  // since the robot was called
   bool found_ = false;
+  int mode_offset_ = 0;  // of the modes that it reports
 };
 
 }  // namespace orca::hw::create2

@@ -22,6 +22,7 @@ struct Create2Settings {
   double counts_per_turn = 508.8;  ///< Of the encoders.
   std::uint32_t baud = 115200;     ///< After power-on; 19200 if a button was held meanwhile.
   Duration power_up = 2s;          ///< [s] from power-on until it listens.
+  int mode_offset = 0;             ///< Firmware of some Roombas 600 reports its mode plus 1.
   std::uint16_t voltage = 14800;   ///< [mV] of the battery.
   std::uint16_t charge = 2000;     ///< [mAh] in the battery.
   std::uint16_t capacity = 2500;   ///< [mAh] of the full battery.
