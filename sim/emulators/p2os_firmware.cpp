@@ -80,13 +80,14 @@ struct Scale {
   const char* subclass;
   double distance_unit;
   double range_unit;
+  double half_track;
   int sonars;
 };
 
-constexpr Scale kScales[] = {{"p2dx", 0.00084, 0.000268, 16},
-                             {"p2de", 0.000969, 0.000268, 16},
-                             {"p2pb", 0.000424, 0.000268, 24},
-                             {"p3dx", 0.000485, 0.001, 16}};
+constexpr Scale kScales[] = {
+    {"p2dx", 0.00084, 0.000268, 1.0 / 5.6, 16},  {"p2de", 0.000969, 0.000268, 1.0 / 5.6, 16},
+    {"p2pb", 0.000424, 0.000268, 1.0 / 5.6, 24}, {"p3dx", 0.000485, 0.001, 1.0 / 5.6, 16},
+    {"p3at", 0.000465, 0.001, 1.0 / 3.4, 16},    {"p3dx-sh", 0.001, 0.001, 1.0 / 5.6, 16}};
 
 }  // namespace
 
@@ -97,6 +98,7 @@ std::optional<P2osSettings> p2os_settings(std::string_view subclass) {
       settings.subclass = subclass;
       settings.distance_unit = scale.distance_unit;
       settings.range_unit = scale.range_unit;
+      settings.half_track = scale.half_track;
       settings.sonars = scale.sonars;
       return settings;
     }
@@ -166,7 +168,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
     case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
     case kSeto: origin_ = body_.odometry(); return;
     case kConfig: return send(p2os_config(settings_, gripper_->kind()), now);
-    case kSonar: sonar_ = value != 0; return;
+    case kSonar: return switch_sonar(value);
     case kStop:
     case kEstop: return stop();
     case kBumpstall: bumpers_stall_ = value; return;
@@ -197,6 +199,8 @@ void P2osFirmware::set_wheels(int value) {
   servo_->drive(0.5 * (left + right));
   servo_->turn(0.5 * (right - left) / settings_.half_track);
 }
+
+void P2osFirmware::switch_sonar(int value) { sonar_ = value != 0 && settings_.has_sonar_power; }
 
 void P2osFirmware::set_baud(int code) {
   constexpr std::uint32_t kRates[] = {9600, 19200, 38400, 57600, 115200};
@@ -288,7 +292,7 @@ void P2osFirmware::send_information(TimePoint now) {
   add_word(body, std::lround(here.yaw * 4096.0 / (2.0 * std::numbers::pi)));
   add_word(body, std::lround(1000.0 * (velocity.forward - turning)));
   add_word(body, std::lround(1000.0 * (velocity.forward + turning)));
-  body.push_back(127);  // 12.7 V
+  body.push_back(static_cast<std::uint8_t>(std::lround(10.0 * settings_.voltage)));
   const unsigned stall = is_stalled() ? 1 : 0;
   const unsigned bumpers = body_.bumpers();
   body.push_back(static_cast<std::uint8_t>(stall | (((bumpers >> 8) & 0x7F) << 1)));

@@ -160,12 +160,62 @@ TEST_CASE("a model whose limits are not known has those of the graph", "[system]
   const TempFolder folder;
   const std::string device = folder.file("pioneer");
   P2osSettings settings;
-  settings.subclass = "p2df";
+  settings.subclass = "mappr";
   Pioneer pioneer(device, settings);
-  // Where its sonars are is not known either.
+  // It has no sonars in the packets either.
   const std::string graph = folder.write("g.xml", without_avoid(system_graph("p2os.xml")));
-  Subprocess program(deployer(Words{graph, "--set", "device=" + device, "--set", "model=p2df"} + far_goal()));
+  Subprocess program(
+      deployer(Words{graph, "--set", "device=" + device, "--set", "model=mappr"} + far_goal()));
   CHECK(eventually([&] { return is_moving(pioneer); }));
+}
+
+TEST_CASE("a Pioneer of an unknown model does not move unless the graph says so", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  P2osSettings settings;
+  settings.subclass = "p4xx";
+  Pioneer pioneer(device, settings);
+  SECTION("not even when an operator lets it go") {
+    Subprocess program(deployer(drive(device, far_goal())));
+    CHECK(program.wait_for_output("the robot calls itself \"p4xx\", which is not known",
+                                  Seconds(20 * kSlowdown)));
+    CHECK(
+        program.wait_for_output("write drive_unknown=\"true\", then orcactl estop", Seconds(20 * kSlowdown)));
+    (void)run_orcactl({"estop", "--release"});
+    std::this_thread::sleep_for(1s);
+    CHECK(pioneer.with([](P2osFirmware&, PlainBody& body) { return body.odometry() == Pose2{}; }));
+  }
+  SECTION("drive_unknown") {
+    Subprocess program(deployer(drive(device, far_goal() + Words{"--set", "pioneer.drive_unknown=true"})));
+    CHECK(eventually([&] { return is_moving(pioneer); }));
+  }
+}
+
+TEST_CASE("a Pioneer's controller is asked for its settings: a short watchdog is fed in time",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  P2osSettings settings;
+  settings.watchdog = 220ms;
+  Pioneer pioneer(device, settings);
+  Subprocess program(deployer(drive(device, far_goal())));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  std::this_thread::sleep_for(2s);
+  CHECK(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.watchdog_stops(); }) == 0);
+}
+
+TEST_CASE("a Pioneer's low battery is told, and that its sonars are off", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  P2osSettings settings;
+  settings.voltage = 9.0;
+  settings.has_sonar_power = false;
+  Pioneer pioneer(device, settings);
+  Subprocess program(deployer(drive(device)));
+  CHECK(program.wait_for_output("its battery is low, at 9.0 V; charge it below 11.0 V",
+                                Seconds(20 * kSlowdown)));
+  CHECK(
+      program.wait_for_output("its sonars are off, although they were switched on", Seconds(20 * kSlowdown)));
 }
 
 TEST_CASE(

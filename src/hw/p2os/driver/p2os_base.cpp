@@ -11,8 +11,10 @@
 #include "orca/hw/base_figures.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
+#include "orca/hw/p2os/config.hpp"
 #include "orca/hw/p2os/gripper.hpp"
 #include "orca/hw/p2os/model.hpp"
+#include "remarks.hpp"
 #include "senses.hpp"
 #include "session.hpp"
 
@@ -26,7 +28,9 @@ using orca::hw::DriveSetpoint;
 using namespace orca::hw::p2os;
 using namespace std::chrono_literals;
 
-constexpr Duration kSayAgain = 250ms;       // what it is to do, and that we live; its watchdog waits 2 s
+constexpr Duration kSayAgain = 250ms;  // what it is to do, and that we live; its watchdog usually waits 2 s
+constexpr Duration kSayAgainSoonest = 50ms;
+constexpr int kChances = 4;                 // to be heard before its watchdog bites
 constexpr Duration kPowerTime = 500ms;      // from the command for power until a packet must tell of it
 constexpr std::ptrdiff_t kMostBumpers = 7;  // on a side: a packet has bits for so many
 const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
@@ -106,7 +110,10 @@ class P2osBase final : public orca::hw::LineDriver {
   }
   [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
-  Status start() override { return send({encode(Command::sonar, 1)}); }
+  Status start() override {
+    remarks_->start(host().now());
+    return send({encode(Command::sonar, 1)});
+  }
 
   void stop() override {
     (void)send({encode(Command::stop), encode(Command::sonar, 0), encode(Command::enable, 0)});
@@ -128,6 +135,10 @@ class P2osBase final : public orca::hw::LineDriver {
   }
 
   Status drive(const DriveSetpoint& setpoint) override {
+    if (!setpoint.stands() && !may_drive()) {
+      hold(stranger());
+      return say({});
+    }
     applied_ = setpoint;
     if (!setpoint.stands() && !powered_) {
       powered_ = true;
@@ -143,6 +154,7 @@ class P2osBase final : public orca::hw::LineDriver {
   void declare_endpoints() {
     senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()});
     senses_->describe(base_.traits());
+    remarks_.emplace(!model_->sonar_poses.empty());
     for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
     motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
                                   .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
@@ -210,10 +222,9 @@ class P2osBase final : public orca::hw::LineDriver {
     const Identity& robot = session_->identity();
     const ModelChoice choice = choose_model(robot.subclass);
     const auto log = [this](const std::string& text) { host().write_log(orca::log::Level::warning, text); };
+    is_known_ = choice.is_known;
     if (!choice.is_known) {
-      log("the robot calls itself " + orca::in_quotes(robot.subclass) +
-          ", which is not known; its counts are read as those of a " + std::string(model_->name) +
-          ", so check distances before it drives on its own");
+      log(stranger());
     } else if (&choice.model != model_) {
       log("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
           std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
@@ -222,10 +233,32 @@ class P2osBase final : public orca::hw::LineDriver {
                                                  robot.robot_class + " " + robot.subclass + ") at " +
                                                  std::to_string(session_->rate()) + " baud");
     senses_->connect(choice.is_known ? choice.model : *model_);
-    say_again_ = host().now() + kSayAgain;
+    say_again_every_ = kSayAgain;
+    (void)send({encode(Command::config, 1)});
+  }
+
+  [[nodiscard]] bool may_drive() const { return is_known_ || *drive_unknown_; }
+
+  // What a robot is whose model is not known.
+  [[nodiscard]] std::string stranger() const {
+    return "the robot calls itself " + orca::in_quotes(session_->identity().subclass) +
+           ", which is not known; its counts are read as those of a " + std::string(model_->name) +
+           (*drive_unknown_ ? ", so check distances before it drives on its own"
+                            : ", and it does not move: if that is right, write drive_unknown=\"true\"");
+  }
+
+  void take(const Config& config) {
+    if (config.watchdog > Duration{0})
+      say_again_every_ = std::clamp<Duration>(config.watchdog / kChances, kSayAgainSoonest, kSayAgain);
+    tell(remarks_->take(config, motion_->limits()));
+  }
+
+  void tell(const std::vector<std::string>& remarks) {
+    for (const std::string& remark : remarks) host().write_log(orca::log::Level::warning, remark);
   }
 
   void take(const Received& packet) {
+    if (const auto config = parse_config(packet.body)) return take(*config);
     if (!is_sip(packet.body)) return;  // others are not asked for
     const Result<Sip> sip = parse_sip(packet.body, senses_->units());
     if (!sip) return;  // its checksum was good, but it is cut short
@@ -233,6 +266,7 @@ class P2osBase final : public orca::hw::LineDriver {
     senses_->take(*sip, packet.stamp);
     if (state() != orca::hw::HardwareState::active) return;
     guard(*sip);
+    tell(remarks_->take(*sip, host().now()));
     senses_->publish();
   }
 
@@ -260,7 +294,7 @@ class P2osBase final : public orca::hw::LineDriver {
   }
 
   Status send(std::initializer_list<Packet> commands) {
-    say_again_ = host().now() + kSayAgain;
+    say_again_ = host().now() + say_again_every_;
     for (const Packet& command : commands)
       if (Status sent = session_->send(command); !sent.ok()) return sent;
     return orca::ok();
@@ -273,6 +307,13 @@ class P2osBase final : public orca::hw::LineDriver {
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
   orca::Param<double> max_turn_rate_{
       *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
+  orca::Param<bool> drive_unknown_{
+      *this,
+      "drive_unknown",
+      false,
+      {.text =
+           "Whether a robot moves that calls itself a model that is not known: its counts are read as those "
+           "of `model`."}};
   orca::hw::BaseFigures base_{*this};
 
   const Model* model_ = nullptr;
@@ -280,6 +321,9 @@ class P2osBase final : public orca::hw::LineDriver {
   std::optional<orca::hw::MotionHW> motion_;
   std::optional<Gripper> gripper_;
   std::optional<Session> session_;
+  std::optional<Remarks> remarks_;
+  bool is_known_ = true;  // the model that the robot calls itself
+  Duration say_again_every_ = kSayAgain;
   bool powered_ = false;  // the motors
   TimePoint powered_at_{};
   DriveSetpoint applied_;  // what the wheels were told last

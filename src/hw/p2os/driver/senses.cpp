@@ -20,18 +20,20 @@ constexpr Duration kPeriod = 100ms;                            // of packets
 constexpr double kShortestRange = 0.15;                        // [m] the ring of its own ping
 constexpr double kLongestRange = 5.0;                          // [m]
 constexpr double kHalfLobe = 12.5 * std::numbers::pi / 180.0;  // [rad] of a Polaroid transducer
-constexpr double kSonarHeight = 0.24;                          // [m] of the front ring above the floor
+constexpr double kBumperArc = 0.75 * std::numbers::pi;         // [rad] in front, and in the rear
+constexpr std::size_t kNowhere = ~std::size_t{0};
+constexpr double kSonarHeight = 0.24;  // [m] of the front ring above the floor
 
 }  // namespace
 
-// They lie on an arc, from the left to the right, in front, and as many behind.
+// From the left to the right in front, and from the right to the left behind.
 std::vector<double> Senses::usual_bumpers(const Model& model) {
   std::vector<double> all;
-  for (const double middle : {0.0, std::numbers::pi})
-    for (int i = 0; i < model.bumpers; ++i) {
-      const double step = std::numbers::pi / model.bumpers;
-      all.push_back(wrapped(middle + 0.5 * std::numbers::pi - (i + 0.5) * step));
-    }
+  const auto add = [&](double middle, int number) {
+    for (int i = 0; i < number; ++i) all.push_back(wrapped(middle + kBumperArc * (0.5 - (i + 0.5) / number)));
+  };
+  add(0.0, model.front_bumpers);
+  add(std::numbers::pi, model.rear_bumpers);
   return all;
 }
 
@@ -46,26 +48,36 @@ Senses::Senses(const Model& model, const Extras& extras)
       bumpers_(kPeriod),
       battery_(kPeriod),
       gripper_(kPeriod),
-      wheels_(model.distance_unit),
-      ranges_(model.sonar_poses.size(), kLongestRange),
-      stamps_(model.sonar_poses.size()) {}
+      wheels_(model.distance_unit) {
+  find_sonars();
+  ranges_.assign(sonars_.size(), kLongestRange);
+  stamps_.resize(sonars_.size());
+}
+
+void Senses::find_sonars() {
+  for (std::size_t i = 0; i < model_.sonar_poses.size(); ++i) {
+    const bool is_absent = (model_.absent_sonars >> i & 1U) != 0;
+    places_.push_back(is_absent ? kNowhere : sonars_.size());
+    if (!is_absent) sonars_.push_back(model_.sonar_poses[i]);
+  }
+}
 
 std::vector<SensorEndpoint*> Senses::endpoints() {
   std::vector<SensorEndpoint*> all{&odometry_.endpoint(), &battery_};
-  if (!model_.sonar_poses.empty()) all.push_back(&sonar_);
+  if (!sonars_.empty()) all.push_back(&sonar_);
   if (!bumper_ring_.empty()) all.push_back(&bumpers_);
   if (has_gripper_) all.push_back(&gripper_);
   return all;
 }
 
 std::optional<idl::SonarRing> Senses::describe_sonars() const {
-  if (model_.sonar_poses.empty()) return std::nullopt;
+  if (sonars_.empty()) return std::nullopt;
   idl::SonarRing ring;
   ring.name("sonars");
   ring.type("SonarRangeReadings");
   ring.update_interval(to_seconds(kPeriod));
-  ring.number(static_cast<std::uint32_t>(model_.sonar_poses.size()));
-  ring.angle_sonar0(model_.sonar_poses.front().yaw);
+  ring.number(static_cast<std::uint32_t>(sonars_.size()));
+  ring.angle_sonar0(sonars_.front().yaw);
   ring.half_lobe(kHalfLobe);
   ring.scale_factor(model_.range_unit);
   ring.min_range(kShortestRange);
@@ -87,9 +99,10 @@ void Senses::take(const Sip& sip, TimePoint stamp) {
   const Vec2 step = rotated(wheels_.add(sip.x, sip.y), *heading_offset_);
   pose_ = {pose_.x + step.x, pose_.y + step.y, wrapped(sip.heading + *heading_offset_)};
   for (const SonarEcho& echo : sip.echoes) {
-    if (echo.index >= ranges_.size()) continue;
-    ranges_[echo.index] = std::min(echo.range, kLongestRange);
-    stamps_[echo.index] = stamp;
+    const std::size_t place = echo.index < places_.size() ? places_[echo.index] : kNowhere;
+    if (place == kNowhere) continue;
+    ranges_[place] = std::min(echo.range, kLongestRange);
+    stamps_[place] = stamp;
   }
 }
 
@@ -111,7 +124,7 @@ void Senses::publish_sonars() {
   auto object = sonar_.loan();
   object->ranges().assign(ranges_.begin(), ranges_.end());
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    object->poses().push_back(level_frame(model_.sonar_poses[i], kSonarHeight));
+    object->poses().push_back(level_frame(sonars_[i], kSonarHeight));
     object->stamps().push_back(to_time_value(stamps_[i]));
   }
   object->min_range(kShortestRange);
@@ -140,7 +153,8 @@ void Senses::publish_battery() {
   object->name("drive");
   object->voltage(sip_.tail.real_battery_voltage.value_or(sip_.battery_voltage));
   object->current(std::nan(""));
-  object->charge(sip_.tail.state_of_charge ? 0.01 * *sip_.tail.state_of_charge : std::nan(""));
+  const std::optional<std::uint8_t>& percent = sip_.tail.state_of_charge;
+  object->charge(percent ? std::min(0.01 * *percent, 1.0) : std::nan(""));
   const int charge = sip_.tail.charge_state.value_or(0);
   object->charging(charge > 0 && charge < 255);
   object->stamp(to_time_value(stamp_));

@@ -30,6 +30,7 @@ class Senses {
     bool has_gripper = false;
   };
   /// Returns the bumpers that the model usually has.
+  /// @source  AriaCoda, ArBumpers: they share an arc of 135 degrees in front, and one in the rear.
   [[nodiscard]] static std::vector<double> usual_bumpers(const Model& model);
 
   Senses(const Model& model, const Extras& extras);
@@ -72,12 +73,15 @@ class Senses {
   };
   [[nodiscard]] static std::vector<Bumper> named(std::vector<double> directions);
   [[nodiscard]] bool is_pressed(const Bumper& bumper) const;
+  void find_sonars();
 
   const Model& model_;
   const Model* units_;
   const std::vector<Bumper> bumper_ring_;
   const double bumper_radius_;
   const bool has_gripper_;
+  std::vector<Pose2> sonars_;        // that are there
+  std::vector<std::size_t> places_;  // of each that the controller counts, among them
   BaseOdometry odometry_;
   RangeErrorGuess sonar_errors_;
   SensorHW<idl::SonarRangeReadings> sonar_;

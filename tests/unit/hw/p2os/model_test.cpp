@@ -22,26 +22,62 @@ struct Row {
   const char* subclass;
   double distance_mm, range_mm, difference;
   double width_mm, length_mm, radius_mm, speed_mm, turn_deg;
-  int sonars, bumpers;
+  int sonars, front_bumpers, rear_bumpers;
+  double laser_mm = 0;  // 0: it has no usual place
 };
 
+constexpr double kPioneer1 = 1.0 / 300.0;
+
 const std::vector<Row> kRows = {
-    {"p2dx", 0.84, 0.268, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"p2ce", 0.826, 0.268, 0.0057, 425, 511, 250, 2200, 500, 16, 0},
-    {"p2de", 0.969, 0.268, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"p2df", 0.485, 0.268, 0.0060, 0, 0, 0, 0, 0, 0, 0},
-    {"p2d8", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"p2d8+", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"p2at", 1.32, 0.268, 0.0034, 505, 626, 500, 1200, 300, 16, 0},
-    {"p2at8", 1.32, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0},
-    {"p2pb", 0.424, 0.268, 0.0056, 425, 513, 300, 2200, 500, 24, 5},
-    {"p2pp", 0.485, 0.268, 0.0060, 425, 513, 300, 2200, 500, 24, 5},
-    {"perfpb", 0.485, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 5},
-    {"perfpb+", 0.485, 1.0, 0.0060, 425, 511, 340, 2200, 500, 32, 5},
-    {"peoplebot-sh", 1.0, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 0},
-    {"p3dx", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"p3dx-sh", 1.0, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0},
-    {"amigo", 0.5083, 1.0, 0.011, 279, 330, 180, 1000, 300, 8, 0},
+    {"p2dx", 0.84, 0.268, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 17},
+    {"p2ce", 0.826, 0.268, 0.0057, 425, 511, 250, 2200, 500, 16, 0, 0},
+    {"p2de", 0.969, 0.268, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 17},
+    {"p2df", 0.485, 0.268, 0.0060, 425, 511, 250, 2200, 500, 16, 0, 0, 17},
+    {"p2d8", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 18},
+    {"p2d8+", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 18},
+    {"p2at", 1.32, 0.268, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 160},
+    {"p2at8", 1.32, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 160},
+    {"p2at8+", 0.465, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 160},
+    {"p2it", 1.136, 0.268, 0.0032, 505, 626, 500, 1200, 300, 16, 0, 0, 160},
+    {"p2pb", 0.424, 0.268, 0.0056, 425, 513, 300, 2200, 500, 24, 5, 5, 17},
+    {"p2pp", 0.485, 0.268, 0.0060, 425, 513, 300, 2200, 500, 24, 5, 5, 16},
+    {"perfpb", 0.485, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 5, 5, 21},
+    {"perfpb+", 0.485, 1.0, 0.0060, 425, 511, 340, 2200, 500, 32, 5, 5, 21},
+    {"peoplebot-sh", 1.0, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 5, 5, 21},
+    {"peoplebot-sh-lms1xx", 1.0, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 5, 5, 55},
+    {"peoplebot-sh-lms500", 1.0, 1.0, 0.0060, 425, 513, 340, 2200, 500, 32, 5, 5, 21},
+    {"p3dx", 0.485, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 18},
+    {"p3dx-sh", 1.0, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 21},
+    {"p3dx-sh-lms1xx", 1.0, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 55},
+    {"p3dx-sh-lms500", 1.0, 1.0, 0.0056, 425, 511, 250, 2200, 500, 16, 0, 0, 21},
+    {"p3at", 0.465, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 160},
+    {"p3at-sh", 1.0, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 125},
+    {"p3at-sh-lms1xx", 1.0, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 197},
+    {"p3at-sh-lms500", 1.0, 1.0, 0.0034, 505, 626, 500, 1200, 300, 16, 0, 0, 125},
+    {"p3atiw-sh", 1.0, 1.0, 0.0034, 490, 626, 500, 1200, 300, 16, 0, 0, 125},
+    {"amigo", 0.5083, 1.0, 0.011, 279, 330, 180, 1000, 300, 8, 0, 0},
+    {"amigo-sh", 1.0, 1.0, 0.011, 279, 330, 180, 1000, 300, 8, 0, 0},
+    {"amigo-sh-tim3xx", 1.0, 1.0, 0.011, 279, 330, 180, 1000, 300, 8, 0, 0, 110},
+    {"patrolbot-sh", 1.0, 1.0, 0.0056, 425, 510, 250, 2200, 500, 16, 6, 6, 37},
+    {"mt400", 1.0, 1.0, 0.0056, 425, 510, 250, 2200, 500, 16, 6, 6, 37},
+    {"researchPB", 1.0, 1.0, 0.0056, 425, 510, 250, 2200, 500, 16, 6, 6, 37},
+    {"researchPB-lms500", 1.0, 1.0, 0.0056, 425, 510, 250, 2200, 500, 16, 6, 6, 37},
+    {"powerbot", 0.5813, 1.0, 0.00373, 680, 911, 550, 2000, 360, 32, 7, 5, 251},
+    {"powerbot-sh", 1.0, 1.0, 0.00373, 680, 911, 550, 2000, 360, 32, 7, 5, 251},
+    {"powerbot-sh-lms500", 1.0, 1.0, 0.00373, 680, 911, 550, 2000, 360, 32, 7, 5, 251},
+    {"powerbot-sh-uarcs", 1.0, 1.0, 0.00373, 680, 911, 550, 2000, 360, 16, 7, 5, 251},
+    {"wheelchair-sh", 1.0, 1.0, 0.00373, 680, 1340, 550, 2000, 360, 0, 4, 3, -418},
+    {"seekur", 1.0, 1.0, 0.0056, 1270, 1410, 833, 2200, 190, 0, 5, 3, 690},
+    {"seekurjr", 1.0, 1.0, 0.0056, 830, 1200, 600, 1200, 80, 0, 4, 4, 527},
+    {"pioneer-lx", 1.0, 1.0, 0.0056, 500, 696, 348, 2500, 180, 0, 3, 3, 267},
+    {"pioneer-lx-ld", 1.0, 1.0, 0.0056, 500, 696, 348, 2500, 180, 0, 3, 3, 267},
+    {"mappr", 1.0, 1.0, 0.011, 0, 0, 180, 0, 0, 0, 0, 0, 312},
+    {"pion1m", 0.05066, 0.1734, kPioneer1, 0, 0, 220, 400, 100, 7, 0, 0},
+    {"pion1x", 0.05066, 0.1734, kPioneer1, 0, 0, 220, 400, 100, 7, 0, 0},
+    {"psos1m", 0.05066, 0.1734, kPioneer1, 0, 0, 220, 400, 100, 7, 0, 0},
+    {"psos1x", 0.05066, 0.1734, kPioneer1, 0, 0, 220, 400, 100, 7, 0, 0},
+    {"psos43m", 0.05066, 0.1734, kPioneer1, 0, 0, 220, 400, 100, 7, 0, 0},
+    {"pionat", 0.07, 0.1734, kPioneer1, 0, 0, 330, 500, 100, 7, 0, 0},
 };
 
 void check_pose(const orca::Pose2& pose, double x_mm, double y_mm, double heading_deg) {
@@ -68,10 +104,22 @@ TEST_CASE("every model has the figures of its parameter file in SI units", "[hw]
     CHECK(model.max_speed == Approx(row.speed_mm / 1000));
     CHECK(model.max_turn_rate == Approx(row.turn_deg * kDegree));
     CHECK(model.sonars == row.sonars);
-    CHECK(model.bumpers == row.bumpers);
-    CHECK(model.angle_unit == Approx(0.001534).epsilon(1e-4));
-    CHECK(model.wheel_step == 0.020);
-    CHECK(model.velocity_unit == Approx(model.subclass == "amigo" ? 0.0006154 : 0.001));
+    CHECK(model.front_bumpers == row.front_bumpers);
+    CHECK(model.rear_bumpers == row.rear_bumpers);
+    CHECK(model.laser.has_value() == (row.laser_mm != 0.0));
+    CHECK(model.laser.value_or(orca::Vec2{}).x == Approx(row.laser_mm / 1000));
+    const bool is_first = row.difference == kPioneer1;  // of the series Pioneer 1
+    CHECK(model.angle_unit == Approx(is_first ? 0.0061359 : 0.001534).epsilon(1e-4));
+    CHECK(model.wheel_step == Approx(is_first ? 0.004 : 0.020));
+    if (is_first) CHECK(model.velocity_unit == Approx(0.0025332));
+  }
+}
+
+TEST_CASE("speeds of an AmigoBot and a MapperBot have a unit of their own", "[hw][p2os]") {
+  for (const Model& model : p2os::models()) {
+    INFO(model.subclass);
+    const bool is_own = model.subclass == "amigo" || model.subclass == "mappr";
+    if (!model.subclass.starts_with("p")) CHECK(model.velocity_unit == Approx(is_own ? 0.0006154 : 0.001));
   }
 }
 
@@ -82,17 +130,17 @@ TEST_CASE("upper and lower case count alike in the name of a model", "[hw][p2os]
 }
 
 TEST_CASE("an unknown model gives the default and says so", "[hw][p2os]") {
-  for (const std::string subclass : {"", "p2d", "p2dxx", "powerbot"}) {
+  for (const std::string subclass : {"", "p2d", "p2dxx", "p4xx"}) {
     INFO(subclass);
     CHECK_FALSE(choose_model(subclass).is_known);
     CHECK(choose_model(subclass).model.subclass == "p2dx");
   }
 }
 
-TEST_CASE("poses of sonars are as many as there are sonars, or none", "[hw][p2os]") {
+TEST_CASE("poses of sonars are as many as the controller counts", "[hw][p2os]") {
   for (const Model& model : p2os::models()) {
     INFO(model.subclass);
-    CHECK((model.sonar_poses.empty() || model.sonar_poses.size() == static_cast<std::size_t>(model.sonars)));
+    CHECK(model.sonar_poses.size() == static_cast<std::size_t>(model.sonars));
   }
 }
 
@@ -118,6 +166,23 @@ TEST_CASE("a PeopleBot has a second ring above the front one, between it and the
   check_pose(ring[15], -20, -136, -90);
   check_pose(ring[16], -157, -136, -90);
   check_pose(ring[23], -157, 136, 90);
+}
+
+TEST_CASE("a PeopleBot with the SH controller counts its rear ring before the upper ones", "[hw][p2os]") {
+  const auto ring = choose_model("peoplebot-sh").model.sonar_poses;
+  REQUIRE(ring.size() == 32);
+  check_pose(ring[8], -157, -136, -90);
+  check_pose(ring[16], -20, 136, 90);
+  check_pose(ring[31], -191, 136, 90);
+}
+
+TEST_CASE("a PowerBot counts an eighth sonar on each quarter that is not there", "[hw][p2os]") {
+  const Model& model = choose_model("powerbot-sh").model;
+  CHECK(model.absent_sonars == 0x80808080U);
+  check_pose(model.sonar_poses[6], 332, 33, 5);
+  check_pose(model.sonar_poses[8], 332, -33, -5);
+  CHECK(choose_model("powerbot-sh-uarcs").model.absent_sonars == 0x8080U);
+  CHECK(choose_model("p3at").model.absent_sonars == 0U);
 }
 
 TEST_CASE("a Performance PeopleBot has an upper rear ring too", "[hw][p2os]") {

@@ -31,9 +31,11 @@ struct P2osSettings {
   int sonars = 16;
   unsigned front_bumpers = 5;
   unsigned rear_bumpers = 5;
-  Duration cycle = 100ms;     ///< [s] between two information packets.
-  Duration watchdog = 2s;     ///< [s] without a command until the robot stops.
-  std::uint32_t baud = 9600;  ///< After power-on.
+  Duration cycle = 100ms;       ///< [s] between two information packets.
+  Duration watchdog = 2s;       ///< [s] without a command until the robot stops.
+  std::uint32_t baud = 9600;    ///< After power-on, and after CLOSE.
+  double voltage = 12.7;        ///< [V] of the battery.
+  bool has_sonar_power = true;  ///< Its sonars can be switched on.
 };
 
 /// Returns the settings of a robot's controller by its subclass; nothing if that is not known here.
@@ -89,6 +91,7 @@ class P2osFirmware final : public Firmware {
   void carry_out(int number, int value, TimePoint now);
   bool set_motion(int number, int value);
   void set_wheels(int value);
+  void switch_sonar(int value);
   void set_baud(int code);
   void stop();
   void close();

@@ -13,7 +13,7 @@ namespace orca::hw::p2os {
 /// What differs between the robots that speak P2OS. Frames: x forward, y to the left, origin between the wheels.
 ///
 /// A plain value. Its texts and poses live as long as the program.
-/// @source  parameter files of the vendor, as public drivers quote them.
+/// @source  parameter files of the vendor, as AriaCoda (ArRobotTypes.cpp, params/) and other public drivers quote them.
 struct Model {
   std::string_view subclass{};  ///< As the robot gives it in answer to SYNC2, in lower case.
   std::string_view name{};      ///< For people.
@@ -25,10 +25,12 @@ struct Model {
   double radius = 0.0;          ///< [m] of the circle that it turns in; 0: not known.
   double max_speed = 0.0;       ///< [m/s] 0: not known.
   double max_turn_rate = 0.0;   ///< [rad/s] 0: not known.
-  int sonars = 0;               ///< Number of sonars; 0: not known.
+  int sonars = 0;               ///< Number of sonars that the controller counts; 0: it has none.
   std::span<const Pose2>
-      sonar_poses{};  ///< Of each in the robot frame, its x axis being the axis of the cone; empty: not known.
-  int bumpers = 0;    ///< In front, and as many in the rear.
+      sonar_poses{};           ///< Of each in the robot frame, its x axis being the axis of the cone.
+  unsigned absent_sonars = 0;  ///< Bit i: number i is counted, but there is no such sonar.
+  int front_bumpers = 0;
+  int rear_bumpers = 0;
   std::optional<Vec2> laser{};   ///< [m] where a laser scanner is mounted, if it has a usual place.
   double velocity_unit = 0.001;  ///< [m/s] a count of a wheel's speed.
   double angle_unit = 2.0 * std::numbers::pi / 4096.0;  ///< [rad] a count of a heading.
