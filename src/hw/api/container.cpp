@@ -32,7 +32,8 @@ idl::DeviceStatistics HardwareContainer::statistics() const {
   idl::DeviceStatistics statistics;
   statistics.line(line_name_);
   statistics.state(std::string(to_string(state())));
-  statistics.fault(fault());
+  const bool works = state() == HardwareState::ready || state() == HardwareState::active;
+  statistics.fault(works ? std::string() : fault());
   loop_->record().fill(statistics);
   return statistics;
 }

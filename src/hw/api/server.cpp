@@ -115,7 +115,7 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
   if (seat_->has_line())
     statistics_ = std::make_unique<QueryServer<idl::Ask, idl::DeviceStatistics>>(
         *this, "DeviceStatisticsQuery", &HardwareServer::on_statistics,
-        PortOptions{.text = "What was counted on the line to the device, and why it failed last."});
+        PortOptions{.text = "What was counted on the line to the device, and why it does not work."});
 }
 
 HardwareServer::~HardwareServer() {
