@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <thread>
@@ -32,18 +33,19 @@ std::string at_rate(std::uint32_t baud) { return std::to_string(baud) + " baud";
 }  // namespace
 
 Session::Session(link::ByteLink& link, const Wishes& wishes, bool has_rate)
-    : link_(link), wishes_(wishes), has_rate_(has_rate) {}
+    : link_(link), wishes_(wishes), has_rate_(has_rate), order_(kRates.begin(), kRates.end()) {}
 
 Status Session::begin(TimePoint now) {
   patient_until_ = saturating_add(now, wishes_.patience);
+  std::ranges::stable_partition(order_, [&](std::uint32_t baud) { return baud == last_rate_; });
   return find_from(0, now);
 }
 
-// Looks for the laser at the next rate that the line can have.
+// Looks for the laser at the next rate that the line can have. One that has been lost for a moment still has the rate of before.
 Status Session::find_from(std::size_t index, TimePoint now) {
-  const std::size_t rates = has_rate_ ? kRates.size() : 1;
+  const std::size_t rates = has_rate_ ? order_.size() : 1;
   for (index_ = index; index_ < rates; ++index_) {
-    if (Status set = set_rate(kRates[index_]); !set.ok()) {
+    if (Status set = set_rate(order_[index_]); !set.ok()) {
       if (set.error().code != Code::invalid_argument) return set;
       continue;
     }
@@ -165,6 +167,7 @@ Status Session::take_variant(const Reply& reply, TimePoint now) {
   const std::optional<VariantAnswer> answer = parse_variant(reply);
   if (!answer || !answer->is_accepted || !(answer->variant == wishes_.variant))
     return refused("the wished angle and resolution; write another angle or resolution");
+  last_rate_ = rate_;
   return say(Step::done, now);
 }
 

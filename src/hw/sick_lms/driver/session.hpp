@@ -101,8 +101,10 @@ class Session {
   framing::Scanner scanner_{kFromLaser};
   framing::Scanner own_{kFromHost};  // finds our own requests, which a loop sends back
   Step step_ = Step::find;
-  std::size_t index_ = 0;   // of the rate at which it is looked for
-  std::uint32_t rate_ = 0;  // of the line
+  std::vector<std::uint32_t> order_;  // of the rates at which it is looked for
+  std::uint32_t last_rate_ = 0;       // at which it worked last
+  std::size_t index_ = 0;             // of the rate at which it is looked for now
+  std::uint32_t rate_ = 0;            // of the line
   std::uint32_t wanted_ = 0;
   int tries_ = 0;  // of this step
   TimePoint deadline_{};
