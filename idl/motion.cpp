@@ -2,6 +2,8 @@
 #include "orca/idl/motion.hpp"
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace orca {
 namespace {
@@ -37,11 +39,16 @@ Loan<idl::MotionCommand> turn(double rate, double speed, double weight) {
 
 Status check_command(const idl::MotionCommand& command) {
   if (command.kind() == idl::FULLSTOP) return ok();
-  const bool finite = std::isfinite(command.speed()) && std::isfinite(command.direction()) &&
-                      std::isfinite(command.turn_rate()) && std::isfinite(command.weight());
-  if (finite && command.weight() >= 0.0) return ok();
-  return fail(Code::invalid_argument,
-              "a motion command holds a number that is not finite, or a negative weight");
+  const std::pair<const char*, double> numbers[] = {{"speed", command.speed()},
+                                                    {"direction", command.direction()},
+                                                    {"turn rate", command.turn_rate()},
+                                                    {"weight", command.weight()}};
+  for (const auto& [name, number] : numbers)
+    if (!std::isfinite(number))
+      return fail(Code::invalid_argument, "a motion command's " + std::string(name) + " is " +
+                                              std::to_string(number) + "; expected a finite number");
+  if (command.weight() >= 0.0) return ok();
+  return fail(Code::invalid_argument, "a motion command's weight is negative");
 }
 
 Status check_command(const idl::HolonomicVelocity& velocity) {

@@ -2,6 +2,7 @@
 #include "orca/navigation/beams.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "orca/navigation/pose_history.hpp"
 
@@ -12,6 +13,7 @@ void beams_of(const SweptScan& scan, double range, std::vector<Beam>& beams) {
   const double last = std::max(1.0, static_cast<double>(scan.ranges.size()) - 1.0);
   const double farthest = std::min(range, scan.max_range);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    if (std::isnan(scan.ranges[i])) continue;  // it says nothing, not even that the way is free
     const auto number = static_cast<double>(i);
     const Pose2 sensor = between(scan.X_MS_first, scan.X_MS_last, number / last);
     const bool echo = scan.ranges[i] < farthest;

@@ -50,6 +50,7 @@ void ShippedGraph::remove(const std::string& component) {
   text_ = without(text_, start + "[^/]>[^]*?</component>");
   text_ = without(text_, "\\s*<connect [^>]*\"" + component + "\\.[^>]*/>");
   text_ = without(text_, "; " + component + "(?=\")");
+  text_ = without(text_, "\\s*<param name=\"required\" value=\"" + component + "\"/>");
 }
 
 void ShippedGraph::add(const std::string& elements) { insert_before(text_, "</graph>", elements); }

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The fuser's modes, its stops and its reasons, in whole systems.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <map>
+#include <regex>
+#include <set>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -95,10 +101,72 @@ TEST_CASE("a full stop is obeyed at once even if it holds a number that is not f
   CHECK(stopped <= 2.0 + 0.1 + kPeriod);
 }
 
-TEST_CASE("a wish with a number that is not finite counts as silence", "[system][fuser]") {
+TEST_CASE("a wish with a number that is not finite stops the robot at once, and it is said whose it was",
+          "[system][fuser]") {
   const Run run = two_voices("weighted", "any", "drive_at_nan");
   INFO(run.err);
-  CHECK(told_at(run, "REQUIRED_SILENT by guard speed 0.00") >= 1.9 + kSilence);
+  const double stopped = told_at(run, "REQUIRED_SILENT by guard speed 0.00");
+  CHECK(stopped >= 2.0);
+  CHECK(stopped <= 2.0 + 0.1 + kPeriod);
+  CHECK(run.says("the MotionCommand of \"guard\" counts as none: a motion command's speed is nan"));
+  CHECK(run.says("stops the robot: nothing valid is heard of the behaviour \"guard\""));
+}
+
+TEST_CASE("a wish far beyond what robots do is asked about once, with the name of the behaviour",
+          "[system][fuser]") {
+  const auto asked = [](const std::string& what, const std::string& question) {
+    const Run run = two_voices("weighted", "any", what);
+    INFO(run.err);
+    CHECK(run.ended);
+    const std::vector<std::string> lines = split_lines(run.err);
+    CHECK(std::ranges::count_if(lines, [](const std::string& line) {
+            return line.find("did you mean") != line.npos || line.find("was it meant") != line.npos;
+          }) == 1);
+    CHECK(run.says("the behaviour \"guard\" wishes for " + question));
+  };
+  asked("turn_by_90", "a turn rate of 90 rad/s: did you mean degrees?");
+  asked("drive_at_250", "a speed of 250 m/s: was it meant in mm/s or cm/s?");
+}
+
+TEST_CASE("each shipped graph lets no robot drive without its avoid behaviour, whatever a client list says",
+          "[system][fuser]") {
+  const std::regex component(
+      R"x(<component name="([^"]*)" type="orca\.(\w+)"[^>]*?(/>|>([^]*?)</component>))x");
+  const std::regex command(R"x(<connect from="([^"]*)\.motion" to="([^"]*)\.motion")x");
+  const std::set<std::string> avoiders{"SonarAvoid", "LaserAvoid", "VfhPlus",
+                                       "Dwa",        "NdPlus",     "PotentialField"};
+  std::size_t found = 0;
+  for (const std::string& graph : shipped_graphs()) {
+    const std::string text = printed(graph);
+    std::map<std::string, std::smatch> components;
+    for (std::sregex_iterator at(text.begin(), text.end(), component), end; at != end; ++at)
+      components[(*at)[1]] = *at;
+    for (std::sregex_iterator at(text.begin(), text.end(), command), end; at != end; ++at) {
+      const std::string behaviour = (*at)[1];
+      if (!avoiders.contains(components[behaviour][2])) continue;
+      ++found;
+      INFO(graph << " " << behaviour);
+      const std::string short_name = behaviour.substr(behaviour.rfind('/') + 1);
+      CHECK(components[(*at)[2]][4].str().find("<param name=\"required\" value=\"" + short_name + "\"") !=
+            std::string::npos);
+    }
+  }
+  CHECK(found >= 20);
+}
+
+TEST_CASE("a client list without the required avoid behaviour does not drive the robot, and it is said why",
+          "[system][fuser]") {
+  ShippedGraph graph("scout_goto");
+  std::string text = graph.text();
+  const std::string both = "value=\"goto; avoid\"";
+  REQUIRE(text.find(both) != std::string::npos);
+  text.replace(text.find(both), both.size(), "value=\"goto\"");
+  const TempFolder folder;
+  const Run run = run_deployer(Words{folder.write("blind.xml", text), "--until", "60 s"} + virtual_clock());
+  INFO(run.err);
+  CHECK(run.contacts().empty());
+  CHECK(run.arrivals().empty());
+  CHECK(run.says("stops the robot: the client list leaves out the behaviour \"avoid\", which is required"));
 }
 
 TEST_CASE("a behaviour that falls silent for three of its periods stops the robot, in every mode",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
@@ -155,18 +156,23 @@ std::vector<StateTag> Avoider::accepted_states() const {
 Outcome Avoider::work() {
   if (const Status learnt = learn_robot(); !learnt.ok()) return failed(learnt.error().text());
   if (const auto goal = present_goal()) note_cause(*goal);  // it avoids on the way to that goal
-  if (odometry_.connected()) follow(*odometry_.get_update());
+  const bool follows = !odometry_.connected() || follow(*odometry_.get_update());
   if (sensor().new_data_arrived()) {
     if (!odometry_.connected()) memory_.clear();
-    heard_at_ = now();
-    listen(memory_);
+    heard_at_ = listen(memory_) ? std::optional(now()) : std::nullopt;
   }
   listen_aside(memory_);
-  advise();
+  if (follows) {
+    advise();
+  } else {
+    motion_.push(full_stop());
+  }
   return again();
 }
 
-void Avoider::follow(const idl::Odometry& odometry) {
+// Returns whether it knows how the robot moves.
+bool Avoider::follow(const idl::Odometry& odometry) {
+  if (!is_valid(odometry)) return false;
   const TimePoint stamp = to_time_point(odometry.stamp());
   const Pose2 pose = plane_pose(odometry);
   const double pace = stands(twist_) ? manner_.standing_pace : 1.0;
@@ -174,10 +180,21 @@ void Avoider::follow(const idl::Odometry& odometry) {
   moved_at_ = stamp;
   pose_ = pose;
   twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};
+  return true;
 }
 
 double Avoider::age_of(TimePoint seen) const {
   return to_seconds((remembers() && moved_at_ ? *moved_at_ : now()) - seen);
+}
+
+bool Avoider::is_recent(TimePoint seen, const std::string& sender) {
+  const double age = age_of(seen);
+  if (std::abs(age) <= deaf_after()) return true;
+  char text[160];
+  std::snprintf(text, sizeof text, "it was measured %.3g s %s %s; expected at most %.3g s, by the same clock",
+                std::abs(age), age > 0.0 ? "before" : "after", remembers() ? "the robot's odometry" : "now",
+                deaf_after());
+  return senders_.accepts(fail(Code::invalid_argument, text), sensed().name, sender);
 }
 
 Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
@@ -200,10 +217,10 @@ void Avoider::advise() {
   }
 }
 
-std::optional<Pose2> Avoider::pose() const {
+std::optional<Pose2> Avoider::pose() {
   if (!localizer_.connected()) return moved_at_ ? std::optional(pose_) : std::nullopt;
   const auto pose = localizer_.latest();
-  if (!pose) return std::nullopt;
+  if (!pose || !is_valid(*pose)) return std::nullopt;
   return plane_pose(*pose);
 }
 
@@ -213,7 +230,7 @@ ObjectPtr<idl::GoalPoint> Avoider::present_goal() const {
   return fresh ? goal : ObjectPtr<idl::GoalPoint>{};
 }
 
-Situation Avoider::situation() const {
+Situation Avoider::situation() {
   Situation situation;
   situation.last_direction = last_direction_;
   situation.turning = twist_.turn_rate * *reaction_time_;
@@ -225,7 +242,7 @@ Situation Avoider::situation() const {
 }
 
 // The goal is asked for once: it may become too old at any time.
-void Avoider::add_goal(Situation& situation) const {
+void Avoider::add_goal(Situation& situation) {
   const auto goal = present_goal();
   const std::optional<Pose2> here = goal ? pose() : std::nullopt;
   if (!here) return;

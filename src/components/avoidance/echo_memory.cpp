@@ -21,7 +21,8 @@ double squared_distance(Vec2 one, Vec2 other) { return dot(one - other, one - ot
 std::optional<Vec2> echo_of(double range, double min_range, double max_range, const Pose2& X_RS) {
   if (!(range < max_range)) return std::nullopt;
   const double way = range > min_range ? range : 0.0;
-  return X_RS.position() + way * direction(X_RS.yaw);
+  const Vec2 echo = X_RS.position() + way * direction(X_RS.yaw);
+  return std::isfinite(echo.x) && std::isfinite(echo.y) ? std::optional(echo) : std::nullopt;
 }
 
 EchoMemory::EchoMemory() {

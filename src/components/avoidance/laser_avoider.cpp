@@ -76,15 +76,15 @@ void LaserAvoider::stop() {
   Avoider::stop();
 }
 
-void LaserAvoider::listen(EchoMemory& memory) { put_into(memory, *laser_.get_update(), 0); }
+bool LaserAvoider::listen(EchoMemory& memory) { return put_into(memory, *laser_.get_update(), 0); }
 
 // Sources of other processes come, and all of them may go, while the robot drives.
 void LaserAvoider::listen_aside(EchoMemory& memory) {
   for (const MoreLasers::Source& source : more_lasers_.sources()) {
     Further& laser = further(source);
     if (!source.new_data_arrived()) continue;
-    put_into(memory, *source.take_latest(), laser.number);
-    laser.heard = now();
+    const bool counts = put_into(memory, *source.take_latest(), laser.number);
+    laser.heard = counts ? std::optional(now()) : std::nullopt;
   }
 }
 
@@ -103,10 +103,12 @@ LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
 }
 
 // The scan was taken a moment ago, from the robot's pose at that time.
-void LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
+bool LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
                             std::uint32_t number) {
+  const TimePoint seen = to_time_point(readings.stamp());
+  if (!is_valid(readings) || !is_recent(seen, readings.origin())) return false;
   const Pose2 mount = plane_pose(readings.pose());
-  const double age = age_of(to_time_point(readings.stamp()));
+  const double age = age_of(seen);
   const Vec2 place = moved_since(mount.position(), age);
   const double yaw = mount.yaw - turned_since(age);
   const Scan scan{readings.ranges(),      readings.min_range(),       readings.max_range(),
@@ -118,6 +120,7 @@ void LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& r
   const auto corners = remembers_.shapes ? body() : std::nullopt;
   const double near = corners ? norm({corners->half_length, corners->half_width}) + kBesideBody : 0.0;
   see(scan, {.sector = kSector, .range = farthest(), .near = near, .fine = kFineSector}, kept, memory);
+  return true;
 }
 
 }  // namespace orca::avoid

@@ -20,6 +20,14 @@ std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
 
 double distance(Vec2 echo) { return portable::hypot(echo.x, echo.y); }
 
+// Whether the beam to a place has measured nothing. `along` is its angle from the first beam.
+bool is_unread(const Scan& scan, double along) {
+  if (scan.angle_increment == 0.0) return std::isnan(scan.ranges.front());
+  const auto last = static_cast<long>(scan.ranges.size()) - 1;
+  const long beam = std::clamp(std::lround(along / scan.angle_increment), 0L, last);
+  return std::isnan(scan.ranges[static_cast<std::size_t>(beam)]);
+}
+
 // Whether a beam beside a place ends before it. `along` is its angle from the first beam.
 bool is_hidden(const Scan& scan, double along, double away) {
   if (scan.angle_increment == 0.0) return false;  // no beam is beside another
@@ -37,6 +45,7 @@ bool is_replaced(const Scan& scan, Vec2 echo, bool keeps_hidden) {
   const double off = wrapped(portable::atan2(seen.y, seen.x) - middle);
   const double away = distance(seen);
   if (away >= scan.max_range || std::abs(off) > 0.5 * std::abs(width)) return false;
+  if (is_unread(scan, off + 0.5 * width)) return false;
   return !keeps_hidden || !is_hidden(scan, off + 0.5 * width, away);
 }
 

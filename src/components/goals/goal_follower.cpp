@@ -100,7 +100,16 @@ Status GoalFollower::refuse(const idl::GoalPoint& goal, const char* fault) {
 }
 
 Outcome GoalFollower::work() {
-  const Pose2 pose = take_pose();
+  const std::optional<Pose2> pose = take_pose();
+  if (pose) {
+    follow_route(*pose);
+  } else {
+    wait_for_pose();
+  }
+  return again();
+}
+
+void GoalFollower::follow_route(const Pose2& pose) {
   pass_via_points(pose);
   if (route_.empty()) {
     before_ = {};
@@ -112,7 +121,12 @@ Outcome GoalFollower::work() {
     drive(pose, target);
   }
   push_path(pose);
-  return again();
+}
+
+// Stands while nobody says where it is.
+void GoalFollower::wait_for_pose() {
+  before_ = {};
+  motion_.push(route_.empty() ? dont_care() : full_stop());
 }
 
 // Shows the way that is left, if it has changed or somebody has come who has not seen it.
@@ -216,13 +230,15 @@ void GoalFollower::stop() {
   posed_at_.reset();
 }
 
-Pose2 GoalFollower::take_pose() {
+std::optional<Pose2> GoalFollower::take_pose() {
   if (!localizer_.connected()) {
     const auto odometry = odometry_.get_update();
+    if (!is_valid(*odometry)) return std::nullopt;
     note_pose(odometry->stamp(), odometry->covariance());
     return plane_pose(*odometry);
   }
   const auto pose = localizer_.get_update();
+  if (!is_valid(*pose)) return std::nullopt;
   note_pose(pose->stamp(), pose->covariance());
   return plane_pose(*pose);
 }

@@ -114,24 +114,45 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   // Between two poses of the localizer odometry carries the robot on.
-  Pose2 take_pose() override {
-    if (!odometry().connected()) {
-      const Pose2 pose = GoalFollower::take_pose();
-      note_motion(*localizer().latest(), posed_at(), pose);
-    } else if (!localizer().connected()) {
-      const Pose2 pose = GoalFollower::take_pose();
-      note_motion(*odometry().latest(), posed_at(), pose);
-    } else {
-      const auto moved = odometry().get_update();
-      note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
-      if (!X_MO_ || localizer().new_data_arrived()) take_fix(*localizer().get_update());
-      note_pose(moved->stamp(), localizer().latest()->covariance());
-    }
-    if (laser_.new_data_arrived()) scan_ = laser_.get_update();
+  std::optional<Pose2> take_pose() override {
+    if (laser_.new_data_arrived()) take_scan();
+    if (!take_motion()) return std::nullopt;
     const Pose2 pose = in_map(history_.at(posed_at()).value_or(Pose2{}));
     if (navigator_ && scan_) hear(pose);
     if (navigator_) hear_scanners(pose);
     return pose;
+  }
+
+  // A scan that says nothing valid is none: the laser is silent until another one comes.
+  void take_scan() {
+    scan_ = laser_.get_update();
+    if (is_valid(*scan_)) return;
+    scan_ = {};
+    heard_at_.reset();
+  }
+
+  // Returns whether it knows where the robot is and how it moves.
+  bool take_motion() {
+    if (odometry().connected() && localizer().connected()) return take_odometry_and_fix();
+    const auto pose = GoalFollower::take_pose();
+    if (!pose) return false;
+    if (localizer().connected()) {
+      note_motion(*localizer().latest(), posed_at(), *pose);
+    } else {
+      note_motion(*odometry().latest(), posed_at(), *pose);
+    }
+    return true;
+  }
+
+  bool take_odometry_and_fix() {
+    const auto moved = odometry().get_update();
+    const bool is_new = !X_MO_ || localizer().new_data_arrived();
+    const auto fix = localizer().get_update();
+    if (!is_valid(*moved) || !is_valid(*fix)) return false;
+    note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
+    if (is_new) take_fix(*fix);
+    note_pose(moved->stamp(), fix->covariance());
+    return true;
   }
 
   template <typename Motion>
@@ -173,7 +194,8 @@ class GridPlanner final : public orca::go::GoalFollower {
         scanner.subscribe();
         listened_.push_back(scanner);
       }
-      if (scanner.new_data_arrived()) hear(*scanner.take_latest(), pose);
+      if (!scanner.new_data_arrived()) continue;
+      if (const auto scan = scanner.take_latest(); is_valid(*scan)) hear(*scan, pose);
     }
   }
 

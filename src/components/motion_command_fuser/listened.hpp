@@ -20,6 +20,7 @@ struct Listened {
   ObjectPtr<idl::MotionCommand> last = {};
   ObjectPtr<idl::MotionCommand> last_wish = {};  ///< Opinions only.
   Reliance reliance = {};
+  bool talks_nonsense = false;  ///< Its last message counts as none.
 };
 
 /// The behaviours that had fallen silent when the fuser listened to them last. They stay unreliable until they are heard

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decide.hpp"
+#include "ear.hpp"
 #include "listened.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
@@ -165,23 +166,17 @@ class MotionCommandFuser final : public orca::Component {
   Voice hear(Listened& behaviour) {
     const double limit = silence_limit(behaviour);
     const auto newest = behaviour.source.take_latest();
-    if (newest && newest != behaviour.last &&
-        orca::check_command(*newest).ok()) {  // else it is as if it had not been said
-      const double gap = behaviour.last ? age_of(*behaviour.last) - age_of(*newest) : kNever;
-      behaviour.reliance.heard(gap, limit);
-      behaviour.last = newest;
-      if (newest->kind() == orca::idl::NORMAL) behaviour.last_wish = newest;
-    }
+    if (newest && newest != behaviour.last) ear_.take(behaviour, newest, limit);
     Voice voice;
     voice.name = behaviour.name;
     voice.silence_limit = limit;
     if (!behaviour.last) return voice;
-    voice.said = said(*behaviour.last);
+    voice.said = orca::fuse::said(*behaviour.last);
     voice.age = age_of(*behaviour.last);
     behaviour.reliance.look(voice.age, limit);
     voice.lost = behaviour.reliance.is_lost();
     if (!behaviour.last_wish) return voice;
-    voice.wish = wish_of(*behaviour.last_wish);
+    voice.wish = orca::fuse::wish_of(*behaviour.last_wish);
     voice.wish_age = age_of(*behaviour.last_wish);
     return voice;
   }
@@ -192,17 +187,6 @@ class MotionCommandFuser final : public orca::Component {
     if (*silence_limit_ > 0.0) return *silence_limit_;
     const double announced = orca::to_seconds(behaviour.source.base_period());
     return announced > 0.0 ? std::clamp(kSilentPeriods * announced, kShortestSilence, *max_age_) : *max_age_;
-  }
-
-  static Voice::Said said(const orca::idl::MotionCommand& command) {
-    if (command.kind() == orca::idl::FULLSTOP) return Voice::Said::full_stop;
-    return command.kind() == orca::idl::NORMAL ? Voice::Said::wish : Voice::Said::dont_care;
-  }
-
-  static Wish wish_of(const orca::idl::MotionCommand& command) {
-    if (command.steering() == orca::idl::BY_DIRECTION)
-      return {Wish::Kind::direction, command.direction(), command.speed(), command.weight()};
-    return {Wish::Kind::turn_rate, command.turn_rate(), command.speed(), command.weight()};
   }
 
   [[nodiscard]] double age_of(const orca::idl::MotionCommand& command) const {
@@ -254,10 +238,18 @@ class MotionCommandFuser final : public orca::Component {
     if (decision.verdict == Verdict::told_to_stop) return;  // which says nothing about the other behaviours
     const bool is_silent = decision.verdict == Verdict::required_silent;
     if (is_silent && !has_had_time(decision.decided_by)) return;
-    if (is_silent && !told_silence_)
-      log_warning("stops the robot: nothing is heard of the behaviour \"" + decision.decided_by + "\"");
+    if (is_silent && !told_silence_) log_warning("stops the robot: " + why_silent(decision.decided_by));
     if (told_silence_ && !is_silent) log_info("all behaviours are heard again");
     told_silence_ = is_silent;
+  }
+
+  [[nodiscard]] std::string why_silent(const std::string& name) const {
+    const auto behaviour = std::ranges::find(listened_, name, &Listened::name);
+    if (behaviour == listened_.end())
+      return "the client list leaves out the behaviour \"" + name + "\", which is required";
+    return (behaviour->talks_nonsense ? "nothing valid is heard of the behaviour \""
+                                      : "nothing is heard of the behaviour \"") +
+           name + "\"";
   }
 
   [[nodiscard]] bool has_had_time(const std::string& name) const {
@@ -435,6 +427,7 @@ class MotionCommandFuser final : public orca::Component {
        .text = "Mode subsumption: time for which a node still acts after the last wish."}};
 
   orca::Synchronizer behaviours_;
+  orca::fuse::Ear ear_{host()};
   orca::fuse::Rules rules_;
   std::vector<Listened> listened_;
   orca::fuse::Lost lost_;

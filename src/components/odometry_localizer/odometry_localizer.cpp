@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/sensing.hpp"
@@ -25,6 +26,7 @@ class OdometryLocalizer final : public orca::Component {
 
   orca::Outcome work() override {
     const auto odometry = odometry_.get_update();
+    if (!senders_.accepts(*odometry)) return orca::again();
     auto pose = poses_.loan();
     fill(*odometry, *pose);
     poses_.push(std::move(pose));
@@ -52,6 +54,7 @@ class OdometryLocalizer final : public orca::Component {
     pose.stamp(odometry.stamp());
   }
 
+  orca::SenderWatch senders_{host()};
   orca::PushProxy<Odometry> odometry_{
       *this, "odometry", {.text = "What the base measures, from the robot's start on."}};
   orca::PushServer<RobotPose> poses_{

@@ -8,6 +8,7 @@
 #include "errand.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -62,9 +63,14 @@ class Porter final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    const orca::Pose2 pose = orca::plane_pose(*localizer_.get_update());
+    const auto here = localizer_.get_update();
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    if (!senders_.accepts(*here)) {
+      motion_.push(errand_ ? orca::full_stop() : orca::dont_care());
+      return orca::again();
+    }
+    const orca::Pose2 pose = orca::plane_pose(*here);
     if (!errand_) begin_errand_near(pose);
     if (errand_) {
       do_errand(pose);
@@ -237,8 +243,9 @@ class Porter final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::ObjectPtr<orca::idl::GoalPoint> goal_;  // the last point that came, until its result
-  std::optional<Errand> errand_;                // from when the robot is there
-  orca::TimePoint heard_{};                     // when the gripper has said something, in an errand
+  orca::SenderWatch senders_{host()};
+  std::optional<Errand> errand_;  // from when the robot is there
+  orca::TimePoint heard_{};       // when the gripper has said something, in an errand
 };
 
 }  // namespace

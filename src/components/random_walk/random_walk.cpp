@@ -6,6 +6,7 @@
 #include "orca/avoidance/advice.hpp"
 #include "orca/avoidance/scan.hpp"
 #include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
@@ -63,10 +64,13 @@ class RandomWalk final : public orca::Component {
   // Replaces the former readings of each sensor by its newest ones.
   void hear() {
     if (!sonar_.new_data_arrived() && !laser_.new_data_arrived()) return;
-    heard_at_ = now();
     echoes_.clear();
     if (sonar_.new_data_arrived()) last_sonar_ = sonar_.get_update();
     if (laser_.new_data_arrived()) last_laser_ = laser_.get_update();
+    const bool sound =
+        (!last_sonar_ || senders_.accepts(*last_sonar_)) && (!last_laser_ || senders_.accepts(*last_laser_));
+    heard_at_ = sound ? std::optional(now()) : std::nullopt;
+    if (!sound) return;
     if (last_sonar_) hear_round(*last_sonar_);
     if (last_laser_) hear_scan(*last_laser_);
   }
@@ -141,6 +145,7 @@ class RandomWalk final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
+  orca::SenderWatch senders_{host()};
   orca::walk::Walk walk_;
   std::optional<orca::RandomStream> random_;
   std::vector<orca::Vec2> echoes_;

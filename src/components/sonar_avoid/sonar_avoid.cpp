@@ -30,8 +30,9 @@ class SonarAvoid final : public orca::avoid::Avoider {
   // An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below
   // the minimum range may be at the sonar itself. The sonars fire one after the other, and the robot moves
   // meanwhile.
-  void listen(orca::avoid::EchoMemory& memory) override {
+  bool listen(orca::avoid::EchoMemory& memory) override {
     const auto readings = sonar_.get_update();
+    if (!is_valid(*readings) || !fires(*readings)) return false;
     const std::size_t count = std::min(readings->ranges().size(), readings->poses().size());
     fired_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -42,6 +43,15 @@ class SonarAvoid final : public orca::avoid::Avoider {
                                              readings->max_range(), orca::plane_pose(readings->poses()[i]));
       if (echo) memory.hear(moved_since(*echo, age_of(fired)), keep());
     }
+    return true;
+  }
+
+  // Whether a sonar has fired lately. A base tells of its ring even if the sonars are off.
+  bool fires(const orca::idl::SonarRangeReadings& readings) {
+    std::optional<orca::TimePoint> last;
+    for (const orca::idl::TimeValue& stamp : readings.stamps())
+      last = std::max(last, std::optional(orca::to_time_point(stamp)));
+    return !last || is_recent(*last, readings.origin());
   }
 
   // A base tells of its whole ring more often than the ring makes its round. What is told again would confirm itself, and each

@@ -28,6 +28,8 @@ class VoiceOf final : public orca::Component {
     if (what == "full_stop") motion_.push(orca::full_stop());
     if (what == "drive") motion_.push(orca::head(0.0, 0.3));
     if (what == "full_stop_at_nan") motion_.push(at_nan(orca::full_stop()));
+    if (what == "drive_at_250") motion_.push(orca::head(0.0, 250.0));
+    if (what == "turn_by_90") motion_.push(orca::turn(90.0, 0.1));
     if (what == "drive_at_nan") motion_.push(at_nan(orca::head(0.0, 0.3)));
   }
 
@@ -37,7 +39,8 @@ class VoiceOf final : public orca::Component {
   }
 
   static std::vector<std::string> words() {
-    return {"no_opinion", "full_stop", "drive", "silence", "slow", "full_stop_at_nan", "drive_at_nan"};
+    return {"no_opinion",       "full_stop",    "drive",        "silence",   "slow",
+            "full_stop_at_nan", "drive_at_nan", "drive_at_250", "turn_by_90"};
   }
 
   orca::PushServer<orca::idl::MotionCommand> motion_{*this, "motion"};

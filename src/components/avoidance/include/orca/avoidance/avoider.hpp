@@ -7,6 +7,7 @@
 
 #include "orca/avoidance/advice.hpp"
 #include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
@@ -24,6 +25,8 @@ namespace orca::avoid {
 /// advice as often as the sensor delivers, from those readings alone. With a goal it chooses the free
 /// direction nearest to the direction of the goal. The pose comes from the localizer or, without one, from
 /// the odometry.
+///
+/// A reading that says nothing valid counts as none: the robot stands until a valid one of that sender comes.
 ///
 /// A base at its port `robot` is asked how large the robot is and how often its sensor measures. The answer is not
 /// waited for, but until it comes the robot stands.
@@ -49,8 +52,9 @@ class Avoider : public Component {
   /// Returns the object type that the sensor delivers.
   [[nodiscard]] virtual const ObjectType& sensed() const = 0;
   /// Puts the newest readings of the sensor into the memory.
+  /// @return whether they count: is_valid() and is_recent().
   /// @pre  sensor() has new data.
-  virtual void listen(EchoMemory& memory) = 0;
+  virtual bool listen(EchoMemory& memory) = 0;
   /// Does the same for sensors besides it, if the class has any. Called once a lap.
   virtual void listen_aside(EchoMemory& /*memory*/) {}
   /// Returns whether each of those has been heard in the last `longest` seconds.
@@ -72,6 +76,15 @@ class Avoider : public Component {
   /// Echoes are kept in the frame that the robot had at the stamp of its last odometry, which may have come over a slow line;
   /// without odometry, in the one that it has now. Returns the time [s] from `seen` until then; negative if it was seen later.
   [[nodiscard]] double age_of(TimePoint seen) const;
+  /// Returns whether a reading says anything valid; if it does not, says so in the log.
+  template <class Reading>
+  [[nodiscard]] bool is_valid(const Reading& reading) {
+    return senders_.accepts(reading);
+  }
+  /// Returns whether what was sensed at `seen` can be put into the frame in which echoes are kept: it is neither older nor newer
+  /// than the time after which a silent sensor stops the robot. If it is, says so in the log.
+  /// @param sender  of the reading.
+  [[nodiscard]] bool is_recent(TimePoint seen, const std::string& sender);
   /// Moves a point of that age [s] into the frame in which echoes are kept, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
   /// Returns how far the robot has turned [rad] in the `age` [s] before that frame.
@@ -103,7 +116,7 @@ class Avoider : public Component {
 
   Status ask_robot();
   Status learn_robot();
-  void follow(const idl::Odometry& odometry);
+  bool follow(const idl::Odometry& odometry);
   void advise();
   [[nodiscard]] Limits limits() const;
   [[nodiscard]] double radius() const { return body_ ? body_->radius : *robot_radius_; }
@@ -111,9 +124,9 @@ class Avoider : public Component {
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
   [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
   /// Adds what is known of the goal, if there is one and the robot knows where it is itself.
-  void add_goal(Situation& situation) const;
-  [[nodiscard]] Situation situation() const;
-  [[nodiscard]] std::optional<Pose2> pose() const;
+  void add_goal(Situation& situation);
+  [[nodiscard]] Situation situation();
+  [[nodiscard]] std::optional<Pose2> pose();
 
   PushProxy<idl::Odometry> odometry_;
   PushProxy<idl::GoalPoint> goal_;
@@ -140,6 +153,7 @@ class Avoider : public Component {
   Param<double> deaf_after_;
   Param<double> goal_max_age_;
 
+  SenderWatch senders_{host()};
   std::optional<QueryId> question_;  // To the base, as long as it has not answered.
   std::optional<Body> body_;
   EchoMemory memory_;

@@ -14,7 +14,7 @@ namespace orca::avoid {
 
 /// Returns the place from which an echo came, in the robot frame: `range` [m] along the x axis of the sensor
 /// at `X_RS`. Below `min_range` the sensor cannot measure the distance: the obstacle may be at the sensor
-/// itself. Returns nothing at or above `max_range`, and if `range` is not a number.
+/// itself. Returns nothing at or above `max_range`, and if `range` or the pose is not a number.
 [[nodiscard]] std::optional<Vec2> echo_of(double range, double min_range, double max_range,
                                           const Pose2& X_RS);
 

@@ -45,16 +45,17 @@ class LaserAvoider : public Avoider {
   struct Further {
     MoreLasers::Source source;
     std::uint32_t number;              // Of the sensor, for the memory.
-    std::optional<TimePoint> heard{};  // When its last scan came.
+    std::optional<TimePoint> heard{};  // When its last scan came, unless that was none.
   };
 
   PushProxyHandle& sensor() override { return laser_; }
   [[nodiscard]] const ObjectType& sensed() const override;
-  void listen(EchoMemory& memory) override;
+  bool listen(EchoMemory& memory) override;
   void listen_aside(EchoMemory& memory) override;
   [[nodiscard]] bool hears_aside(double longest) const override;
   [[nodiscard]] Further& further(const MoreLasers::Source& source);
-  void put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings, std::uint32_t number);
+  // Returns whether the scan counts.
+  bool put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings, std::uint32_t number);
 
   Memory remembers_;
   Param<bool> squeeze_;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/goals/legs.hpp"
 #include "orca/goals/patience.hpp"
 #include "orca/goals/route.hpp"
@@ -65,7 +66,13 @@ class GoalFollower : public Component {
   Status load_state(StateReader& state) override;
   Outcome work() override;
   /// Takes the pose of this lap. A derived class that overrides it calls this one or note_pose().
-  [[nodiscard]] virtual Pose2 take_pose();
+  /// @return nothing if the pose says nothing valid; the robot then stands.
+  [[nodiscard]] virtual std::optional<Pose2> take_pose();
+  /// Returns whether a reading says anything valid; if it does not, says so in the log.
+  template <class Reading>
+  [[nodiscard]] bool is_valid(const Reading& reading) {
+    return senders_.accepts(reading);
+  }
 
  private:
   // What the subscribers to the path have seen.
@@ -76,12 +83,14 @@ class GoalFollower : public Component {
 
   Status on_goal(const ObjectPtr<idl::GoalPoint>& goal);
   Status refuse(const idl::GoalPoint& goal, const char* fault);
+  void follow_route(const Pose2& pose);
   void push_path(const Pose2& pose);
   void push_goal(const Target& target);
   void pass_via_points(const Pose2& pose);
   const Target& next_place(const Pose2& pose);
   void arrive(const Pose2& pose);
   void wait_to_be_sure();
+  void wait_for_pose();
   [[nodiscard]] std::string doubt() const;
   [[nodiscard]] std::string place() const;
   bool is_hopeless(const Pose2& pose);
@@ -104,6 +113,7 @@ class GoalFollower : public Component {
   Param<double> door_room_;
   Param<double> weight_;
 
+  SenderWatch senders_{host()};
   Route route_;
   PathShown path_shown_;
   Legs legs_;

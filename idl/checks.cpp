@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/idl/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace orca {
+namespace {
+
+// [m], [rad], [m/s], [rad/s] Nothing that a robot has or does is larger; places of national grids are within it.
+constexpr double kLargest = 1e7;
+constexpr double kWidestScan = 4.0 * std::numbers::pi;  // [rad]
+
+std::string in_digits(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+Error wrong(std::string text) { return fail(Code::invalid_argument, std::move(text)); }
+
+// False for what is not a number, too.
+bool is_possible(double number) { return std::abs(number) <= kLargest; }
+
+bool is_possible(const idl::Point& point, const idl::Rotation3D& rotation) {
+  return is_possible(point.x()) && is_possible(point.y()) && is_possible(point.z()) &&
+         is_possible(rotation.roll()) && is_possible(rotation.pitch()) && is_possible(rotation.yaw());
+}
+
+bool is_number(double range) { return !std::isnan(range); }
+
+// What scans and rounds have in common.
+Status check_ranges(const idl::RangeReadings& readings) {
+  if (readings.ranges().empty()) return wrong("it has no ranges");
+  if (std::ranges::none_of(readings.ranges(), is_number))
+    return wrong("none of its " + std::to_string(readings.ranges().size()) + " ranges is a number");
+  const double least = readings.min_range();
+  const double most = readings.max_range();
+  if (!(least >= 0.0 && least < most && is_possible(most)))
+    return wrong("its limits are min_range " + in_digits(least) + " m and max_range " + in_digits(most) +
+                 " m; expected 0 <= min_range < max_range, both finite");
+  if (!is_possible(readings.pose().position(), readings.pose().rotation()))
+    return wrong("its pose holds a number that is not finite, or of no possible size");
+  return ok();
+}
+
+std::optional<std::string> doubt_about_speed(double speed) {
+  if (std::abs(speed) <= kFastest) return std::nullopt;
+  return "a speed of " + in_digits(speed) + " m/s: was it meant in mm/s or cm/s?";
+}
+
+std::optional<std::string> doubt_about_turn(double rate) {
+  if (std::abs(rate) <= kFastestTurn) return std::nullopt;
+  return "a turn rate of " + in_digits(rate) + " rad/s: did you mean degrees?";
+}
+
+struct Quantity {
+  const char* name;
+  double value;
+};
+
+template <std::size_t Count>
+Status check_motion(const Quantity (&quantities)[Count], const std::array<double, 9>& covariance) {
+  for (const auto& [name, value] : quantities)
+    if (!is_possible(value))
+      return wrong("its " + std::string(name) + " is " + in_digits(value) + "; expected at most 1e7");
+  if (!std::ranges::all_of(covariance, [](double entry) { return std::isfinite(entry); }))
+    return wrong("its covariance holds a number that is not finite");
+  for (const std::size_t variance : {0, 4, 8})
+    if (covariance[variance] < 0.0)
+      return wrong("its covariance holds the negative variance " + in_digits(covariance[variance]));
+  return ok();
+}
+
+}  // namespace
+
+Status check_reading(const idl::LaserRangeReadings& scan) {
+  if (Status sound = check_ranges(scan); !sound.ok()) return sound;
+  const double step = scan.angle_increment();
+  const bool is_one = scan.ranges().size() == 1;
+  const double width = std::abs(step) * static_cast<double>(scan.ranges().size() - 1);
+  if (!is_possible(scan.angle_start()) || !(is_one ? is_possible(step) : step != 0.0 && width <= kWidestScan))
+    return wrong("its " + std::to_string(scan.ranges().size()) + " beams begin at " +
+                 in_digits(scan.angle_start()) + " rad and are " + in_digits(step) +
+                 " rad apart; expected finite angles that differ and span at most two turns");
+  if (!is_possible(scan.time_increment()))
+    return wrong("its time_increment is " + in_digits(scan.time_increment()) + " s; expected a finite time");
+  return ok();
+}
+
+Status check_reading(const idl::SonarRangeReadings& round) {
+  if (Status sound = check_ranges(round); !sound.ok()) return sound;
+  for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
+    if (is_number(round.ranges()[i]) && is_possible(round.poses()[i].position(), round.poses()[i].rotation()))
+      return ok();
+  return wrong("none of its " + std::to_string(round.ranges().size()) +
+               " ranges is a number that comes with a finite pose of its sonar; it has " +
+               std::to_string(round.poses().size()) + " poses");
+}
+
+Status check_reading(const idl::RobotPose& pose) {
+  return check_motion({{"x", pose.x()},
+                       {"y", pose.y()},
+                       {"orientation", pose.orientation()},
+                       {"translational_velocity", pose.translational_velocity()},
+                       {"sideways_velocity", pose.sideways_velocity()},
+                       {"steering_velocity", pose.steering_velocity()}},
+                      pose.covariance());
+}
+
+Status check_reading(const idl::Odometry& odometry) {
+  return check_motion({{"x", odometry.x()},
+                       {"y", odometry.y()},
+                       {"steer_angle", odometry.steer_angle()},
+                       {"translational_velocity", odometry.translational_velocity()},
+                       {"sideways_velocity", odometry.sideways_velocity()},
+                       {"steering_velocity", odometry.steering_velocity()}},
+                      odometry.covariance());
+}
+
+std::optional<std::string> doubt_about(const idl::MotionCommand& command) {
+  if (command.kind() != idl::NORMAL) return std::nullopt;
+  if (auto doubt = doubt_about_speed(command.speed())) return doubt;
+  if (command.steering() == idl::BY_TURN_RATE) return doubt_about_turn(command.turn_rate());
+  if (std::abs(command.direction()) <= 2.0 * std::numbers::pi) return std::nullopt;
+  return "a direction of " + in_digits(command.direction()) + " rad: did you mean degrees?";
+}
+
+std::optional<std::string> doubt_about(const idl::HolonomicVelocity& velocity) {
+  for (const double speed : {velocity.forward(), velocity.left()})
+    if (auto doubt = doubt_about_speed(speed)) return doubt;
+  return doubt_about_turn(velocity.turn_rate());
+}
+
+}  // namespace orca

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "ear.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "orca/idl/checks.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::fuse {
+namespace {
+
+constexpr double kForEver = std::numeric_limits<double>::infinity();
+
+// Returns the time between two commands [s].
+double between(const idl::MotionCommand& former, const idl::MotionCommand& later) {
+  return to_seconds(to_time_point(later.creation_time()) - to_time_point(former.creation_time()));
+}
+
+}  // namespace
+
+void Ear::take(Listened& behaviour, const ObjectPtr<idl::MotionCommand>& newest, double limit) {
+  behaviour.talks_nonsense = !senders_.accepts(check_command(*newest), "MotionCommand", newest->origin());
+  if (behaviour.talks_nonsense) {
+    behaviour.reliance.look(kForEver, limit);
+    behaviour.last = behaviour.last_wish = {};
+    return;
+  }
+  ask_about(behaviour.name, *newest);
+  behaviour.reliance.heard(behaviour.last ? between(*behaviour.last, *newest) : kForEver, limit);
+  behaviour.last = newest;
+  if (newest->kind() == idl::NORMAL) behaviour.last_wish = newest;
+}
+
+void Ear::ask_about(const std::string& behaviour, const idl::MotionCommand& command) {
+  const std::optional<std::string> doubt = doubt_about(command);
+  if (doubt && asked_.insert(behaviour).second)
+    host_.write_log(log::Level::warning, "the behaviour \"" + behaviour + "\" wishes for " + *doubt);
+}
+
+Voice::Said said(const idl::MotionCommand& command) {
+  if (command.kind() == idl::FULLSTOP) return Voice::Said::full_stop;
+  return command.kind() == idl::NORMAL ? Voice::Said::wish : Voice::Said::dont_care;
+}
+
+Wish wish_of(const idl::MotionCommand& command) {
+  const double speed = std::clamp(command.speed(), -kFastest, kFastest);
+  if (command.steering() == idl::BY_DIRECTION)
+    return {Wish::Kind::direction, command.direction(), speed, command.weight()};
+  return {Wish::Kind::turn_rate, std::clamp(command.turn_rate(), -kFastestTurn, kFastestTurn), speed,
+          command.weight()};
+}
+
+}  // namespace orca::fuse
