@@ -157,8 +157,13 @@ TEST_CASE("orcactl shows what runs, and ends it", "[system][orcactl]") {
   CHECK(ps.exit_code() == 0);
   for (const char* const part :
        {"\"name\": \"goto\"", "\"type\": \"orca.Goto\"", "\"process\": \"behaviours\"", "\"state\": \"WORK\"",
-        "goto.so\"", "\"build_id\": \"0.1.0\"", "\"restarts\": 0"})
+        "goto.so\"", "\"restarts\": 0"})
     CHECK_THAT(ps.out, Contains(part));
+  const std::string described = run_deployer({"--describe", "orca.Goto", "--json"}).out;
+  const std::string build = described.substr(described.find("\"build_id\": \"") + 13, 40);
+  CHECK(build.find_first_not_of("0123456789abcdef") == std::string::npos);
+  CHECK_THAT(ps.out, Contains("\"build_id\": \"" + build + "\""));
+  CHECK_THAT(run_orcactl({"ps"}).out, Contains("  " + build.substr(0, 12) + "  "));
   const auto pid = children_of(system.program().pid()).at("behaviours");
   CHECK_THAT(ps.out, Contains("\"pid\": " + std::to_string(pid)));
   CHECK_THAT(run_orcactl({"graph"}).out, Contains("<component name=\"goto\""));

@@ -67,6 +67,13 @@ class Watched {
   std::unique_ptr<Subprocess> program_;
 };
 
+// Returns the build id of the code that a component runs, as the system tells.
+std::string build_of(const std::string& component) {
+  const std::string shown = run_orcactl({"ps", "--json"}).out;
+  const std::size_t begin = shown.find("\"build_id\": \"", shown.find("\"name\": \"" + component + "\""));
+  return begin == std::string::npos ? "" : shown.substr(begin + 13, 40);
+}
+
 }  // namespace
 
 TEST_CASE("a plugin that is built anew takes the old one's place, with its state", "[system][watch]") {
@@ -111,6 +118,22 @@ TEST_CASE("a plugin that was built wrongly is not taken, the log says why, and t
   system.build("test_teller_2");
   REQUIRE(system.hears("heard 2:"));
   CHECK_THAT(system.end(), Contains("its laps, in the shadow of the present one,"));
+}
+
+TEST_CASE(
+    "ps tells which build of its code a component runs, after an exchange and in a process that is started "
+    "again",
+    "[system][watch]") {
+  Watched system;
+  const std::string first = build_of("teller");
+  CHECK(first.find_first_not_of("0123456789abcdef") == std::string::npos);
+  system.build("test_teller_2");
+  REQUIRE(system.hears("runs the code that was built anew"));
+  const std::string second = build_of("teller");
+  CHECK(second != first);
+  REQUIRE(run_orcactl({"restart", "teller"}).exit_code() == 0);
+  CHECK(build_of("teller") == second);
+  system.end();
 }
 
 TEST_CASE("without host processes there is nothing to exchange, and --watch is refused", "[system][watch]") {

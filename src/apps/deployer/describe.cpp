@@ -100,7 +100,7 @@ Result<PluginDescription> describe_plugin(const std::string& path, const std::st
       plugin::PluginLibrary::load(std::filesystem::absolute(path).string());
   if (!library) return library.error();
   const Manifest& manifest = (*library)->manifest();
-  PluginDescription plugin{path, manifest.abi_version, manifest.build_id, {}};
+  PluginDescription plugin{path, manifest.abi_version, manifest.build_id, (*library)->build_id(), {}};
   for (const TypeEntry* entry : (*library)->types()) {
     if (!type.empty() && entry->type != type) continue;
     Result<Contract> contract = contract_of(*entry, path);
@@ -120,7 +120,7 @@ bool names_plugin_file(const std::string& word) {
 std::string text(const PluginDescription& plugin) {
   std::ostringstream out;
   out << plugin.file << ": plugin for ABI version " << plugin.abi_version << ", built with Orca "
-      << plugin.build_id << "\n\n";
+      << plugin.orca_version << (plugin.build_id.empty() ? "" : ", build id " + plugin.build_id) << "\n\n";
   for (const Contract& contract : plugin.types) write_contract(out, contract);
   return out.str();
 }

@@ -15,7 +15,8 @@ namespace orca::deployer {
 struct PluginDescription {
   std::string file;
   std::uint32_t abi_version = 0;
-  std::string build_id;  ///< Build id of the Orca that it was built with.
+  std::string orca_version;  ///< Version of the Orca that it was built with.
+  std::string build_id;      ///< Of the plugin, as the linker wrote it; empty: none.
   std::vector<Contract> types;
 };
 
@@ -30,7 +31,7 @@ struct PluginDescription {
 /// Returns the text that `--describe` prints: the types with their ports and parameters.
 [[nodiscard]] std::string text(const PluginDescription& plugin);
 /// Returns the same for programs:
-/// {file, abi_version, build_id, types: [{type, kind, ports, parameters, ...}]}.
+/// {file, abi_version, orca_version, build_id, types: [{type, kind, ports, parameters, ...}]}.
 [[nodiscard]] std::string json(const PluginDescription& plugin);
 
 }  // namespace orca::deployer

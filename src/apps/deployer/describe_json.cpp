@@ -76,6 +76,7 @@ std::string json(const PluginDescription& plugin) {
   json.begin_object();
   json.member("file", plugin.file);
   json.member("abi_version", plugin.abi_version);
+  json.member("orca_version", plugin.orca_version);
   json.member("build_id", plugin.build_id);
   json.key("types").begin_array();
   for (const Contract& contract : plugin.types) write(contract, json);

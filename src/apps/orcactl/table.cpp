@@ -30,9 +30,12 @@ std::string heading_of(const Cell& cell) {
   return heading;
 }
 
-// People know a plugin by its file's name; programs get the whole path.
+constexpr std::size_t kBuildDigits = 12;  // enough to tell builds apart
+
+// People know a plugin by its file's name and a build by its first digits; programs get the whole path and number.
 std::string shown(const Cell& cell) {
   const std::string text = printable(cell.value);
+  if (cell.name == "build_id") return text.substr(0, kBuildDigits);
   return cell.name == "plugin" ? text.substr(text.rfind('/') + 1) : text;
 }
 

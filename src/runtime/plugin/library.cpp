@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "inspection/code_identity.hpp"
 #include "inspection/load_error.hpp"
 #include "inspection/plugin_file.hpp"
 #include "inspection/plugin_threads.hpp"
@@ -69,6 +70,7 @@ void load_and_describe(const std::string& path, const std::function<void(const s
 struct Judgement {
   std::vector<std::string> virtual_time_faults;
   bool may_start_threads = false;
+  CodeIdentity identity;
 };
 
 Result<Judgement> judge(const std::string& path, const std::string& file, Trial trial) {
@@ -76,7 +78,7 @@ Result<Judgement> judge(const std::string& path, const std::string& file, Trial 
   if (!read) return fail(read.error().code, read.error().message, path);
   if (const auto faults = read->faults(known_type); !faults.empty())
     return refuse(path, joined(faults, "; it "));
-  const Judgement judged{read->virtual_time_faults(), read->may_start_threads()};
+  const Judgement judged{read->virtual_time_faults(), read->may_start_threads(), identity_of(read->elf())};
   if (trial == Trial::done) return judged;
   const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
   if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
@@ -99,12 +101,19 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   return judged;
 }
 
-// Keeps a plugin known for ever, because it stays in memory for ever.
-void keep_known(std::unique_ptr<LoadedPlugin> plugin) {
+// What is left of a plugin that stays in memory for ever.
+struct Remains {
+  std::unique_ptr<LoadedPlugin> entry;
+  std::optional<PluginImage> image;
+};
+
+// Keeps a plugin known for ever. The dynamic linker knows it by the name of its image, and would return it to whoever opens
+// another image of that name, so the image keeps its number for ever, too.
+void keep_known(Remains remains) {
   static std::mutex mutex;
-  static auto& kept = *new std::vector<std::unique_ptr<LoadedPlugin>>;
+  static auto& kept = *new std::vector<Remains>;
   const std::lock_guard lock(mutex);
-  kept.push_back(std::move(plugin));
+  kept.push_back(std::move(remains));
 }
 
 Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
@@ -129,7 +138,12 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   const std::string file = fs::absolute(path).string();
   Result<Judgement> judged = judge_once(path, file);
   if (!judged) return judged.error();
-  return open({file, file, file, std::move(judged).value()});
+  Result<std::unique_ptr<PluginLibrary>> library = open({file, file, file, std::move(judged).value()});
+  if (library || library.error().code != Code::already_exists) return library;
+  // The file was written anew, and what it held before is in memory for some reason.
+  Result<PluginImage> image = PluginImage::copy(file);
+  if (!image) return image.error();
+  return load(std::move(image).value());
 }
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image, Trial trial) {
@@ -148,6 +162,14 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source)
     throw_if_exhausted(errno);
     return cannot_load(source.path, source.file, dlerror());
   }
+  if (identity_in_memory(handle) != source.judged.identity) {
+    dlclose(handle);
+    return fail(
+        Code::already_exists,
+        "cannot be loaded: the dynamic linker returned another library, which is in memory under the same "
+        "name; start the process again",
+        source.path);
+  }
   return std::unique_ptr<PluginLibrary>(new PluginLibrary(source, handle));
 }
 
@@ -157,25 +179,32 @@ PluginLibrary::PluginLibrary(const Source& source, void* handle)
       handle_(handle),
       manifest_(manifest_of(handle)),
       entry_(std::make_unique<LoadedPlugin>(path_, manifest_)),
+      build_id_(source.judged.identity.build_id),
       virtual_time_faults_(source.judged.virtual_time_faults),
       may_start_threads_(source.judged.may_start_threads) {}
 
 PluginLibrary::~PluginLibrary() {
-  if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end())) {
-    keep_known(std::move(entry_));
-    tell_pinned(
-        "a thread runs in it, and would crash without it, so it stays in memory. A component must have ended "
-        "its threads when it is destroyed");
-    return;
-  }
+  const std::string why = unload();
+  if (why.empty()) return;
+  keep_known(
+      {entry_ ? std::move(entry_) : std::make_unique<LoadedPlugin>(path_, manifest_), std::move(image_)});
+  tell_pinned(why);
+}
+
+// Returns why the plugin stays in memory; empty if it does not, or if somebody else uses it, too.
+std::string PluginLibrary::unload() {
+  if (may_start_threads_ && threads_may_run_in(entry_->start(), entry_->end()))
+    return "a thread runs in it, and would crash without it, so it stays in memory. A component must have "
+           "ended its "
+           "threads when it is destroyed";
   entry_.reset();
   {
     const Activity activity(path_.c_str(), Hook::unload, nullptr);
     dlclose(handle_);
   }
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
-  if (!loaded_elsewhere && is_mapped(mapped_name_))
-    tell_pinned("it is still in memory after it was unloaded, and so are its variables");
+  if (loaded_elsewhere || !is_mapped(mapped_name_)) return {};
+  return "it is still in memory after it was unloaded, and so are its variables";
 }
 
 void PluginLibrary::tell_pinned(const std::string& why) const {

@@ -43,6 +43,16 @@ struct Copy {
   std::string path;
 };
 
+// Loads an image of a plugin, constructs its types and unloads it; returns the type's name, empty if it could not be loaded.
+std::string type_in_image_of(const std::string& path) {
+  Result<PluginImage> image = PluginImage::copy(path);
+  if (!image) return {};
+  const auto library = PluginLibrary::load(std::move(image).value());
+  if (!library) return {};
+  (void)contract_of(*(*library)->types().front(), path);
+  return (*library)->types().front()->type;
+}
+
 // Returns what a function says in a copy of this process: what stays in memory there is in no other test's way.
 template <class Question>
 bool holds_in_a_copy(const Question& question) {
@@ -118,6 +128,32 @@ TEST_CASE("a plugin whose thread still runs stays in memory instead of crashing 
   CHECK(holds_in_a_copy([&] {
     describe_all(path);
     return is_mapped(path);
+  }));
+}
+
+TEST_CASE("a plugin that stays in memory is not taken for another one that is loaded after it",
+          "[plugin][unload]") {
+  const std::string staying = GENERATE("test_thread_left", "test_stays");
+  CAPTURE(staying);
+  const std::string type = staying == "test_stays" ? "test.Stays" : "test.ThreadLeft";
+  CHECK(holds_in_a_copy([&] {
+    for (int round = 0; round < 3; ++round)
+      if (type_in_image_of(test_plugin(staying)) != type ||
+          type_in_image_of(test_plugin("test_statics")) != "test.Statics")
+        return false;
+    return true;
+  }));
+}
+
+TEST_CASE("a plugin that stays in memory is not taken for what its file holds later", "[plugin][unload]") {
+  const Copy copy("test_stays");
+  CHECK(holds_in_a_copy([&] {
+    if (!PluginLibrary::load(copy.path) || !is_mapped(copy.path)) return false;
+    std::filesystem::remove(copy.path);
+    std::filesystem::copy_file(test_plugin("test_statics"), copy.path);
+    const auto library = PluginLibrary::load(copy.path);
+    return library && std::string((*library)->types().front()->type) == "test.Statics" &&
+           (*library)->path() == copy.path;
   }));
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <tuple>
 
+#include "build_id.hpp"
+
 namespace orca::plugin {
 namespace {
 
@@ -154,6 +156,9 @@ Status ElfFile::read_segments() {
       return cut_short("its segment table", header->e_phoff + header->e_phnum * sizeof(Elf64_Phdr),
                        bytes_.size());
     if (segment->p_type == PT_DYNAMIC) dynamic = *segment;
+    if (segment->p_type == PT_NOTE && build_id_.empty())
+      if (const auto notes = at_offset(segment->p_offset, segment->p_filesz))
+        build_id_ = build_id_in(*notes, segment->p_align);
     if (segment->p_type != PT_LOAD) continue;
     if (!at_offset(segment->p_offset, segment->p_filesz))
       return cut_short("a segment", segment->p_offset + segment->p_filesz, bytes_.size());

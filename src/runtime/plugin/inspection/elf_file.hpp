@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -50,6 +51,8 @@ class ElfFile {
   [[nodiscard]] std::optional<Bytes> at_address(std::uint64_t address, std::size_t size) const;
   /// Returns the parts of the file that are loaded into memory; those alone that are run as machine code, or all.
   [[nodiscard]] std::vector<Bytes> loaded_parts(bool only_code) const;
+  /// Returns the build id that the linker wrote, in hexadecimal digits; empty if there is none.
+  [[nodiscard]] const std::string& build_id() const { return build_id_; }
   /// Returns a section by name; nothing if there is none, or no table of sections.
   [[nodiscard]] std::optional<Bytes> section(std::string_view name) const;
 
@@ -88,6 +91,7 @@ class ElfFile {
   std::vector<ElfSymbol> symbols_;
   std::vector<std::string_view> needed_;
   std::string_view search_path_;
+  std::string build_id_;
 };
 
 }  // namespace orca::plugin

@@ -48,7 +48,7 @@ void fields(auto& archive, SwapCode& m) {
 }
 
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }
-void fields(auto& archive, Built& m) { transfer(archive, m.robots); }
+void fields(auto& archive, Built& m) { transfer_all(archive, m.robots, m.builds); }
 void fields(auto& archive, StateChange& m) {
   transfer_all(archive, m.component, m.state, m.failure, m.has_worked, m.has_failed, m.ended_badly);
 }

@@ -53,6 +53,8 @@ class ControlDesk {
   void recall(const Standing& standing);
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code) { exchanging_.note(code); }
+  /// Notes what a process was built from.
+  void note(const Built& built, const std::string& process) { exchanging_.note(built, process); }
   /// Notes that a process has ended, or is about to be started.
   void lose(const Member& member) { applying_.lose(member.name()); }
   /// Notes that a process has ended and may begin anew: what it moves stands then, until an operator releases it.

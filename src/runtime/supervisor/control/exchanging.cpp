@@ -124,10 +124,16 @@ const PluginFacts& Exchanging::plugin_of(const std::string& type) const {
   return found == facts_.plugins.end() ? unknown : found->second;
 }
 
-CodeFacts Exchanging::code_of(const std::string& name, const std::string& type) const {
+CodeFacts Exchanging::code_of(const std::string& name, const std::string& type,
+                              const std::string& process) const {
   const auto exchanged = exchanged_.find(name);
   if (exchanged != exchanged_.end()) return exchanged->second;
-  return {type, plugin_of(type)};
+  CodeFacts code{type, plugin_of(type)};
+  // A process that was started again may have found another build in the file than the check of the graph.
+  if (const auto built = builds_.find(process); built != builds_.end())
+    if (const auto build = built->second.find(type); build != built->second.end())
+      code.plugin.build_id = build->second;
+  return code;
 }
 
 void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& reply) {
@@ -270,6 +276,10 @@ void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage 
 
 void Exchanging::note(const ExchangedCode& code) {
   exchanged_[code.component] = {code.type, {code.file, code.build_id}, code.swaps};
+}
+
+void Exchanging::note(const Built& built, const std::string& process) {
+  builds_[process] = {built.builds.begin(), built.builds.end()};
 }
 
 void Exchanging::came_up(const std::vector<Member*>& members) {

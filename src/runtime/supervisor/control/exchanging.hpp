@@ -70,10 +70,10 @@ class Exchanging {
   [[nodiscard]] std::set<std::string> plugin_files() const;
 
   [[nodiscard]] CodeFacts code_of(const graph::ComponentNode& component) const {
-    return code_of(component.name, component.type);
+    return code_of(component.name, component.type, component.process);
   }
   [[nodiscard]] CodeFacts code_of(const graph::HardwareNode& hardware) const {
-    return code_of(hardware.name, hardware.type);
+    return code_of(hardware.name, hardware.type, hardware.process);
   }
   /// Returns the plugin that the graph's search finds for a type.
   [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
@@ -84,6 +84,8 @@ class Exchanging {
   void forget(const std::string& component) { exchanged_.erase(component); }
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code);
+  /// Notes the code that a process was built from.
+  void note(const Built& built, const std::string& process);
   /// Notes that processes work again. They run the code that the graph names.
   void came_up(const std::vector<Member*>& members);
 
@@ -105,7 +107,8 @@ class Exchanging {
   void order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, Duration probation,
                   bool was_tried, const PendingPtr& pending) const;
   void begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware, const PendingPtr& pending);
-  [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type) const;
+  [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type,
+                                  const std::string& process) const;
   void forget_exchange(const std::string& name, const std::string& type);
 
   const graph::Graph& graph_;
@@ -118,7 +121,8 @@ class Exchanging {
   // share it.
   const std::shared_ptr<std::set<std::string>> busy_ = std::make_shared<std::set<std::string>>();
   std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
-  std::map<std::string, CodeFacts> exchanged_;  // by component or hardware
+  std::map<std::string, std::map<std::string, std::string>> builds_;  // build ids by process, then by type
+  std::map<std::string, CodeFacts> exchanged_;                        // by component or hardware
 };
 
 }  // namespace orca::supervisor

@@ -22,6 +22,7 @@
 #include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/run_page.hpp"
+#include "orca/supervisor/system_facts.hpp"
 #include "order_desk.hpp"
 #include "peers_process.hpp"
 #include "report_sender.hpp"
@@ -100,7 +101,7 @@ class Life {
     if (!build) return build.error();
     if (!build->has_value()) return ok();
     made = part_->build(std::move(memory));
-    if (made.ok()) reports_->send(Built{robots()});
+    if (made.ok()) reports_->send(Built{robots(), builds()});
     answer(made, **build);
     if (!made.ok()) return made;
     work();
@@ -197,6 +198,11 @@ class Life {
   [[nodiscard]] Pairs robots() const {
     const auto robots = part_->robots();
     return {robots.begin(), robots.end()};
+  }
+
+  [[nodiscard]] Pairs builds() {
+    const auto builds = builds_in(*whole_, node_.name, catalogue_);
+    return {builds.begin(), builds.end()};
   }
 
   // For a supervisor that has not started this process. The output is the desk's.

@@ -238,6 +238,7 @@ class SupervisedRun {
       return member.prompt(prompting->begins), ok();
     }
     if (const auto* standing = std::get_if<Standing>(&report)) control_.recall(*standing);
+    if (const auto* built = std::get_if<Built>(&report)) control_.note(*built, member.name());
     if (const auto* code = std::get_if<ExchangedCode>(&report)) return control_.note(*code), ok();
     if (const auto* kept = std::get_if<StateKept>(&report)) return starter_.keep(*kept), ok();
     if (const auto* wish = std::get_if<LogWished>(&report))

@@ -10,7 +10,7 @@ namespace {
 PluginFacts plugin_of(PluginKind kind, const std::string& type, host::PluginCatalogue& catalogue) {
   Result<host::LoadedType> loaded = catalogue.acquire(kind, type);
   if (!loaded) return {};
-  PluginFacts facts{loaded->file(), loaded->library ? loaded->library->manifest().build_id : ""};
+  PluginFacts facts{loaded->file(), loaded->library ? loaded->library->build_id() : ""};
   (void)catalogue.release(std::move(loaded).value());  // the catalogue itself keeps it
   return facts;
 }
@@ -31,6 +31,18 @@ SystemFacts facts_of(const graph::Graph& graph, host::PluginCatalogue& catalogue
       facts.contracts[node.name] = std::move(contract).value();
   }
   return facts;
+}
+
+std::map<std::string, std::string> builds_in(const graph::Graph& graph, const std::string& process,
+                                             host::PluginCatalogue& catalogue) {
+  std::map<std::string, std::string> builds;
+  for (const graph::HardwareNode& node : graph.hardware)
+    if (node.process == process)
+      builds[node.type] = plugin_of(PluginKind::hardware, node.type, catalogue).build_id;
+  for (const graph::ComponentNode& node : graph.components)
+    if (node.process == process && !node.on_demand)
+      builds[node.type] = plugin_of(PluginKind::component, node.type, catalogue).build_id;
+  return builds;
 }
 
 }  // namespace orca::supervisor

@@ -3,6 +3,7 @@
 // this test, and every library of this process, glibc included.
 #include "inspection/elf_file.hpp"
 
+#include <dlfcn.h>
 #include <link.h>
 
 #include <map>
@@ -11,6 +12,7 @@
 
 #include "../places.hpp"
 #include "elf_image.hpp"
+#include "inspection/code_identity.hpp"
 #include "readelf.hpp"
 
 using namespace orca;
@@ -82,6 +84,44 @@ TEST_CASE("a library's needs and search path are those that readelf lists", "[pl
     CHECK(std::vector<std::string>(file.needed().begin(), file.needed().end()) == expected.needed);
     CHECK(file.search_path() == expected.search_path);
   }
+}
+
+TEST_CASE("a library's build id is the one that readelf shows, in its file as in memory", "[plugin][elf]") {
+  std::size_t with_one = 0;
+  for (const std::string& path : all_libraries()) {
+    CAPTURE(path);
+    const ElfFile file = ElfImage(path).parsed();
+    CHECK(file.build_id() == readelf(path).build_id);
+    with_one += file.build_id().empty() ? 0 : 1;
+  }
+  CHECK(with_one > 40);
+  for (const std::string& path : libraries_of_this_process()) {
+    CAPTURE(path);
+    void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_NOLOAD);
+    REQUIRE(handle != nullptr);
+    CHECK(identity_in_memory(handle) == identity_of(ElfImage(path).parsed()));
+    dlclose(handle);
+  }
+}
+
+TEST_CASE("a library without a build id is known by its machine code", "[plugin][elf]") {
+  const CodeIdentity gnu = identity_of(ElfImage(sample("sample_gnu")).parsed());
+  const CodeIdentity bare = identity_of(ElfImage(sample("sample_bare")).parsed());
+  CHECK(gnu.build_id.empty());
+  CHECK(bare.build_id.empty());
+  CHECK(gnu != bare);
+  const std::string path = sample("sample_gnu");
+  void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(handle != nullptr);
+  CHECK(identity_in_memory(handle) == gnu);
+  dlclose(handle);
+}
+
+TEST_CASE("every shipped plugin has a build id, and no two have the same", "[plugin][elf]") {
+  std::set<std::string> ids;
+  for (const std::string& path : plugins_in(kShipped)) ids.insert(ElfImage(path).parsed().build_id());
+  CHECK(ids.size() == plugins_in(kShipped).size());
+  CHECK_FALSE(ids.contains(""));
 }
 
 TEST_CASE("a library's sections are those that readelf lists, except those without bytes", "[plugin][elf]") {

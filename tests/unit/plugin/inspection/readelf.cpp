@@ -74,6 +74,12 @@ Readelf::Symbol symbol_of(const std::vector<std::string>& words,
   return symbol;
 }
 
+// "... Build ID: DIGITS"
+void take_build_id(const std::vector<std::string>& words, std::string& build_id) {
+  for (std::size_t i = 0; i + 2 < words.size(); ++i)
+    if (words[i] == "Build" && words[i + 1] == "ID:") build_id = words[i + 2];
+}
+
 // "[NUMBER] NAME TYPE ADDRESS OFFSET SIZE ..."
 void add_section(std::string line, std::map<std::string, Readelf::Section>& sections) {
   std::istringstream words(line.substr(line.find(']') + 1));
@@ -93,6 +99,8 @@ Readelf::Readelf(const std::string& path) {
     if (words[1] == "(NEEDED)") needed.push_back(between_brackets(line));
     if (words[1] == "(RUNPATH)" || words[1] == "(RPATH)") search_path = between_brackets(line);
   });
+  for_each_line(output_of(command("--notes")),
+                [&](const std::string& /*line*/, const auto& words) { take_build_id(words, build_id); });
   const auto libraries = libraries_of_versions(command("--version-info"));
   for_each_line(output_of(command("--dyn-syms")), [&](const std::string& /*line*/, auto words) {
     std::erase_if(words, is_remark);

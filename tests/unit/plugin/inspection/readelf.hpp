@@ -31,6 +31,7 @@ struct Readelf {
   std::vector<Symbol> symbols;
   std::vector<std::string> needed;
   std::string search_path;
+  std::string build_id;                     ///< Empty: none.
   std::map<std::string, Section> sections;  ///< By name; the first of each.
   std::vector<std::tuple<std::uint64_t, std::uint64_t, std::uint64_t>>
       segments;  ///< Offset, address, size in the file.

@@ -33,7 +33,7 @@ const Standing& standing_of(const std::vector<Report>& reports) {
 
 TEST_CASE("the next supervisor hears the last state of everything", "[supervisor][adoption]") {
   Recollection all("base");
-  CHECK(all.note_state(Built{{{"scout", "Dewey"}}}));
+  CHECK(all.note_state(Built{{{"scout", "Dewey"}}, {{"orca.Goto", "b1"}}}));
   CHECK(all.note_state(StateChange{"goto", 3, "", true, false, false}));
   CHECK(all.note_state(StateChange{"goto", 4, "no way", true, true, false}));
   CHECK(all.note_state(RestChange{false}));
@@ -41,6 +41,7 @@ TEST_CASE("the next supervisor hears the last state of everything", "[supervisor
   const std::vector<Report> reports = all.reports();
   REQUIRE(reports.size() == 4);
   CHECK(std::get<Built>(reports[0]).robots == Pairs{{"scout", "Dewey"}});
+  CHECK(std::get<Built>(reports[0]).builds == Pairs{{"orca.Goto", "b1"}});
   CHECK(std::get<StateChange>(reports[1]).failure == "no way");
   CHECK_FALSE(std::get<RestChange>(reports[2]).at_rest);
   CHECK(standing_of(reports).alarms.empty());

@@ -65,7 +65,7 @@ Result<std::unique_ptr<HardwareInstance>> DriverSwap::make_driver() {
   Result<LoadedType> type =
       site_.catalogue.acquire(std::move(order_.plugin), PluginKind::hardware, report_.new_type, order_.trial);
   if (!type) return type.error();
-  report_.build_id = type->library->manifest().build_id;
+  report_.build_id = type->library->build_id();
   auto described = plugin::describe_hardware(*type->entry, type->file(), order_.component);
   if (!described) return described.error();
   const Result<ParamValues> values =

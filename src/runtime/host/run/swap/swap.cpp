@@ -57,7 +57,7 @@ Status Swap::acquire(LoadedType& type, Contract& contract) {
                                                          report_.new_type, order_.trial);
   if (!acquired) return acquired.error();
   type = std::move(acquired).value();
-  report_.build_id = type.library->manifest().build_id;
+  report_.build_id = type.library->build_id();
   Result<Contract> described = plugin::describe_component(*type.entry, type.file(), nullptr);
   if (!described) return described.error();
   contract = std::move(described).value();

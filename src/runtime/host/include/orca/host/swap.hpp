@@ -29,7 +29,7 @@ struct SwapOrder {
 struct SwapReport {
   std::string old_type;
   std::string new_type;
-  std::string build_id;  ///< Of the new plugin.
+  std::string build_id;  ///< PluginLibrary::build_id() of the new code.
   Duration pause{
       0};  ///< While neither object could work, of a component between two laps [s of the run's clock].
   std::string state;  ///< Tag of the state that the new object took over; empty: it began afresh.

@@ -50,6 +50,9 @@ class PluginLibrary {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Returns the name of its file in a process's memory map.
   [[nodiscard]] const std::string& mapped_name() const { return mapped_name_; }
+  /// Returns the build id that the linker wrote into it, in hexadecimal digits; empty if there is none. It tells this build
+  /// of the code from any other.
+  [[nodiscard]] const std::string& build_id() const { return build_id_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;
   /// Returns what it uses that must not be used in virtual time, each with its replacement.
@@ -63,6 +66,7 @@ class PluginLibrary {
   struct Source;
   PluginLibrary(const Source& source, void* handle);
   static Result<std::unique_ptr<PluginLibrary>> open(const Source& source);
+  std::string unload();
   void tell_pinned(const std::string& why) const;
 
   std::optional<PluginImage> image_;  // its number is the name by which the dynamic linker knows it
@@ -71,6 +75,7 @@ class PluginLibrary {
   void* handle_;
   const Manifest* manifest_;
   std::unique_ptr<LoadedPlugin> entry_;
+  std::string build_id_;
   std::vector<std::string> virtual_time_faults_;
   std::function<void(const std::string&)> on_pinned_;
   bool may_start_threads_ = false;

@@ -252,10 +252,12 @@ struct Answer {
   Status outcome;
   std::vector<Record> records{};  ///< What was asked for, if anything.
 };
-/// The robots of the process, before anything moves.
+/// What the process is made of, before anything moves.
 struct Built {
   static constexpr Kind kKind = Kind::built;
   Pairs robots;  ///< Hardware and the name of its robot.
+  Pairs
+      builds{};  ///< Type, and PluginLibrary::build_id() of its code here; without what is loaded on demand.
 };
 /// What has become of a component, whenever it changes.
 struct StateChange {
@@ -360,7 +362,7 @@ struct ExchangedCode {
   std::string component;
   std::string type;
   std::string file;         ///< The plugin's, when it was copied.
-  std::string build_id;     ///< Of the Orca that it was built with.
+  std::string build_id;     ///< PluginLibrary::build_id() of what is in memory.
   std::uint64_t swaps = 0;  ///< How often the component's code was exchanged in this process.
 };
 /// What an earlier supervisor has ordered and kept, for the one that adopts the process.

@@ -19,7 +19,7 @@ namespace orca::supervisor {
 /// The plugin of a type of component or hardware.
 struct PluginFacts {
   std::string file;
-  std::string build_id;  ///< Of the Orca that it was built with.
+  std::string build_id;  ///< PluginLibrary::build_id().
 };
 
 /// What an operator may ask about a system and the graph does not tell, from its plugins.
@@ -49,5 +49,11 @@ using SystemReader = std::function<Result<CheckedSystem>(const GraphSource& sour
 /// Returns the facts of a system.
 /// @param catalogue  the one that has checked the graph.
 [[nodiscard]] SystemFacts facts_of(const graph::Graph& graph, host::PluginCatalogue& catalogue);
+
+/// Returns the build ids of the code that a process runs, by type; without what it loads on demand.
+/// @param catalogue  the one that the process was built from.
+[[nodiscard]] std::map<std::string, std::string> builds_in(const graph::Graph& graph,
+                                                           const std::string& process,
+                                                           host::PluginCatalogue& catalogue);
 
 }  // namespace orca::supervisor
