@@ -71,30 +71,6 @@ TEST_CASE("after the probation the old code is no longer in memory, and after ma
   });
 }
 
-TEST_CASE(
-    "after code that cannot leave memory other code is exchanged as ever, and it is that code which runs",
-    "[host][swap]") {
-  LiveSystem live(kPair);
-  live.run(virtual_executives().front(), [](LiveSystem& run) {
-    std::set<std::string> builds;
-    for (int i = 0; i < 3; ++i)
-      for (const std::string version : {"9", "2"}) {
-        CAPTURE(i, version);
-        const Result<SwapReport> done =
-            swap(run, next_teller(version == "9" ? "test_teller_stays" : "test_teller_2"));
-        INFO((done ? "" : done.error().text()));
-        REQUIRE(done);
-        builds.insert(done->build_id);
-        (void)run.news();
-        run.sleep(100ms);
-        const Words heard = beginning(run.news(), "heard ");
-        REQUIRE_FALSE(heard.empty());
-        CHECK(heard.back().starts_with("heard " + version + ":"));
-      }
-    CHECK(builds.size() == 2);
-  });
-}
-
 TEST_CASE("a newer version reads the state of an older one that it accepts, and not the other way round",
           "[host][swap]") {
   LiveSystem live(kPair);

@@ -77,7 +77,7 @@ class Component : public PortOwner {
   /// most every 0.1 s, for the object that begins if the process is lost.
   virtual void save_state(StateWriter& /*state*/) const {}
 
-  /// Takes over what the predecessor has written, in the same order. Called once, after configure() and, if the component
+  /// Takes over what the predecessor has written, if anything, in the same order. Called once, after configure() and, if the component
   /// works, after start(). All that was written must be read. An error leaves the predecessor in its place; if there is none any more,
   /// because the process was lost, the component fails.
   virtual Status load_state(StateReader& /*state*/) { return ok(); }

@@ -21,6 +21,8 @@ Result<KeptState> StateHooks::save() {
 }
 
 Result<bool> StateHooks::load(const KeptState& state) {
+  if (state.bytes.empty())
+    return false;  // whoever had it kept nothing, as a component without save_state() does
   const StateTag& tag = state.tag;
   if (!accepts(tag)) {
     if (tag.type != residency_.type_name()) return false;

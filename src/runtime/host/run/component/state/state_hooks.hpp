@@ -36,7 +36,8 @@ class StateHooks {
 
   /// Returns what the object saves. @pre  it is loaded.
   Result<KeptState> save();
-  /// Gives the object a state. That of another type which the object does not accept is left unread.
+  /// Gives the object a state. An empty one is left unread, because there is nothing to go on from; so is that of another
+  /// type which the object does not accept.
   /// @return whether the object has it now. @pre  it is loaded.
   /// @errors  failed_precondition, and the object is untouched, if it is a version of its own type that it does not accept.
   Result<bool> load(const KeptState& state);
