@@ -13,8 +13,8 @@
 
 namespace orca::supervisor {
 
-/// Notices that files were written or exchanged. A file counts as changed when it has stayed as it is for a while, since
-/// whoever writes it may not be done before.
+/// Notices that files were written or exchanged. A file counts as changed when it has stayed as it is for a while and nobody
+/// has it open to write it, since whoever writes it may not be done before.
 ///
 /// Thread contract: one thread.
 class CodeWatch {
@@ -33,7 +33,8 @@ class CodeWatch {
   };
 
   static std::optional<Identity> identity_of(const std::string& file);
-  static bool has_changed(File& file, const std::optional<Identity>& identity, Moment now);
+  static bool has_changed(const std::string& name, File& file, const std::optional<Identity>& identity,
+                          Moment now);
 
   std::map<std::string, File> files_;
 };
