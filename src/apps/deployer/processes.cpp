@@ -94,12 +94,8 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const supe
     system.files.insert(included);
     return xml::read_bytes(included);
   };
-  graph::LoadOptions wishes;
-  wishes.strict = options.strict;
-  if (!source.text) {  // otherwise it has them already
-    wishes.profiles = options.profiles;
-    wishes.settings = options.settings;
-  }
+  graph::LoadOptions wishes{options.profiles, options.settings, options.strict};
+  wishes.of_run = true;
   std::optional<graph::Graph> graph =
       graph::load_text(*text, source.file, wishes, catalogue, diagnostics, read);
   if (!graph) return fail(Code::invalid_argument, without_last_newline(diagnostics.text()));

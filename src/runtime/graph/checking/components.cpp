@@ -218,6 +218,7 @@ class ComponentReader {
       ReadParams params = read_params(node_, *checked_.contract, report_);
       checked_.sound = params.sound();
       if (params.sound()) checked_.value.params = std::move(params.values);
+      checked_.value.here = std::move(params.here);
     }
     checked_.value.properties = read_properties(node_, report_);
   }

@@ -45,6 +45,7 @@ CheckedHardware check_one(const Node& node, Types& types, Report& report) {
   if (!contract) return checked;
   ReadParams params = read_params(node, *contract, report);
   checked.value.params = std::move(params.values);
+  checked.value.here = std::move(params.here);
   const std::vector<HardwareFault> faults = types.catalogue().validate_hardware(use_of(checked));
   for (const HardwareFault& fault : faults)
     if (!follows_from(params.unread, fault)) report_fault(node, fault, report);

@@ -119,9 +119,18 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   return graph;
 }
 
-std::optional<Graph> load(const std::optional<xml::Document>& document, const LoadOptions& options,
+bool is_expanded(const xml::Document& document) {
+  const xml::Attribute* const expanded = document.root.attribute("expanded");
+  return expanded != nullptr && expanded->value == "true";
+}
+
+std::optional<Graph> load(const std::optional<xml::Document>& document, LoadOptions options,
                           Catalogue& catalogue, xml::Diagnostics& diagnostics, const FileReader& read) {
   if (!document) return std::nullopt;
+  if (options.of_run && is_expanded(*document)) {
+    options.profiles.clear();
+    options.settings.clear();
+  }
   Report report(diagnostics, options.strict);
   const auto assembly = assemble(*document, options, read, report, diagnostics);
   if (!assembly) return std::nullopt;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "parameters.hpp"
 
+#include <algorithm>
+#include <variant>
+#include <vector>
+
 #include "codes.hpp"
 #include "orca/base/text.hpp"
 #include "values.hpp"
@@ -17,12 +21,22 @@ void report_unknown(const Node& node, const Node& param, const Contract& contrac
                    " has: " + listed(names) + report.hint(name, names));
 }
 
+bool names_file_here(const ParamContract& declared) {
+  const auto is_relative = [](const std::string& path) { return !path.empty() && path.front() != '/'; };
+  if (!declared.file) return false;
+  if (const auto* const one = std::get_if<std::string>(&declared.default_value)) return is_relative(*one);
+  const auto* const list = std::get_if<std::vector<std::string>>(&declared.default_value);
+  return list != nullptr && std::ranges::any_of(*list, is_relative);
+}
+
 class ParamReader {
  public:
   ParamReader(const Node& node, const Contract& contract, Report& report)
       : node_(node), contract_(contract), report_(report) {
-    for (const ParamContract& declared : contract.params)
+    for (const ParamContract& declared : contract.params) {
       result_.values[declared.name] = declared.default_value;
+      if (names_file_here(declared)) result_.here[declared.name] = declared.default_value;
+    }
   }
 
   ReadParams read() {

@@ -13,6 +13,7 @@ namespace orca::graph {
 
 // All parameters of a hardware or component node.
 struct ReadParams {
+  Params here;                   // defaults that are files of the current folder
   Params values;                 // those that the node sets, and defaults for the rest
   std::set<std::string> unread;  // parameters that have their default because an error is reported instead
 

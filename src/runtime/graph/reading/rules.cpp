@@ -65,7 +65,12 @@ constexpr std::array kGraph{
                   seconds(0.1)},
     AttributeRule{"machine_wait", false,
                   "Longest time that a machine waits for the others at the start; 60 s if not given.",
-                  seconds(0.1)}};
+                  seconds(0.1)},
+    AttributeRule{
+        "expanded", false,
+        "Whether the profiles and settings of a command line are merged into it already, as where Orca has "
+        "printed it; then diff and apply do not merge them again.",
+        kBoolean}};
 constexpr std::array kMachine{
     AttributeRule{"name", true, "Name of the machine in this system."},
     AttributeRule{"address", false, "Its IP address or host name; found by itself if not given."},

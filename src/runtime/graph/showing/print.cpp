@@ -24,9 +24,13 @@ std::string named_value(const char* element, const std::string& name, const std:
   return std::string("    <") + element + attribute("name", name) + attribute("value", value) + "/>\n";
 }
 
-std::string params_text(const Params& params) {
+std::string params_text(const Params& params, const Params& here) {
   std::string result;
-  for (const auto& [name, value] : params) result += named_value("param", name, value_text(value));
+  for (const auto& [name, value] : params) {
+    const auto unwritten = here.find(name);
+    if (unwritten == here.end() || unwritten->second != value)
+      result += named_value("param", name, value_text(value));
+  }
   return result;
 }
 
@@ -42,7 +46,7 @@ std::string plain_text(const char* name, const Node& node) {
 }
 
 std::string component_text(const ComponentNode& node) {
-  std::string content = params_text(node.params);
+  std::string content = params_text(node.params, node.here);
   for (const auto& [name, value] : node.properties)
     content += named_value("property", name, property_text(value));
   for (const auto& [name, setting] : node.ports)
@@ -58,8 +62,8 @@ std::string edge_text(const Edge& edge) {
 }  // namespace
 
 std::string print(const Graph& graph) {
-  const std::string attributes =
-      attribute("name", graph.name) + attribute("version", "1") + text_of(attributes_of(graph));
+  const std::string attributes = attribute("name", graph.name) + attribute("version", "1") +
+                                 attribute("expanded", "true") + text_of(attributes_of(graph));
   std::string result = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graph" + attributes + ">\n";
   // The profile's content is merged into the graph. Its name stays, so that reading the file back
   // gives the same value.
@@ -69,7 +73,7 @@ std::string print(const Graph& graph) {
   for (const ProcessNode& node : graph.processes) result += plain_text("process", node);
   for (const HardwareNode& node : graph.hardware) {
     result += element("hardware", attribute("name", node.name) + text_of(attributes_of(node)),
-                      params_text(node.params));
+                      params_text(node.params, node.here));
   }
   for (const ComponentNode& node : graph.components) result += component_text(node);
   for (const GroupNode& node : graph.groups) result += plain_text("group", node);

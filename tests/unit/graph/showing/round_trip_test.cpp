@@ -167,7 +167,7 @@ TEST_CASE("a printed graph has its profile merged and its arguments replaced", "
       "<profile name='sim'><component name='loc' type='orca.Localizer' period='50 ms'/></profile></graph>");
   CHECK(print(graph) ==
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<graph name=\"g\" version=\"1\" default_profile=\"sim\">\n"
+        "<graph name=\"g\" version=\"1\" expanded=\"true\" default_profile=\"sim\">\n"
         "  <profile name=\"sim\"/>\n"
         "  <component name=\"avoid\" type=\"orca.Label\">\n"
         "    <param name=\"label\" value=\"190 mm\"/>\n"

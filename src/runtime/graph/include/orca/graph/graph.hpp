@@ -25,6 +25,7 @@ struct HardwareNode {
   std::string process = kMainProcess;  ///< Of all components that are bound to it.
   Params params;
   xml::Position position;  ///< Place of its element; not compared.
+  Params here{};           ///< As of a component.
 
   friend bool operator==(const HardwareNode& a, const HardwareNode& b);
 };
@@ -67,6 +68,9 @@ struct ComponentNode {
   Properties properties;                     ///< Those that the graph declares.
   std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.
   xml::Position position;                    ///< Place of its element; not compared.
+  /// Defaults that are files of the folder in which the program was started; not compared. print() leaves out parameters that
+  /// have them still, because a relative path in a graph starts at the graph's file.
+  Params here{};
 
   friend bool operator==(const ComponentNode& a, const ComponentNode& b);
 };

@@ -31,6 +31,8 @@ struct LoadOptions {
   /// A link within a process that needs two is no error, because nothing needs it: the run is in virtual time and so in
   /// one process, or nothing is run.
   bool any_link = false;
+  /// Profiles and settings are those of a run that goes on; a graph that says expanded="true" has them already.
+  bool of_run = false;
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.
