@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "build_id.hpp"
+#include "elf_extent.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -51,6 +52,10 @@ struct ElfFile::Dynamic {
   std::uint64_t versions = 0, version_needs = 0, version_need_count = 0;
   std::uint64_t run_path = 0, r_path = 0, flags = 0;
   std::vector<std::uint64_t> needed;
+  struct Table {
+    std::uint64_t address = 0, size = 0;
+  };
+  std::array<Table, 2> relocations;  // of variables, and of functions
 
   void take(const Elf64_Dyn& entry) {
     const std::uint64_t value = entry.d_un.d_val;
@@ -67,6 +72,17 @@ struct ElfFile::Dynamic {
       case DT_RPATH: r_path = value; break;
       case DT_FLAGS_1: flags = value; break;
       case DT_NEEDED: needed.push_back(value); break;
+      default: take_relocations(entry);
+    }
+  }
+
+  void take_relocations(const Elf64_Dyn& entry) {
+    const std::uint64_t value = entry.d_un.d_val;
+    switch (entry.d_tag) {
+      case DT_RELA: relocations[0].address = value; break;
+      case DT_RELASZ: relocations[0].size = value; break;
+      case DT_JMPREL: relocations[1].address = value; break;
+      case DT_PLTRELSZ: relocations[1].size = value; break;
       default: break;
     }
   }
@@ -150,11 +166,13 @@ Status ElfFile::read_header() {
 Status ElfFile::read_segments() {
   const auto header = get<Elf64_Ehdr>(0);
   std::optional<Elf64_Phdr> dynamic;
+  std::vector<Elf64_Phdr> all;
   for (std::uint64_t i = 0; i < header->e_phnum; ++i) {
     const auto segment = get<Elf64_Phdr>(header->e_phoff + i * sizeof(Elf64_Phdr));
     if (!segment)
       return cut_short("its segment table", header->e_phoff + header->e_phnum * sizeof(Elf64_Phdr),
                        bytes_.size());
+    all.push_back(*segment);
     if (segment->p_type == PT_DYNAMIC) dynamic = *segment;
     if (segment->p_type == PT_NOTE && build_id_.empty())
       if (const auto notes = at_offset(segment->p_offset, segment->p_filesz))
@@ -166,10 +184,12 @@ Status ElfFile::read_segments() {
         {segment->p_vaddr, segment->p_offset, segment->p_filesz, (segment->p_flags & PF_X) != 0});
   }
   if (!dynamic) return refuse("is no shared library: it has no dynamic section");
-  return read_dynamic(dynamic->p_offset, dynamic->p_filesz);
+  if (const auto fault = segment_fault(all))
+    return refuse("is damaged: " + *fault + "; build or copy it again");
+  return read_dynamic(dynamic->p_offset, dynamic->p_filesz, all);
 }
 
-Status ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size) {
+Status ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size, std::span<const Elf64_Phdr> segments) {
   Dynamic dynamic;
   if (!at_offset(offset, size)) return cut_short("its dynamic section", offset + size, bytes_.size());
   for (std::uint64_t at = 0; at + sizeof(Elf64_Dyn) <= size; at += sizeof(Elf64_Dyn)) {
@@ -177,6 +197,8 @@ Status ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size) {
     if (!entry || entry->d_tag == DT_NULL) break;
     dynamic.take(*entry);
   }
+  for (const auto& [table, bytes] : dynamic.relocations)
+    if (Status checked = check_relocations(table, bytes, segments); !checked.ok()) return checked;
   if ((dynamic.flags & DF_1_PIE) != 0) return refuse("is no shared library, but a program");
   const auto strings = at_address(dynamic.strings, dynamic.strings_size);
   if (!strings) return refuse("is damaged: its table of names is not in the file");
@@ -184,6 +206,19 @@ Status ElfFile::read_dynamic(std::uint64_t offset, std::uint64_t size) {
   for (const std::uint64_t name : dynamic.needed) needed_.push_back(text(strings_, name));
   search_path_ = text(strings_, dynamic.run_path != 0 ? dynamic.run_path : dynamic.r_path);
   return read_symbols(dynamic);
+}
+
+// The dynamic linker writes to each of these places before any code runs.
+Status ElfFile::check_relocations(std::uint64_t table, std::uint64_t size,
+                                  std::span<const Elf64_Phdr> segments) const {
+  for (std::uint64_t at = 0; at + sizeof(Elf64_Rela) <= size; at += sizeof(Elf64_Rela)) {
+    const auto entry = get_at<Elf64_Rela>(table + at);
+    if (!entry) return refuse("is damaged: its table of relocations is not completely in the file");
+    if (!is_writable(segments, entry->r_offset, sizeof(Elf64_Addr)))
+      return refuse("is damaged: a relocation at address " + std::to_string(entry->r_offset) +
+                    " lies outside of its variables; build or copy it again");
+  }
+  return ok();
 }
 
 Status ElfFile::read_symbols(const Dynamic& dynamic) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <elf.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -70,7 +72,9 @@ class ElfFile {
 
   Status read_header();
   Status read_segments();
-  Status read_dynamic(std::uint64_t offset, std::uint64_t size);
+  Status read_dynamic(std::uint64_t offset, std::uint64_t size, std::span<const Elf64_Phdr> segments);
+  Status check_relocations(std::uint64_t table, std::uint64_t size,
+                           std::span<const Elf64_Phdr> segments) const;
   Status read_symbols(const Dynamic& dynamic);
   [[nodiscard]] Versions read_versions(const Dynamic& dynamic) const;
   [[nodiscard]] std::size_t symbol_count(const Dynamic& dynamic) const;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "../places.hpp"
+#include "elf_image.hpp"
 #include "inspection/plugin_file.hpp"
 
 using namespace orca;
@@ -57,6 +58,39 @@ TEST_CASE("a plugin that is cut short says so", "[plugin][damage]") {
   const auto file = PluginFile::parse(std::move(bytes));
   REQUIRE_FALSE(file);
   CHECK_THAT(file.error().text(), Contains("cut short") && Contains("bytes"));
+}
+
+TEST_CASE(
+    "a damaged number that would make the dynamic linker map, protect or write the memory of others is "
+    "refused",
+    "[plugin][damage]") {
+  const ElfImage good(test_plugin("test_small"));
+  (void)good.parsed();
+  const auto damaged = [&good](const auto& damage) {
+    ElfImage image = good;
+    damage(image);
+    return image.refusal();
+  };
+  const std::uint64_t page = 4096;
+  for (const std::uint64_t more : {64 * page, std::uint64_t{1} << 30, std::uint64_t{1} << 62})
+    CHECK_THAT(damaged([&](ElfImage& image) { image.segment(PT_GNU_RELRO).p_memsz += more; }),
+               Contains("is damaged: what becomes read-only once it is loaded does not lie in"));
+  CHECK_THAT(damaged([](ElfImage& image) { image.segment(PT_GNU_RELRO).p_vaddr = 0; }),
+             Contains("read-only"));
+  CHECK_THAT(damaged([](ElfImage& image) { image.segment(PT_DYNAMIC).p_vaddr += 16; }),
+             Contains("its dynamic section"));
+  CHECK_THAT(damaged([](ElfImage& image) { image.segment(PT_GNU_EH_FRAME).p_vaddr += 64; }),
+             Contains("its table of exceptions"));
+  CHECK_THAT(damaged([&](ElfImage& image) { image.segment(PT_LOAD).p_memsz += 64 * page; }),
+             Contains("lies before the end of another one"));
+  CHECK_THAT(damaged([&](ElfImage& image) { image.last_loaded().p_memsz = std::uint64_t{1} << 40; }),
+             Contains("larger than any library"));
+  CHECK_THAT(damaged([&](ElfImage& image) { image.last_loaded().p_vaddr += 8; }),
+             Contains("elsewhere in a page"));
+  CHECK_THAT(damaged([&](ElfImage& image) {
+               image.at<Elf64_Rela>(image.dynamic(DT_RELA).d_un.d_val).r_offset += std::uint64_t{1} << 24;
+             }),
+             Contains("a relocation at address"));
 }
 
 TEST_CASE("any bit flipped gives an error or a description, never a crash", "[plugin][damage]") {

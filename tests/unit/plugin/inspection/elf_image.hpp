@@ -37,6 +37,12 @@ class ElfImage {
       if (segment.p_type == type) return segment;
     throw std::runtime_error("no such segment");
   }
+  Elf64_Phdr& last_loaded() {
+    Elf64_Phdr* last = &segment(PT_LOAD);
+    for (Elf64_Phdr& segment : segments())
+      if (segment.p_type == PT_LOAD) last = &segment;
+    return *last;
+  }
   std::span<Elf64_Dyn> dynamic() {
     const Elf64_Phdr& place = segment(PT_DYNAMIC);
     return {&at<Elf64_Dyn>(place.p_offset), place.p_filesz / sizeof(Elf64_Dyn)};

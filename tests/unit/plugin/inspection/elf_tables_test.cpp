@@ -112,8 +112,8 @@ TEST_CASE("a segment table that reaches beyond the file is cut short", "[plugin]
 
 TEST_CASE("a loaded segment may reach to the end of the file, and no further", "[plugin][elf]") {
   ElfImage image = gnu();
-  Elf64_Phdr& segment = image.segment(PT_LOAD);
-  segment.p_filesz = image.size() - segment.p_offset;
+  Elf64_Phdr& segment = image.last_loaded();
+  segment.p_filesz = segment.p_memsz = image.size() - segment.p_offset;
   CHECK(image.refusal() == "it is accepted");
   ++segment.p_filesz;
   CHECK(image.refusal() == cut_short("a segment", image.size() + 1, image.size()));
