@@ -158,6 +158,22 @@ TEST_CASE("all faults of a graph are reported at once, in the order of the file"
   }
 }
 
+TEST_CASE(
+    "what is wrong with the graphs that a run goes over to is said together with what is wrong with the "
+    "first one",
+    "[system][bad]") {
+  const TempFolder folder;
+  (void)folder.write("later.xml", R"(<graph name="g"><component name="b" type="orca.Gotto"/></graph>)");
+  const std::string file =
+      folder.write("graph.xml", R"(<graph name="g"><component name="a" type="orca.Comand"/>
+    <change at="-1 s" graph="nowhere.xml"/><change at="2 s" graph="later.xml"/></graph>)");
+  const Run run = run_deployer({file, "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  for (const char* const part : {"orca.Comand", "\"-1 s\" is out of range", "nowhere.xml", "orca.Gotto"})
+    CHECK(run.says(part));
+}
+
 TEST_CASE("a file that is not a graph is refused, and the error says what it is", "[system][bad]") {
   const TempFolder folder;
   const std::string good = scout_graph();

@@ -209,6 +209,27 @@ TEST_CASE("everything that is wrong with an experiment and its graphs is said be
   CHECK(run_simbatch({folder.file("none.xml")}).exit_code() == 2);
 }
 
+TEST_CASE("an experiment without a world, or with a setting without a value, is checked as far as it goes",
+          "[system][batch]") {
+  const TempFolder folder;
+  const std::string head = R"(<experiment name="e" seeds="1" until="1 s" graph=")" +
+                           source_file("graphs/pioneer_laser_goto.xml") + R"(">)";
+  const std::string wrong = R"(<variant name="b"><set arg="avoit" value="x"/></variant>)";
+  const Run no_world = run_simbatch({folder.write("e.xml", head + wrong + "</experiment>"), "--check"});
+  INFO(no_world.err);
+  CHECK(no_world.exit_code() == 2);
+  CHECK(no_world.says("E004"));
+  CHECK(no_world.says("avoit"));
+  const Run no_value =
+      run_simbatch({folder.write("e.xml", head + R"(<variant name="a"><set arg="avoid"/></variant>)" + wrong +
+                                              R"(<world name="w"/></experiment>)"),
+                    "--check"});
+  INFO(no_value.err);
+  CHECK(no_value.exit_code() == 2);
+  CHECK(no_value.says("E009"));
+  CHECK(no_value.says("avoit"));
+}
+
 TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
   for (const auto& [name, size] : {std::pair{"avoid_office", "5 variants, 3 worlds, 20 seeds: 300 runs"},
                                    std::pair{"dead_ends", "6 variants, 40 worlds, 1 seed: 240 runs"},
@@ -228,6 +249,7 @@ TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
   CHECK(unknown.says("there is no option \"--job\"; there are "));
   CHECK(run_simbatch({"e.xml", "--jobs", "0"}).says("--jobs takes a number from 1 to 1024"));
   CHECK(run_simbatch({"e.xml", "--jobs"}).says("--jobs needs a value after it"));
+  CHECK(run_simbatch({"e.xml", "--out", ""}).says("--out takes the name of a folder, found none"));
   CHECK(run_simbatch({"export", "."}).says("holds no results of a batch"));
   for (const char* shard : {"0/2", "3/2", "2", "1/x", "1/2/3", ""})
     CHECK(run_simbatch({"e.xml", "--shard", shard}).says("--shard takes I/N, part I of N parts"));

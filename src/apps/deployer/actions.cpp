@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Loaded {
   xml::Diagnostics diagnostics;
   host::PluginCatalogue catalogue;
   std::optional<graph::Graph> graph;
+  std::vector<graph::PlannedChange> changes;  // that the graph names, even if it is wrong
 };
 
 // Returns whether messages go to stdout, all together.
@@ -54,6 +56,8 @@ bool shows_json_faults(const Options& options) { return options.json && options.
 void load(const std::string& file, const Options& options, Loaded& loaded) {
   const bool judges = options.action == Action::check || options.action == Action::run;
   graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
+  wanted.of_run = options.action == Action::diff;
+  wanted.changes = &loaded.changes;
   wanted.any_link = !judges || options.run.executive.clock == ClockKind::virtual_time;
   if (judges) {
     for (const host::PlannedFailure& planned : options.run.planned_failures)
@@ -139,37 +143,42 @@ void append(const xml::Diagnostics& more, xml::Diagnostics& all) {
 // times are the same.
 // @param said  gets all messages about them, which --check --json shows together.
 // @return nothing if that is not possible, after it was said.
-std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options, const graph::Graph& graph,
+std::optional<std::vector<host::TimedChange>> plan_changes(const Options& options, const Loaded& first,
                                                            xml::Diagnostics& said) {
-  std::vector<graph::PlannedChange> planned = graph.changes;
+  std::vector<graph::PlannedChange> planned = first.changes;
   planned.insert(planned.end(), options.changes.begin(), options.changes.end());
   std::ranges::stable_sort(planned, {}, &graph::PlannedChange::at);
   std::vector<host::TimedChange> changes;
-  graph::Graph before = graph;
+  std::optional<graph::Graph> before = first.graph;  // nothing if one of the graphs so far is wrong
+  std::set<std::string> wrong;                       // files of which it was said
   for (const graph::PlannedChange& one : planned) {
+    if (wrong.contains(one.file)) continue;
     Loaded after(options);
     load(one.file, options, after);
     append(after.diagnostics, said);
-    if (!after.graph) return std::nullopt;
+    if (!after.graph) before.reset(), wrong.insert(one.file);
+    if (!before) continue;  // the others have their own faults
     const supervisor::SystemFacts facts = supervisor::facts_of(*after.graph, after.catalogue);
-    host::TimedChange change{one.file, one.at, graph::plan_of(before, *after.graph, facts.contracts, {}), {}};
+    host::TimedChange change{
+        one.file, one.at, graph::plan_of(*before, *after.graph, facts.contracts, {}), {}};
     if (!change.plan.is_possible()) {
       const xml::Diagnostics faults = faults_of(one, graph::obstacles_of(change.plan));
       append(faults, said);
       if (!shows_json_faults(options)) std::fputs(faults.text().c_str(), stderr);
-      return std::nullopt;
+      before.reset();
+      continue;
     }
     for (const auto& [type, plugin] : facts.plugins) change.plugins[type] = plugin.file;
     changes.push_back(std::move(change));
-    before = *std::move(after.graph);
+    before = std::move(after.graph);
   }
-  return changes;
+  return before ? std::optional(std::move(changes)) : std::nullopt;
 }
 
 ExitCode check(const Options& options) {
   Loaded loaded(options);
   load(options.file, options, loaded);
-  const bool is_good = loaded.graph && plan_changes(options, *loaded.graph, loaded.diagnostics);
+  const bool is_good = plan_changes(options, loaded, loaded.diagnostics).has_value();
   if (options.json) show(loaded.diagnostics.json());
   if (!is_good) return ExitCode::bad_input;
   if (!options.json) {
@@ -187,10 +196,8 @@ ExitCode run(const Options& options) {
   Loaded loaded(options);
   loaded.catalogue.give_up_if([] { return stop.requested(); });
   load(options.file, options, loaded);
-  if (!loaded.graph) return ExitCode::bad_input;
   host::RunOptions run = options.run;
-  std::optional<std::vector<host::TimedChange>> changes =
-      plan_changes(options, *loaded.graph, loaded.diagnostics);
+  std::optional<std::vector<host::TimedChange>> changes = plan_changes(options, loaded, loaded.diagnostics);
   if (!changes) return ExitCode::bad_input;
   run.changes = *std::move(changes);
   run.looks_on = options.progress.value_or(stderr_can_live());

@@ -120,8 +120,14 @@ Status add_change(Options& options, const std::string& value) {
   return ok();
 }
 
+Status set_trace(Options& options, const std::string& value) {
+  if (value.empty()) return expected("--trace", "a file", value);
+  options.run.trace_file = value;
+  return ok();
+}
+
 Status set_picture(Options& options, const std::string& value) {
-  if (!value.ends_with(".svg") && !value.ends_with(".png"))
+  if ((!value.ends_with(".svg") && !value.ends_with(".png")) || value.size() == 4)
     return expected("--picture", "a file ending in .svg or .png", value);
   options.run.picture.file = value;
   return ok();
@@ -131,7 +137,7 @@ Status set_picture(Options& options, const std::string& value) {
 Status add_recording(Options& options, const std::string& value) {
   const auto equals = value.rfind('=');
   const std::string file = value.substr(0, equals);
-  if (equals == std::string::npos || !file.ends_with(".csv"))
+  if (equals == std::string::npos || !file.ends_with(".csv") || file == ".csv")
     return expected("--record", "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush", value);
   for (const host::RecordingOptions& other : options.run.recordings)
     if (other.file == file)
@@ -215,7 +221,7 @@ std::map<std::string, Option> option_table(Words& executor) {
       {"--until", {true, set_until}},
       {"--fail", {true, add_failure, true}},
       {"--change", {true, add_change, true}},
-      {"--trace", {true, [](Options& o, const std::string& v) { return o.run.trace_file = v, ok(); }}},
+      {"--trace", {true, set_trace}},
       {"--values", {false, [](Options& o, const std::string&) { return o.run.trace_values = true, ok(); }}},
       {"--record", {true, add_recording, true}},
       {"--picture", {true, set_picture}},

@@ -86,7 +86,7 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const supe
   system.files.insert(source.file);
   const Result<std::string> text =
       source.text ? Result<std::string>(*source.text) : xml::read_bytes(source.file);
-  if (!text) return text.error();
+  if (!text) return fail(text.error().code, "the graph cannot be read: " + text.error().message, source.file);
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
   catalogue.give_up_if([&stop] { return stop.requested(); });
   xml::Diagnostics diagnostics;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
@@ -205,18 +206,25 @@ ExitCode run(Options options, const host::StopSignal& stop) {
   return all_answer ? ExitCode::all_answer : ExitCode::some_silent;
 }
 
+ExitCode act(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    const bool asks_help = word == "--help" || word == "-h";
+    if (!asks_help && word != "--version") continue;
+    std::fputs(asks_help ? kHelp : "hwprobe " ORCA_VERSION "\n", stdout);
+    return ExitCode::all_answer;
+  }
+  const Result<Options> options = parse(words);
+  if (!options) return refuse(options.error());
+  const host::StopSignal stop(static_cast<int>(ExitCode::some_silent));
+  return run(*options, stop);
+}
+
 }  // namespace
 }  // namespace orca::hwprobe
 
 int main(int argc, char** argv) {
   using namespace orca::hwprobe;
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  for (const std::string& word : words) {
-    if (word == "--help" || word == "-h") return std::fputs(kHelp, stdout) < 0 ? 1 : 0;
-    if (word == "--version") return std::printf("hwprobe %s\n", ORCA_VERSION) < 0 ? 1 : 0;
-  }
-  const orca::Result<Options> options = parse(words);
-  if (!options) return static_cast<int>(refuse(options.error()));
-  const orca::host::StopSignal stop(static_cast<int>(ExitCode::some_silent));
-  return static_cast<int>(run(*options, stop));
+  const ExitCode code = act({argv + 1, argv + argc});
+  const bool lost = !orca::apps::output_has_arrived();
+  return static_cast<int>(code == ExitCode::all_answer && lost ? ExitCode::some_silent : code);
 }

@@ -121,6 +121,11 @@ class Reader {
     if (call_.words.size() < needed)
       return wrong(command + " needs " + std::string(arguments[call_.words.size()].name) + " (see orcactl " +
                    command + " --help)");
+    for (std::size_t i = 0; i < call_.words.size() && i < arguments.size(); ++i)
+      if (arguments[i].names == Names::file && (call_.words[i].empty() || call_.words[i].ends_with(':')))
+        return wrong(
+            command + ": " + in_quotes(call_.words[i]) + " names no file" +
+            (call_.words[i].empty() ? "" : " and type; leave out the colon, or write the type after it"));
     if (call_.command->pairs && call_.words.size() % 2 != 0)
       return wrong(command + " needs a value after " + in_quotes(call_.words.back()));
     if (!any && call_.words.size() > arguments.size())

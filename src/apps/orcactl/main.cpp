@@ -5,6 +5,7 @@
 
 #include "asking.hpp"
 #include "call.hpp"
+#include "common/output.hpp"
 #include "exit_code.hpp"
 #include "manual.hpp"
 #include "offering.hpp"
@@ -53,6 +54,6 @@ ExitCode carry_out_contained(const Call& call) {
 int main(int argc, char** argv) {
   const orca::Result<Call> call = parse_call({argv + 1, argv + argc});
   const ExitCode code = call ? carry_out_contained(*call) : report({call.error(), ExitCode::usage});
-  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  const bool lost = !orca::apps::output_has_arrived();
   return static_cast<int>(code == ExitCode::done && lost ? ExitCode::refused : code);
 }

@@ -2,6 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "offering.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <iterator>
@@ -13,6 +14,7 @@
 #include "orca/base/text.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/object_type.hpp"
+#include "orca/idl/value.hpp"
 #include "orca/text/object_xml.hpp"
 #include "table.hpp"
 
@@ -24,6 +26,34 @@ using supervisor::LineAnswer;
 using supervisor::OfferOutcome;
 
 constexpr Duration kDefaultTimeout = 5s;
+
+// Finds the first number of an object that is none.
+class NanSearch final : public FieldVisitor {
+ public:
+  /// Returns its name; empty: there is none.
+  std::string find(const ObjectType& type, void* object) {
+    type.fields(object, *this);
+    return found_;
+  }
+
+  void field(const FieldInfo& info, const Value& value) override {
+    if (found_.empty()) look(std::string(info.name), value);
+  }
+
+ private:
+  void look(const std::string& name, const Value& value) {
+    if (const auto* const part = std::get_if<StructValue>(&value.of))
+      return part->fields(part->object, *this);
+    if (const auto* const* number = std::get_if<double*>(&value.of);
+        number != nullptr && std::isnan(**number))
+      found_ = name;
+    const auto* const list = std::get_if<ListValue>(&value.of);
+    const std::size_t count = list == nullptr ? 0 : list->size(list->list);
+    for (std::size_t i = 0; i < count && found_.empty(); ++i) look(name, list->at(list->list, i));
+  }
+
+  std::string found_;
+};
 
 std::string read_stdin() { return {std::istreambuf_iterator<char>(std::cin), {}}; }
 
@@ -38,6 +68,9 @@ Result<ObjectLoan> read_object(const std::string& word, const LineAnswer& line) 
       from_xml(from_stdin ? read_stdin() : word, from_stdin ? "stdin" : "XML", diagnostics, type);
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!object) return fail(Code::invalid_argument, "nothing was sent: the text is no " + line.type);
+  if (const std::string name = NanSearch().find(object->type(), object->get()); !name.empty())
+    return fail(Code::invalid_argument, "nothing was sent: " + name + " of the " + line.type +
+                                            " is nan, which is no number; give it a value");
   return std::move(*object);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/arithmetic.hpp"
+#include "common/output.hpp"
 #include "difference.hpp"
 #include "folders.hpp"
 #include "options.hpp"
@@ -40,7 +41,7 @@ std::function<void(std::size_t, std::size_t)> check_watch() {
 // Returns the experiment if it and its graphs have no fault; otherwise says all that is wrong.
 std::optional<batch::Experiment> checked(const Options& options) {
   xml::Diagnostics diagnostics;
-  std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
+  std::optional<batch::Experiment> experiment = batch::read_parts(options.subject, diagnostics);
   if (experiment) batch::check_graphs(*experiment, options.batch, diagnostics, check_watch());
   LiveLine::erase();
   std::fputs(diagnostics.text().c_str(), stderr);
@@ -277,5 +278,7 @@ int main(int argc, char** argv) {
   }
   options->batch.alone = {"/proc/self/exe", kMakeAlone};
   options->batch = with_plugins(options->batch, options->plugins);
-  return static_cast<int>(act(*options));
+  const ExitCode code = act(*options);
+  const bool lost = !orca::apps::output_has_arrived();
+  return static_cast<int>(code == ExitCode::done && lost ? ExitCode::could_not_finish : code);
 }

@@ -49,23 +49,24 @@ Status set_shards(Options& options, const std::string& value) {
   return ok();
 }
 
+Status set_out(Options& options, const std::string& value) {
+  if (value.empty()) return fail(Code::invalid_argument, "--out takes the name of a folder, found none");
+  options.out = value;
+  return ok();
+}
+
+Status add_plugins(Options& options, const std::string& value) {
+  if (value.empty()) return fail(Code::invalid_argument, "--plugins takes the name of a folder, found none");
+  options.plugins.push_back(std::filesystem::absolute(value).string());
+  return ok();
+}
+
 using WithValue = std::function<Status(Options&, const std::string&)>;
 
 const std::map<std::string, WithValue>& options_with_value() {
-  static const std::map<std::string, WithValue> all{
-      {"--jobs", set_jobs},
-      {"--executor", set_executor},
-      {"--shard", set_shard},
-      {"--shards", set_shards},
-      {"--out",
-       [](Options& options, const std::string& value) {
-         options.out = value;
-         return ok();
-       }},
-      {"--plugins", [](Options& options, const std::string& value) {
-         options.plugins.push_back(std::filesystem::absolute(value).string());
-         return ok();
-       }}};
+  static const std::map<std::string, WithValue> all{{"--jobs", set_jobs},   {"--executor", set_executor},
+                                                    {"--shard", set_shard}, {"--shards", set_shards},
+                                                    {"--out", set_out},     {"--plugins", add_plugins}};
   return all;
 }
 

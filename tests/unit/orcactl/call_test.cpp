@@ -54,6 +54,10 @@ TEST_CASE("a wrong command line says what would be right", "[orcactl]") {
   CHECK_THAT(error_of({"suspend", "a", "b"}), Contains("\"b\""));
   CHECK_THAT(error_of({"stop", "--watch"}), Contains("does not go with --watch"));
   CHECK_THAT(error_of({"ps", "--system"}), Contains("expects a value"));
+  CHECK_THAT(error_of({"diff", ""}), Contains("\"\" names no file"));
+  CHECK_THAT(error_of({"swap", "avoid", ""}), Contains("\"\" names no file"));
+  CHECK_THAT(error_of({"swap", "avoid", "x.so:"}),
+             Contains("leave out the colon, or write the type after it"));
 }
 
 TEST_CASE("set takes any number of parameters, each with its value", "[orcactl]") {

@@ -7,11 +7,17 @@
 #include "orca/host/catalogue.hpp"
 
 namespace orca::batch {
+namespace {
+
+constexpr const char* kArgumentWithoutValue = "G012";  // of graphs
+
+}  // namespace
 
 void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
                   const std::function<void(std::size_t done, std::size_t all)>& watch) {
   const std::size_t all = experiment.worlds.size() * experiment.variants.size();
   std::set<std::string> said;
+  const bool is_whole = !diagnostics.has_errors();  // otherwise settings may be missing, of which it was said
   for (std::size_t world = 0; world < experiment.worlds.size(); ++world) {
     for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
       if (watch) watch(world * experiment.variants.size() + variant, all);
@@ -23,7 +29,8 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       xml::Diagnostics found;
       (void)graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
       for (const xml::Diagnostic& one : found.sorted()) {
-        if (one.severity != xml::Severity::error || !said.insert(one.text()).second) continue;
+        const bool follows = !is_whole && one.code == kArgumentWithoutValue;
+        if (one.severity != xml::Severity::error || follows || !said.insert(one.text()).second) continue;
         diagnostics.error(one.code, one.position,
                           one.message + " (variant " + experiment.variants[variant].name + ", world " +
                               experiment.worlds[world].name + ")");

@@ -198,8 +198,8 @@ class ExperimentReader {
   std::map<std::pair<std::string, std::string>, xml::Position> names_;
 };
 
-std::optional<Experiment> read(const std::optional<xml::Document>& document, const std::string& file,
-                               xml::Diagnostics& diagnostics) {
+std::optional<Experiment> parts_of(const std::optional<xml::Document>& document, const std::string& file,
+                                   xml::Diagnostics& diagnostics) {
   if (!document) return std::nullopt;
   xml::Reporter reporter(diagnostics);
   const xml::Element& root = document->root;
@@ -208,9 +208,13 @@ std::optional<Experiment> read(const std::optional<xml::Document>& document, con
                    "this is <" + root.name() + ">, not <experiment>; a graph is run with deployer");
     return std::nullopt;
   }
-  Experiment experiment = ExperimentReader(file, reporter).read(root);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return experiment;
+  return ExperimentReader(file, reporter).read(root);
+}
+
+std::optional<Experiment> read(const std::optional<xml::Document>& document, const std::string& file,
+                               xml::Diagnostics& diagnostics) {
+  std::optional<Experiment> experiment = parts_of(document, file, diagnostics);
+  return diagnostics.has_errors() ? std::nullopt : std::move(experiment);
 }
 
 }  // namespace
@@ -243,6 +247,15 @@ std::vector<std::string> Experiment::settings_of(const Run& run) const {
 
 std::optional<Experiment> read_experiment(const std::string& file, xml::Diagnostics& diagnostics) {
   return read(xml::read_file(file, diagnostics), file, diagnostics);
+}
+
+std::optional<Experiment> read_parts(const std::string& file, xml::Diagnostics& diagnostics) {
+  std::optional<Experiment> experiment = parts_of(xml::read_file(file, diagnostics), file, diagnostics);
+  if (!experiment) return std::nullopt;
+  std::erase_if(experiment->variants, [](const Variant& variant) { return variant.graph.empty(); });
+  if (experiment->worlds.empty()) experiment->worlds.push_back({"that of the graph", {}, {}});
+  if (experiment->seeds.empty()) experiment->seeds.push_back(1);
+  return experiment;
 }
 
 std::optional<Experiment> read_experiment(std::string_view text, const std::string& file,

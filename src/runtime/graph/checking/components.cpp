@@ -157,11 +157,11 @@ class ComponentReader {
     const auto limit = attribute<double>("at_least_every");
     Trigger trigger{Trigger::Kind::on_any, from_seconds(limit.value_or(0.0)), split_names(on.value)};
     if (fuse == "all") trigger.kind = Trigger::Kind::on_all;
-    if (trigger.ports.empty()) check_trigger_port(on, "");
-    for (const std::string& port : trigger.ports) check_trigger_port(on, port);
+    bool are_ports = !trigger.ports.empty() || check_trigger_port(on, "");
+    for (const std::string& port : trigger.ports) are_ports = check_trigger_port(on, port) && are_ports;
     check_named_once(on, trigger.ports);
     read_moment(on, fuse == "stamps", trigger);
-    checked_.value.trigger = trigger;
+    if (are_ports) checked_.value.trigger = trigger;
   }
 
   void check_named_once(const Text& on, const std::vector<std::string>& names) {
@@ -195,14 +195,15 @@ class ComponentReader {
     return port == nullptr || port->many;
   }
 
-  void check_trigger_port(const Text& on, const std::string& name) {
-    if (!checked_.contract || !checked_.ports_known) return;
+  // Returns false after a report.
+  bool check_trigger_port(const Text& on, const std::string& name) {
+    if (!checked_.contract || !checked_.ports_known) return true;
     const PortContract* const refused = checked_.refused_port(name);
     const std::string& wanted = refused == nullptr ? name : refused->name;
     std::vector<std::string> inputs;
     for (const PortContract& port : checked_.contract->ports) {
       if (port.pattern != Pattern::push || port.role != Role::proxy) continue;
-      if (port.name == wanted) return;
+      if (port.name == wanted) return true;
       inputs.push_back(port.name);
     }
     const bool exists = checked_.contract->port(wanted) != nullptr;
@@ -211,6 +212,7 @@ class ComponentReader {
                       (exists ? " is not a PushProxy, only what is pushed to a component can start its laps"
                               : " is not a port of it") +
                       "; its PushProxies are: " + listed(inputs) + report_.hint(name, inputs));
+    return false;
   }
 
   void read_content() {

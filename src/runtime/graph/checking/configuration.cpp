@@ -2,6 +2,7 @@
 #include "configuration.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "reading/codes.hpp"
 #include "reading/parameters.hpp"
@@ -12,7 +13,8 @@ namespace {
 class ConfigurationCheck {
  public:
   explicit ConfigurationCheck(const Configuration& configuration)
-      : all_(configuration), graph_(configuration.graph) {
+      : all_(configuration), graph_(configuration.graph), doubtful_(configuration.doubtful) {
+    doubt_those_who_ask();
     for (const CheckedHardware& hardware : all_.model.hardware)
       if (hardware.sound) graph_.hardware.push_back(hardware.value);
     for (const CheckedComponent& component : all_.model.components)
@@ -39,7 +41,21 @@ class ConfigurationCheck {
   }
 
   [[nodiscard]] bool is_doubtful(const ComponentNode& node) const {
-    return all_.model.parts_missing || all_.doubtful.contains(node.name);
+    return all_.model.parts_missing || doubtful_.contains(node.name);
+  }
+
+  // A component that lacks a connection answers questions otherwise than the graph means.
+  void doubt_those_who_ask() {
+    std::multimap<std::string, std::string> askers;
+    for (const Edge& edge : graph_.edges)
+      if (edge.pattern == Pattern::query) askers.emplace(edge.to.component, edge.from.component);
+    std::vector<std::string> left(doubtful_.begin(), doubtful_.end());
+    while (!left.empty()) {
+      const auto [first, last] = askers.equal_range(left.back());
+      left.pop_back();
+      for (auto asker = first; asker != last; ++asker)
+        if (doubtful_.insert(asker->second).second) left.push_back(asker->second);
+    }
   }
 
   // Returns the components that can be tried, each after those that must be up before it, as far as these can.
@@ -65,6 +81,7 @@ class ConfigurationCheck {
 
   const Configuration& all_;
   Graph graph_;
+  std::set<std::string> doubtful_;
 };
 
 }  // namespace

@@ -104,6 +104,7 @@ Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& cat
   for (const std::string& name : options.recorded) check_recorded_port(name, model, report);
   graph.groups = check_groups(parts.groups, model, report);
   graph.changes = check_changes(parts.changes, report);
+  if (options.changes != nullptr) *options.changes = graph.changes;
   WiredEdges wired = check_wiring(parts.connections, model, report);
   graph.edges = std::move(wired.edges);
   check_waiting_room(model, graph.edges, report);

@@ -309,7 +309,9 @@ WiredEdges check_wiring(const std::vector<Node>& connections, const Model& model
   for (const Node& connection : connections) wiring.connect(connection);
   wiring.connect_candidates();
   wiring.check_required();
-  return std::move(wiring).result();
+  WiredEdges wired = std::move(wiring).result();
+  if (!model.any_link) check_room_for_dds(wired.edges, report);
+  return wired;
 }
 
 }  // namespace orca::graph

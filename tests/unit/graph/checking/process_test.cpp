@@ -225,6 +225,42 @@ TEST_CASE("settings of processes do not hide what is wrong elsewhere", "[graph][
         std::string::npos);
 }
 
+TEST_CASE("a port that pushes to more connections by DDS than it can serve is refused before the start",
+          "[graph][process][link]") {
+  const auto said_of = [](int count) {
+    std::string text =
+        "<graph name='g'><process name='a'/><process name='b'/><hardware name='robot' type='orca.hw.Sim'/>"
+        "<component name='base' type='orca.RobotBaseServer' hardware='robot' process='a'/>";
+    for (int i = 0; i < count; ++i) {
+      const std::string name = "avoid" + std::to_string(i);
+      text += "<component name='" + name + "' type='orca.SonarAvoid' process='b'/>" +
+              "<connect from='base.SonarRangeReadingsPush' to='" + name + ".sonar' link='dds'/>";
+    }
+    return said_about(text + "</graph>");
+  };
+  CHECK(said_of(62).find("G067") == std::string::npos);
+  CHECK(said_of(63).find(
+            "error G067: this is connection 63 of port \"base.SonarRangeReadingsPush\" by DDS, and a "
+            "port serves 62") != std::string::npos);
+}
+
+TEST_CASE("the address of a machine is an IP address or a host name, and its interface may be one",
+          "[graph][process]") {
+  const auto said_of = [](const std::string& attribute) {
+    return said_about(robot_in_processes(
+        "<machine name='m' " + attribute + "/><process name='main' machine='m'/>", "", "", ""));
+  };
+  for (const std::string good : {"10.0.0.2", "fe80::1", "::1", "robot", "robot.lab.example.org", "r2-d2", ""})
+    CHECK(said_of("address='" + good + "'").find("error") == std::string::npos);
+  for (const std::string bad :
+       {"not an address!", "10.0.0.256", "10.0.0", "robot..lab", "-robot", "robot.", "a b"})
+    CHECK(said_of("address='" + bad + "'")
+              .find("error G030: machine \"m\": address: \"" + bad +
+                    "\" is neither an IP address nor a host name") != std::string::npos);
+  CHECK(said_of("interface='wlan0'").find("error") == std::string::npos);
+  CHECK(said_of("interface='wireless lan'").find("is no name of a network interface") != std::string::npos);
+}
+
 TEST_CASE("the JSON form has machines and processes with what is not as usual", "[graph][process]") {
   const std::string json = graph_json(must_load(robot_in_processes(
       "<machine name='m'/><process name='a' machine='m' executor='fiber' processors='1 2'/>"

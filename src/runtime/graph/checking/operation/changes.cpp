@@ -37,7 +37,7 @@ std::vector<PlannedChange> check_changes(const std::vector<Node>& nodes, Report&
     check_is_of_whole(node, report);
     const std::optional<std::string> file = file_of(node, report);
     const auto at = read_attribute<double>(node, "at", report);
-    if (file && at) changes.push_back({*file, from_seconds(*at), node.position});
+    if (file) changes.push_back({*file, from_seconds(at.value_or(0.0)), node.position});
   }
   std::ranges::stable_sort(changes, {}, &PlannedChange::at);
   return changes;

@@ -2,6 +2,7 @@
 #include "links.hpp"
 
 #include <array>
+#include <map>
 #include <string>
 
 #include "orca/base/text.hpp"
@@ -76,6 +77,19 @@ Link link_of(const Node& connection, const Edge& edge, const Model& model, Repor
             "process");
   }
   return link;
+}
+
+void check_room_for_dds(const std::vector<Edge>& edges, Report& report) {
+  constexpr int kMost = 62;  // as patterns::dds: an object says for which of the port's connections it is
+  std::map<PortRef, int> counts;
+  for (const Edge& edge : edges) {
+    if (edge.link != Link::dds || edge.pattern != Pattern::push || ++counts[edge.from] != kMost + 1) continue;
+    report.error(
+        codes::kLink, edge.position,
+        "this is connection " + std::to_string(kMost + 1) + " of port " + in_quotes(edge.from.text()) +
+            " by DDS, and a port serves " + std::to_string(kMost) +
+            "; let some of its users share a component that passes it on, or leave out link=\"dds\"");
+  }
 }
 
 }  // namespace orca::graph

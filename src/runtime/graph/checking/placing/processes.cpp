@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "processes.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "orca/base/text.hpp"
@@ -139,6 +144,47 @@ class ProcessReader {
   CheckedProcess checked_;
 };
 
+bool is_word_of_host_name(const std::string& word) {
+  return !word.empty() && word.size() <= 63 && word.front() != '-' && word.back() != '-' &&
+         std::ranges::all_of(word, [](char c) {
+           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+         });
+}
+
+// Returns whether a text may be a host name: words of letters, digits and '-', joined by dots (RFC 1123). What looks like an
+// IPv4 address is none.
+bool may_be_host_name(const std::string& text) {
+  if (text.size() > 253 || text.back() == '.' || text.find_first_not_of("0123456789.") == std::string::npos)
+    return false;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, '.');)
+    if (!is_word_of_host_name(word)) return false;
+  return true;
+}
+
+bool may_be_address(const std::string& text) {
+  in6_addr bytes{};
+  return inet_pton(AF_INET, text.c_str(), &bytes) == 1 || inet_pton(AF_INET6, text.c_str(), &bytes) == 1 ||
+         may_be_host_name(text);
+}
+
+void check_network(const Node& node, Report& report) {
+  const Text* const address = node.known("address");
+  if (address != nullptr && !address->value.empty() && !may_be_address(address->value))
+    report.error(codes::kBadValue, address->position,
+                 node.title() + ": address: " + in_quotes(address->value) +
+                     " is neither an IP address nor a host name; write one, as in address=\"10.0.0.2\", or "
+                     "leave it out");
+  const Text* const interface = node.known("interface");
+  constexpr std::size_t kMost = 15;  // characters that Linux allows
+  if (interface != nullptr &&
+      (interface->value.size() > kMost || interface->value.find_first_of("/ \t\n:") != std::string::npos))
+    report.error(
+        codes::kBadValue, interface->position,
+        node.title() + ": interface: " + in_quotes(interface->value) +
+            " is no name of a network interface, such as wlan0; \"ip link\" shows those of a machine");
+}
+
 MachineNode read_machine(const Node& node, Report& report) {
   MachineNode machine;
   machine.name = node.value("name");
@@ -146,6 +192,7 @@ MachineNode read_machine(const Node& node, Report& report) {
   machine.interface = node.value("interface");
   machine.position = node.position;
   check_name(node, "name", report);
+  check_network(node, report);
   if (read_attribute<std::string>(node, "on_loss", report) == "go_on") machine.on_loss = OnLoss::go_on;
   read_time(node, "loss_limit", machine.loss_limit, report);
   return machine;

@@ -45,6 +45,7 @@ class BatchListener {
 };
 
 /// Checks the graphs of all variants in all worlds against their plugins, as deployer --check does. It runs nothing.
+/// @param experiment   may be one of which errors are in `diagnostics` already, see read_parts().
 /// @param diagnostics  receives everything that is wrong, each once.
 /// @param watch        is called before each graph; empty: nobody watches.
 /// @thread  the main thread, while there is no other.

@@ -80,7 +80,12 @@ struct Experiment {
 [[nodiscard]] std::optional<Experiment> read_experiment(const std::string& file,
                                                         xml::Diagnostics& diagnostics);
 
-/// Does the same for a text in memory; relative paths start at the folder of `file`.
+/// Reads as much of an experiment as there is, for checks that find more than the first errors. It has a world and a seed at
+/// least, and each of its variants has a graph.
+/// @return nothing if the file holds no experiment at all.
+[[nodiscard]] std::optional<Experiment> read_parts(const std::string& file, xml::Diagnostics& diagnostics);
+
+/// Does the same as read_experiment() for a text in memory; relative paths start at the folder of `file`.
 [[nodiscard]] std::optional<Experiment> read_experiment(std::string_view text, const std::string& file,
                                                         xml::Diagnostics& diagnostics);
 

@@ -33,6 +33,8 @@ struct LoadOptions {
   bool any_link = false;
   /// Profiles and settings are those of a run that goes on; a graph that says expanded="true" has them already.
   bool of_run = false;
+  /// Gets the changes that the graph names, also if the graph or the time of a change is wrong; null: nobody wants them.
+  std::vector<PlannedChange>* changes = nullptr;
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.
