@@ -80,6 +80,15 @@ TEST_CASE("ten thousand components in a row start one after the other", "[graph]
   CHECK(errors == 1);
 }
 
+TEST_CASE("a circle of thousands of components is shown by its first ones", "[graph][large]") {
+  std::string text = "<graph name='row'>";
+  for (int i = 0; i < 1000; ++i)
+    text += "<component name='c" + std::to_string(i) + "' type='orca.Localizer' start_after='c" +
+            std::to_string((i + 1) % 1000) + "'/>";
+  const std::string said = said_about(text + "</graph>");
+  CHECK(said.find("c10 -> c11 -> 988 more -> c0; none of them") != std::string::npos);
+}
+
 TEST_CASE("more than ten thousand components are refused", "[graph][large]") {
   std::string text = "<graph name='many'>\n";
   for (int i = 0; i <= 10'000; ++i)

@@ -60,22 +60,31 @@ class ConfigurationCheck {
 
   // Returns the components that can be tried, each after those that must be up before it, as far as these can.
   [[nodiscard]] Candidates in_start_order() const {
-    std::vector<const ComponentNode*> left;
+    std::vector<const ComponentNode*> nodes;
     for (const CheckedComponent& component : all_.model.components)
-      if (is_known(component) && component.sound) left.push_back(&component.value);
-    Candidates result;
-    std::set<std::string> ordered;
-    const auto take = [&](const ComponentNode& node, bool doubtful) {
-      result.names.push_back(node.name);
-      if (doubtful) result.doubtful.insert(node.name);
-      return ordered.insert(node.name).second;
-    };
-    const auto is_up = [&](const std::string& name) { return ordered.contains(name); };
-    while (std::erase_if(left, [&](const ComponentNode* node) {
-             return std::ranges::all_of(node->start_after, is_up) && take(*node, is_doubtful(*node));
-           }) > 0) {
+      if (is_known(component) && component.sound) nodes.push_back(&component.value);
+    std::multimap<std::string, std::size_t> followers;  // by the name of who must be up before
+    std::vector<std::size_t> awaited;                   // of each node
+    std::set<std::size_t> ready;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      for (const std::string& name : nodes[i]->start_after) followers.emplace(name, i);
+      awaited.push_back(nodes[i]->start_after.size());
+      if (awaited[i] == 0) ready.insert(i);
     }
-    for (const ComponentNode* node : left) take(*node, true);
+    Candidates result;
+    const auto take = [&](std::size_t i, bool doubtful) {
+      result.names.push_back(nodes[i]->name);
+      if (doubtful) result.doubtful.insert(nodes[i]->name);
+    };
+    while (!ready.empty()) {
+      const std::size_t next = ready.extract(ready.begin()).value();
+      take(next, is_doubtful(*nodes[next]));
+      const auto [first, last] = followers.equal_range(nodes[next]->name);
+      for (auto follower = first; follower != last; ++follower)
+        if (--awaited[follower->second] == 0) ready.insert(follower->second);
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (awaited[i] > 0) take(i, true);
     return result;
   }
 

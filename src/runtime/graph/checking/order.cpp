@@ -57,8 +57,11 @@ class CycleSearch {
 
   void report_cycle(std::size_t closing) {
     const auto first = std::ranges::find(path_, closing, &Step::component);
+    constexpr std::ptrdiff_t kShown = 12;
     std::string circle;
-    for (auto step = first; step != path_.end(); ++step) circle += name(step->component) + " -> ";
+    for (auto step = first; step != path_.end() && step - first < kShown; ++step)
+      circle += name(step->component) + " -> ";
+    if (path_.end() - first > kShown) circle += std::to_string(path_.end() - first - kShown) + " more -> ";
     report_.error(
         codes::kCycle, model_.components[closing].value.position,
         "start_after goes in a circle: " + circle + name(closing) + "; none of them could start first");

@@ -54,6 +54,7 @@ void Environment::keep(bool strands_overlap, AlarmSink sink) {
   for (const Watches* watches : {&of_thread_each_turn_, &of_process_each_turn_, &of_thread_, &of_process_})
     for (const auto& watch : *watches) watch->keep();
   descriptors_.keep();
+  active_.clear();
   guests_.clear();
   turns_ = 0;
   hooks_running_ = 0;
@@ -144,12 +145,18 @@ void Environment::left(const Activity& turn) {
     if (guest.hooks_running == 0) return;  // it began before the environment was kept
     --guest.hooks_running;
     --hooks_running_;
+    if (!may_be_suspect(guest)) active_.erase(guest.name);
   });
 }
 
 void Environment::begin_hook(Guest& guest) {
   ++guest.hooks_running;
   ++hooks_running_;
+  if (may_be_suspect(guest)) active_.try_emplace(guest.name, &guest);
+}
+
+bool Environment::may_be_suspect(const Guest& guest) const {
+  return guest.had_turn || (strands_overlap_ && guest.hooks_running > 0);
 }
 
 void Environment::leave(Guest& guest, const Activity& turn) {
@@ -157,6 +164,7 @@ void Environment::leave(Guest& guest, const Activity& turn) {
   guest.last_turn = ++turns_;
   guest.hook = hook_text(turn.hook(), turn.port());
   guest.had_turn = true;
+  active_.try_emplace(guest.name, &guest);
   if (turn.hook() == Hook::strand && guest.hooks_running == 0) begin_hook(guest);  // no end of a hook follows
   look_each_turn(&guest);
   if (is_rare(turn.hook())) return;
@@ -173,15 +181,14 @@ bool Environment::is_due(const Guest& guest) const {
 
 Environment::Guests Environment::suspects() const {
   Guests found;
-  for (const auto& [name, guest] : guests_)
-    if (guest.had_turn || (strands_overlap_ && guest.hooks_running > 0)) found.push_back(&guest);
+  for (const auto& [name, guest] : active_) found.push_back(guest);
   return found;
 }
 
 Environment::Guests Environment::suspects_of_turn(const Guest* leaver) const {
   Guests found;
-  for (const auto& [name, guest] : guests_)
-    if (&guest == leaver || (strands_overlap_ && guest.hooks_running > 0)) found.push_back(&guest);
+  for (const auto& [name, guest] : active_)
+    if (guest == leaver || (strands_overlap_ && guest->hooks_running > 0)) found.push_back(guest);
   return found;
 }
 
@@ -210,7 +217,8 @@ void Environment::look_at_all(const Guest* leaver, bool may_open) {
   for (const auto& watch : of_process_)
     if (const auto finding = watch->look()) accuse(possible, *finding);
   look_at_descriptors(possible, may_open);
-  for (auto& [name, guest] : guests_) guest.had_turn = false;
+  for (const auto& [name, guest] : active_) guest->had_turn = false;
+  std::erase_if(active_, [this](const auto& one) { return !may_be_suspect(*one.second); });
 }
 
 void Environment::look_at_descriptors(const Guests& possible, bool may_open) {

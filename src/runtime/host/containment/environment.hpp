@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -90,6 +91,7 @@ class Environment {
   void watched(Body&& body);
   Guest& guest(const Activity& turn);
   void begin_hook(Guest& guest);
+  [[nodiscard]] bool may_be_suspect(const Guest& guest) const;
   void leave(Guest& guest, const Activity& turn);
   [[nodiscard]] bool is_due(const Guest& guest) const;
   // Returns the guests that can have changed the process since the last full check.
@@ -128,9 +130,10 @@ class Environment {
   DescriptorWatch descriptors_;
   std::optional<Foresight> foresight_;
   std::map<std::string, Guest, std::less<>> guests_;
-  std::uint64_t turns_ = 0;  // of all guests
-  int hooks_running_ = 0;    // of all guests
-  bool each_turn_ = false;   // whether every turn is checked in full
+  std::map<std::string_view, Guest*> active_;  // those of which may_be_suspect() holds: few of many
+  std::uint64_t turns_ = 0;                    // of all guests
+  int hooks_running_ = 0;                      // of all guests
+  bool each_turn_ = false;                     // whether every turn is checked in full
   std::set<std::pair<std::string, AlarmKind>> said_;
   std::vector<idl::Alarm> found_;  // to be raised once the lock is released
 };

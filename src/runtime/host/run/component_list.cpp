@@ -6,22 +6,17 @@
 #include <utility>
 
 namespace orca::host {
-namespace {
-
-auto place_of(auto& all, const std::string& name) {
-  return std::ranges::find(all, name, [](const auto& component) { return component->name(); });
-}
-
-}  // namespace
 
 void ComponentList::add(std::unique_ptr<ComponentInstance> component) {
   const std::lock_guard lock(mutex_);
+  by_name_[component->name()] = component.get();
   all_.push_back(std::move(component));
 }
 
 std::unique_ptr<ComponentInstance> ComponentList::take(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  const auto place = place_of(all_, name);
+  by_name_.erase(name);
+  const auto place = std::ranges::find(all_, name, [](const auto& component) { return component->name(); });
   std::unique_ptr<ComponentInstance> taken = std::move(*place);
   all_.erase(place);
   return taken;
@@ -29,8 +24,8 @@ std::unique_ptr<ComponentInstance> ComponentList::take(const std::string& name) 
 
 ComponentInstance* ComponentList::find(const std::string& name) const {
   const std::shared_lock lock(mutex_);
-  const auto place = place_of(all_, name);
-  return place == all_.end() ? nullptr : place->get();
+  const auto place = by_name_.find(name);
+  return place == by_name_.end() ? nullptr : place->second;
 }
 
 std::size_t ComponentList::working() const {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <shared_mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "component/component_instance.hpp"
@@ -35,7 +36,8 @@ class ComponentList {
 
  private:
   mutable std::shared_mutex mutex_;
-  All all_;  // changed with mutex_ held
+  All all_;                                                      // changed with mutex_ held
+  std::unordered_map<std::string, ComponentInstance*> by_name_;  // the same
 };
 
 }  // namespace orca::host
