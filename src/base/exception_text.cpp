@@ -8,9 +8,13 @@
 #include <typeinfo>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca {
 namespace {
+
+constexpr std::size_t kMostOfType = 300;   // [bytes] of the name of a type that is shown
+constexpr std::size_t kMostOfText = 4000;  // [bytes] of what an exception says
 
 std::string current_type_name() {
   // An exception of another language has no type where that of a C++ exception lies.
@@ -18,7 +22,7 @@ std::string current_type_name() {
   const std::type_info* const type = abi::__cxa_current_exception_type();
   int status = 0;
   char* const text = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
-  const std::string name = status == 0 ? text : type->name();
+  const std::string name = shortened(status == 0 ? text : type->name(), kMostOfType);
   std::free(text);
   return name;
 }
@@ -33,14 +37,14 @@ std::string describe_current_exception() {
     throw;
   } catch (const std::exception& error) {
     const char* const text = error.what();  // null from an author's own class
-    return "threw " + type + (text != nullptr ? std::string(": ") + text : "");
+    return "threw " + type + (text != nullptr ? ": " + shortened(text, kMostOfText) : "");
   } catch (int value) {
     return "threw the int " + std::to_string(value);
   } catch (const char* text) {  // a thrown nullptr lands here too
-    return text != nullptr ? std::string("threw the text \"") + text + "\""
+    return text != nullptr ? "threw the text \"" + shortened(text, kMostOfText) + "\""
                            : "threw an object of type " + type;
   } catch (const std::string& text) {
-    return "threw the text \"" + text + "\"";
+    return "threw the text \"" + shortened(text, kMostOfText) + "\"";
   } catch (...) {
     return "threw an object of type " + type;
   }

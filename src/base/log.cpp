@@ -82,6 +82,9 @@ Listener::~Listener() {
 
 void write(Level level, std::string_view who, std::string_view words) {
   if (is_muted()) return;
+  constexpr std::size_t kMost = 64 * 1024;  // [bytes] of a line; whoever writes more has made a mistake
+  const std::string cut = words.size() > kMost ? shortened(words, kMost) : std::string();
+  if (!cut.empty()) words = cut;
   State& s = state();
   const bool shown = s.logger->should_log(to_spdlog(level));
   if (!shown && !s.has_listeners) return;

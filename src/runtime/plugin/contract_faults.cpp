@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -20,11 +21,14 @@ using Faults = std::vector<std::string>;
 constexpr std::array<std::string_view, 18> kUnits{"1", "m", "s",  "kg", "g", "rad", "A", "V",   "W",
                                                   "J", "N", "Hz", "K",  "C", "Pa",  "F", "ohm", "%"};
 
+constexpr std::size_t kMostOfName = 200;                            // characters, as in a graph
+constexpr Duration kShortestPeriod = std::chrono::microseconds(1);  // the same
+
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 bool is_name(std::string_view name) {
-  return !name.empty() && is_letter(name.front()) &&
+  return !name.empty() && name.size() <= kMostOfName && is_letter(name.front()) &&
          std::ranges::all_of(name, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
@@ -56,7 +60,8 @@ void check_names(const char* what, const std::vector<std::string>& names, Faults
   for (const std::string& name : names) {
     if (!is_name(name))
       faults.push_back(std::string(what) + " is called " + in_quotes(name) +
-                       "; a name is a letter, then letters, digits and '_'");
+                       "; a name is a letter, then letters, digits and '_', at most " +
+                       std::to_string(kMostOfName));
     if (!seen.insert(name).second)
       faults.push_back(std::string("it has two ") + what + "s of the name " + in_quotes(name) +
                        "; give one of them another name");
@@ -88,6 +93,22 @@ void check_unit(const ParamContract& param, Faults& faults) {
                      ", which is none of SI; write for example m, rad, s, m/s, rad/s2, 1/s, or nothing");
 }
 
+// Checks what starts the laps, and the buffers of the ports.
+void check_times(const Contract& contract, Faults& faults) {
+  const Trigger& trigger = contract.default_trigger;
+  if (trigger.kind == Trigger::Kind::period && trigger.period < kShortestPeriod)
+    faults.push_back("its laps start every " + seconds_text(trigger.period) + "; a period is 1 us or longer");
+  if ((trigger.kind != Trigger::Kind::period && trigger.period < Duration{0}) || trigger.within < Duration{0})
+    faults.push_back("a time of what starts its laps is negative; 0 s means none");
+  for (const PortContract& port : contract.ports) {
+    const QueuePolicy& queue = port.queue;
+    if (queue.depth == 0)
+      faults.push_back("the port " + in_quotes(port.name) + " has a queue of 0 objects; 1 is the shortest");
+    if (std::min({queue.min_interval, queue.deadline, queue.block_limit, port.period}) < Duration{0})
+      faults.push_back("a time of the port " + in_quotes(port.name) + " is negative; 0 s means none");
+  }
+}
+
 }  // namespace
 
 Faults faults_of(const Contract& contract) {
@@ -98,6 +119,7 @@ Faults faults_of(const Contract& contract) {
   for (const ParamContract& param : contract.params) params.push_back(param.name);
   check_names("port", ports, faults);
   check_names("parameter", params, faults);
+  check_times(contract, faults);
   for (const ParamContract& param : contract.params) {
     check_unit(param, faults);
     check_range(param, faults);

@@ -24,6 +24,7 @@
 #include "orca/base/text.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/trial.hpp"
+#include "shared_settings.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -156,10 +157,16 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image, Tr
 }
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source) {
+  const SharedSettings settings;
   errno = 0;
   void* const handle = dlopen(source.file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  const int reason = errno;
+  if (const std::vector<std::string> changed = settings.put_back(); !changed.empty())
+    log::warning(fs::path(source.path).filename().string(),
+                 "its static initialisation has changed " + joined(changed, " and ") +
+                     ", which all share; it is put back. Let configure() ask for what the plugin needs");
   if (handle == nullptr) {
-    throw_if_exhausted(errno);
+    throw_if_exhausted(reason);
     return cannot_load(source.path, source.file, dlerror());
   }
   if (identity_in_memory(handle) != source.judged.identity) {

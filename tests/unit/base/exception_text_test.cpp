@@ -51,3 +51,10 @@ TEST_CASE("an exception of another language is described as something unknown", 
   }
   CHECK(text == "threw an object of type something unknown");
 }
+
+TEST_CASE("what an exception says is cut where it is very long", "[base][exception]") {
+  const std::string text = text_of(std::runtime_error(std::string(20'000'000, 'x')));
+  CHECK(text.size() < 5000);
+  CHECK(text.find("...(20000000 bytes)...") != std::string::npos);
+  CHECK(text_of(std::string(20'000'000, 'x')).size() < 5000);
+}

@@ -64,6 +64,34 @@ TEST_CASE("a name is a letter, then letters, digits and underscores", "[plugin][
   }
 }
 
+TEST_CASE("a name has at most two hundred characters, and is shown shortened", "[plugin][contract]") {
+  CHECK(contract_fault({port(std::string(200, 'a'))}, {}).empty());
+  const std::string fault = contract_fault({port(std::string(1'000'000, 'a'))}, {});
+  CHECK_THAT(fault, Contains("port is called") && Contains("at most 200"));
+  CHECK(fault.size() < 1000);
+}
+
+TEST_CASE("laps start at a period of a microsecond or more, and no time is negative", "[plugin][contract]") {
+  const auto fault_of = [](Trigger::Kind kind, Duration period) {
+    Contract contract;
+    contract.default_trigger = {kind, period, {}};
+    const std::vector<std::string> faults = faults_of(contract);
+    return faults.empty() ? std::string() : faults.front();
+  };
+  CHECK(fault_of(Trigger::Kind::period, 1us).empty());
+  CHECK(fault_of(Trigger::Kind::free_running, 0s).empty());
+  CHECK(fault_of(Trigger::Kind::on_any, 0s).empty());
+  CHECK_THAT(fault_of(Trigger::Kind::period, -1s), Contains("every -1 s; a period is 1 us or longer"));
+  CHECK_THAT(fault_of(Trigger::Kind::period, 0s), Contains("a period is 1 us or longer"));
+  CHECK_THAT(fault_of(Trigger::Kind::on_all, -1s), Contains("is negative"));
+  PortContract slow = port("a");
+  slow.queue.deadline = -1s;
+  CHECK_THAT(contract_fault({slow}, {}), Contains("a time of the port \"a\" is negative"));
+  PortContract narrow = port("a");
+  narrow.queue.depth = 0;
+  CHECK_THAT(contract_fault({narrow}, {}), Contains("a queue of 0 objects"));
+}
+
 TEST_CASE("a unit is one of SI, a product or a quotient of them", "[plugin][contract]") {
   for (const char* unit : {"", "m", "s", "rad", "m/s", "rad/s2", "1/s", "m2", "N m", "kg m2", "%", "Hz"})
     CHECK(contract_fault(param(unit, 1.0)).empty());

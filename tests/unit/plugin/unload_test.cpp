@@ -5,11 +5,13 @@
 #include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <map>
 
+#include "orca/base/log.hpp"
 #include "orca/hw/container.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
@@ -36,7 +38,8 @@ void describe_all(const std::string& path) {
 
 // Unmaps within the scope and removes the file at its end.
 struct Copy {
-  explicit Copy(const std::string& name) : path(kForTests + "/copy_of_" + name + ".so") {
+  explicit Copy(const std::string& name)
+      : path(kForTests + "/copy_of_" + std::filesystem::path(name).filename().string() + ".so") {
     std::filesystem::copy_file(test_plugin(name), path, std::filesystem::copy_options::overwrite_existing);
   }
   ~Copy() { std::filesystem::remove(path); }
@@ -133,9 +136,9 @@ TEST_CASE("a plugin whose thread still runs stays in memory instead of crashing 
 
 TEST_CASE("a plugin that stays in memory is not taken for another one that is loaded after it",
           "[plugin][unload]") {
-  const std::string staying = GENERATE("test_thread_left", "test_stays");
+  const std::string staying = GENERATE("test_thread_left", "staying/test_stays");
   CAPTURE(staying);
-  const std::string type = staying == "test_stays" ? "test.Stays" : "test.ThreadLeft";
+  const std::string type = staying == "staying/test_stays" ? "test.Stays" : "test.ThreadLeft";
   CHECK(holds_in_a_copy([&] {
     for (int round = 0; round < 3; ++round)
       if (type_in_image_of(test_plugin(staying)) != type ||
@@ -146,7 +149,7 @@ TEST_CASE("a plugin that stays in memory is not taken for another one that is lo
 }
 
 TEST_CASE("a plugin that stays in memory is not taken for what its file holds later", "[plugin][unload]") {
-  const Copy copy("test_stays");
+  const Copy copy("staying/test_stays");
   CHECK(holds_in_a_copy([&] {
     if (!PluginLibrary::load(copy.path) || !is_mapped(copy.path)) return false;
     std::filesystem::remove(copy.path);
@@ -155,6 +158,21 @@ TEST_CASE("a plugin that stays in memory is not taken for what its file holds la
     return library && std::string((*library)->types().front()->type) == "test.Statics" &&
            (*library)->path() == copy.path;
   }));
+}
+
+TEST_CASE("a plugin whose static initialisation changes folder and umask is told so, and both are put back",
+          "[plugin][load]") {
+  const auto folder = std::filesystem::current_path();
+  const mode_t mask = umask(022);
+  std::vector<std::string> said;
+  {
+    const log::Listener listener([&](const log::Line& line) { said.emplace_back(line.text); });
+    CHECK(loaded(test_plugin("test_rude"))->types().size() == 1);
+  }
+  CHECK(std::filesystem::current_path() == folder);
+  CHECK(umask(mask) == 022);
+  REQUIRE(said.size() == 1);
+  CHECK_THAT(said.front(), Catch::Contains("has changed the working folder and the umask"));
 }
 
 TEST_CASE("an address leads to the plugin that it lies in, as long as that is loaded", "[plugin][unload]") {
