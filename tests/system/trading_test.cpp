@@ -58,6 +58,21 @@ TEST_CASE("a robot whose localizer is killed on the way reaches its goal by the 
   CHECK_FALSE(run.says("process localizing is back"));
 }
 
+TEST_CASE("after the process of the base was lost it is not known where the robot is, and the goal ends as lost",
+          "[system][trading]") {
+  System system({kGraph});
+  const pid_t base = system.process("base");
+  std::this_thread::sleep_for(Seconds(4));
+  kill(base, SIGKILL);
+  const Run run = finish(system.program(), Seconds(90));
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.arrivals().empty());
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0] == "failed kitchen lost: it is not known any more where the robot is");
+  CHECK(run.says("quick: it is not known any more where the robot is: \"base\" has begun anew"));
+}
+
 TEST_CASE("with a fixed connection to that localizer it does not", "[system][trading]") {
   const TempFolder folder;
   const std::string graph = folder.write("fixed.xml", with_first_choices_only());

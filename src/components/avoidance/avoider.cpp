@@ -8,6 +8,7 @@
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -173,6 +174,10 @@ Outcome Avoider::work() {
 // Returns whether it knows how the robot moves.
 bool Avoider::follow(const idl::Odometry& odometry) {
   if (!is_valid(odometry)) return false;
+  if (odometer_.begins_anew(odometry)) {  // what it remembers lies elsewhere now
+    memory_.clear();
+    moved_at_.reset();
+  }
   const TimePoint stamp = to_time_point(odometry.stamp());
   const Pose2 pose = plane_pose(odometry);
   const double pace = stands(twist_) ? manner_.standing_pace : 1.0;
@@ -220,7 +225,7 @@ void Avoider::advise() {
 std::optional<Pose2> Avoider::pose() {
   if (!localizer_.connected()) return moved_at_ ? std::optional(pose_) : std::nullopt;
   const auto pose = localizer_.latest();
-  if (!pose || !is_valid(*pose)) return std::nullopt;
+  if (!pose || !is_valid(*pose) || is_anywhere(pose->covariance())) return std::nullopt;
   return plane_pose(*pose);
 }
 

@@ -101,7 +101,7 @@ Status GoalFollower::refuse(const idl::GoalPoint& goal, const char* fault) {
 
 Outcome GoalFollower::work() {
   const std::optional<Pose2> pose = take_pose();
-  if (pose) {
+  if (pose && !is_lost()) {
     follow_route(*pose);
   } else {
     wait_for_pose();
@@ -121,6 +121,20 @@ void GoalFollower::follow_route(const Pose2& pose) {
     drive(pose, target);
   }
   push_path(pose);
+}
+
+// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere.
+bool GoalFollower::is_lost() {
+  if (lost_ && !route_.empty())
+    end_route(idl::GOAL_UNANSWERED, "lost: it is not known any more where the robot is");
+  return lost_;
+}
+
+// Goals that are given in the frame of the odometry are lost with it.
+void GoalFollower::note_odometry(const idl::Odometry& odometry) {
+  if (!odometer_.begins_anew(odometry)) return;
+  forget_places();
+  lost_ = lost_ || !localizer_.connected();
 }
 
 // Stands while nobody says where it is.
@@ -162,7 +176,8 @@ void GoalFollower::wait_to_be_sure() {
 // Says how unsure the position is, for people.
 std::string GoalFollower::doubt() const {
   return "its position is known only to " + in_short(deviation_) + " m, the goal's reach is " +
-         in_short(route_.next().reach_radius().distance()) + " m";
+         in_short(route_.next().reach_radius().distance()) + " m" +
+         (trust_.guesses() ? "; this is a guess, as its odometry does not say how wrong it is" : "");
 }
 
 // Pushes the point that it drives to, or a place on the way through a door.
@@ -234,7 +249,8 @@ std::optional<Pose2> GoalFollower::take_pose() {
   if (!localizer_.connected()) {
     const auto odometry = odometry_.get_update();
     if (!is_valid(*odometry)) return std::nullopt;
-    note_pose(odometry->stamp(), odometry->covariance());
+    note_odometry(*odometry);
+    note_pose(odometry->stamp(), trust_.covariance_of(*odometry));
     return plane_pose(*odometry);
   }
   const auto pose = localizer_.get_update();
@@ -245,6 +261,10 @@ std::optional<Pose2> GoalFollower::take_pose() {
 
 void GoalFollower::note_pose(const idl::TimeValue& stamp, const std::array<double, 9>& covariance) {
   deviation_ = position_deviation(covariance);
+  if (localizer_.connected() && lost_ != is_anywhere(covariance)) {
+    lost_ = !lost_;
+    forget_places();
+  }
   const TimePoint time = to_time_point(stamp);
   before_.time = posed_at_ ? to_seconds(time - *posed_at_) : 0.0;
   posed_at_ = time;

@@ -146,11 +146,15 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   bool take_odometry_and_fix() {
     const auto moved = odometry().get_update();
-    const bool is_new = !X_MO_ || localizer().new_data_arrived();
-    const auto fix = localizer().get_update();
-    if (!is_valid(*moved) || !is_valid(*fix)) return false;
+    if (!is_valid(*moved)) return false;
+    note_odometry(*moved);
     note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
-    if (is_new) take_fix(*fix);
+    const bool is_new = localizer().new_data_arrived();
+    if (wants_fix_ && !is_new) return false;
+    const auto fix = localizer().get_update();
+    if (!is_valid(*fix)) return false;
+    if (is_new || !X_MO_) take_fix(*fix);
+    wants_fix_ = false;
     note_pose(moved->stamp(), fix->covariance());
     return true;
   }
@@ -210,6 +214,16 @@ class GridPlanner final : public orca::go::GoalFollower {
     const double near = footprint().outer_radius() + kOwnEcho;
     std::erase_if(beams_, [&](const orca::nav::Beam& beam) { return norm(beam.to - robot) < near; });
     navigator_->hear(beams_, pose);
+  }
+
+  // What it has mapped lies elsewhere now, and so does the frame of the odometry in the map.
+  void forget_places() override {
+    navigator_.reset();
+    history_.clear();
+    X_MO_.reset();
+    scan_ = {};
+    heard_at_.reset();
+    wants_fix_ = true;
   }
 
   void idle() override {
@@ -393,6 +407,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::vector<Scanners::Source> listened_;
   orca::Twist2 twist_;
   std::optional<orca::TimePoint> heard_at_;
+  bool wants_fix_ = false;  // a pose of the localizer from after the places were forgotten
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -66,7 +67,7 @@ class Porter final : public orca::Component {
     const auto here = localizer_.get_update();
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
-    if (!senders_.accepts(*here)) {
+    if (!senders_.accepts(*here) || orca::is_anywhere(here->covariance())) {
       motion_.push(errand_ ? orca::full_stop() : orca::dont_care());
       return orca::again();
     }

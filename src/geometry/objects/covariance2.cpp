@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "matrix.hpp"
 #include "orca/base/portable_math.hpp"
@@ -48,6 +49,14 @@ idl::Pose2D inverse(const idl::Pose2D& X_AB) {
   geometry::store<3>(for_AB * matrix_of<3>(X_AB.covariance()) * for_AB.transpose(), X_BA.covariance());
   return X_BA;
 }
+
+std::array<double, 9> anywhere() {
+  constexpr double kFar = 1e6;  // [m]
+  constexpr double kTurned = 2.0 * std::numbers::pi;
+  return {kFar * kFar, 0.0, 0.0, 0.0, kFar * kFar, 0.0, 0.0, 0.0, kTurned * kTurned};
+}
+
+bool is_anywhere(const std::array<double, 9>& covariance) { return position_deviation(covariance) >= 1e5; }
 
 // The root of the larger eigenvalue of the covariance of x and y.
 double position_deviation(const std::array<double, 9>& covariance) {

@@ -4,9 +4,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/patterns/local/local_links.hpp"
+#include "orca/component/sender_life.hpp"
+#include "orca/component/sender_watch.hpp"
+#include "orca/idl/sensing.hpp"
 #include "peer.hpp"
 
 using namespace orca;
@@ -31,13 +36,15 @@ class Host final : public ComponentHost {
   [[nodiscard]] const std::string& name() const override { return peer_.strand().name(); }
   [[nodiscard]] TimePoint now() const override { return peer_.executive().now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name(), stream}; }
-  void write_log(log::Level /*level*/, std::string_view /*text*/) const override {}
+  void write_log(log::Level /*level*/, std::string_view text) const override { log.emplace_back(text); }
   [[nodiscard]] Device* hardware() override { return nullptr; }
   void stay_active(bool /*active*/) override {}
   [[nodiscard]] Strand& strand() override { return peer_.strand(); }
   std::uint64_t begin_mission() override { return 1; }
   void end_mission() override {}
   void note_cause(const idl::OrcaObject& /*object*/) override {}
+
+  mutable std::vector<std::string> log;
 
  private:
   mutable Peer peer_;
@@ -108,4 +115,42 @@ TEST_CASE("wait_until does not hold a component that must leave its lap", "[comp
     REQUIRE(script.ends_within(5s));
     CHECK(script.interrupted());
   });
+}
+
+TEST_CASE("the sender of readings that say nothing valid is named once in ten seconds", "[component]") {
+  run_on_each(virtual_executives(), [](Executive& executive) {
+    const Host host(executive, "avoid");
+    SenderWatch senders(host);
+    idl::Odometry odometry;
+    odometry.origin() = "base";
+    CHECK(senders.accepts(odometry));
+    CHECK(host.log.empty());
+    odometry.x(std::nan(""));
+    for (int i = 0; i < 210; ++i) {
+      CHECK_FALSE(senders.accepts(odometry));
+      sleep(executive, 50ms);
+    }
+    const std::string line = "the Odometry of \"base\" counts as none: its x is nan; expected at most 1e7";
+    CHECK(host.log == std::vector<std::string>{line, line});
+    odometry.origin() = "other";
+    CHECK_FALSE(senders.accepts(odometry));
+    CHECK(host.log.size() == 3);
+  });
+}
+
+TEST_CASE("a sender whose numbers go back has begun anew; one whose object comes twice, or another one, has not",
+          "[component]") {
+  SenderLife life;
+  idl::Odometry odometry;
+  const auto begins_anew = [&](const char* sender, std::uint64_t number) {
+    odometry.origin() = sender;
+    odometry.seq(number);
+    return life.begins_anew(odometry);
+  };
+  CHECK_FALSE(begins_anew("base", 7));
+  CHECK_FALSE(begins_anew("base", 7));
+  CHECK_FALSE(begins_anew("base", 9));
+  CHECK(begins_anew("base", 1));
+  CHECK_FALSE(begins_anew("base", 2));
+  CHECK_FALSE(begins_anew("other", 1));
 }

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -30,7 +31,16 @@ struct GotoPorts final : Partner {
   PushServer<idl::RobotPose> pose{*this, "localizer"};
   PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
   PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
+  PushProxy<idl::GoalFailed> failed{*this, "GoalFailedPush"};
   PushProxy<idl::Path> path{*this, "PathPush", {.depth = 4}};
+};
+
+struct OdometryPorts final : Partner {
+  using Partner::Partner;
+  SendProxy<idl::GoalPoint> goal{*this, "GotoCoordinateSend"};
+  PushServer<idl::Odometry> odometry{*this, "odometry"};
+  PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
+  PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
 };
 
 struct WrongType final : Partner {
@@ -84,6 +94,59 @@ TEST_CASE("a component that takes goals by Send is driven to its goal by poses t
   });
   CHECK(drove);
   CHECK(arrived);
+}
+
+TEST_CASE("Goto ends a goal as lost when its localizer says that the robot may be anywhere, and says of no other one that it is there",
+          "[testing][goto]") {
+  std::string reason;
+  bool stood = false;
+  bool arrived = false;
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    send_goal(test, 2.0);
+    push_pose(test, 0.0);
+    test.sleep(50ms);
+    auto pose = test.pose.loan();
+    pose->covariance(anywhere());
+    test.pose.push(std::move(pose));
+    reason = test.failed.get_update_wait()->reason();
+    send_goal(test, 2.0);
+    for (int i = 0; i < 20; ++i) {
+      pose = test.pose.loan();
+      pose->x(2.0);
+      pose->covariance(anywhere());
+      test.pose.push(std::move(pose));
+      test.sleep(50ms);
+    }
+    stood = test.motion.latest()->kind() != idl::NORMAL;
+    arrived = test.arrived.new_data_arrived();
+  });
+  CHECK(reason == "lost: it is not known any more where the robot is");
+  CHECK(stood);
+  CHECK_FALSE(arrived);
+}
+
+TEST_CASE("by odometry that does not say how wrong it is Goto claims no arrival after 40 m", "[testing][goto]") {
+  const auto arrives = [](double variance) {
+    bool arrived = false;
+    try_component<OdometryPorts>({.type = "orca.Goto"}, [&](OdometryPorts& test) {
+      auto goal = make_object<idl::GoalPoint>();
+      goal->reach_radius().distance(0.3);
+      goal->coordinate().point().x(40.0);
+      REQUIRE(test.goal.send(std::move(goal)).ok());
+      for (int i = 0; i <= 450; ++i) {
+        auto here = test.odometry.loan();
+        here->x(std::min(40.0, 0.1 * i));
+        here->covariance()[0] = here->covariance()[4] = variance;
+        here->stamp(to_time_value(test.now()));
+        test.odometry.push(std::move(here));
+        test.sleep(50ms);
+      }
+      arrived = test.arrived.new_data_arrived();
+    });
+    return arrived;
+  };
+  CHECK(arrives(0.01));
+  CHECK_FALSE(arrives(0.0));
 }
 
 TEST_CASE("Goto shows the way that is left when it changes, and not in every lap", "[testing][goto]") {

@@ -7,6 +7,7 @@
 
 #include "orca/avoidance/advice.hpp"
 #include "orca/component.hpp"
+#include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/idl/hardware.hpp"
@@ -154,6 +155,7 @@ class Avoider : public Component {
   Param<double> goal_max_age_;
 
   SenderWatch senders_{host()};
+  SenderLife odometer_;
   std::optional<QueryId> question_;  // To the base, as long as it has not answered.
   std::optional<Body> body_;
   EchoMemory memory_;

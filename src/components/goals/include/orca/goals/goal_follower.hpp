@@ -7,7 +7,9 @@
 #include <string>
 
 #include "orca/component.hpp"
+#include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/odometry_trust.hpp"
 #include "orca/goals/legs.hpp"
 #include "orca/goals/patience.hpp"
 #include "orca/goals/route.hpp"
@@ -40,6 +42,8 @@ class GoalFollower : public Component {
   virtual void drive(const Pose2& pose, const Target& target) = 0;
   /// Takes note that there is nothing to drive to.
   virtual void idle() {}
+  /// Forgets where things are: the robot is lost, or its odometry counts from another place.
+  virtual void forget_places() {}
 
   /// Takes over a step of step_of_rest(), or one like it: pushes its command, or announces the arrival.
   void take(const Step& step, const Pose2& pose, const Target& target);
@@ -68,6 +72,8 @@ class GoalFollower : public Component {
   /// Takes the pose of this lap. A derived class that overrides it calls this one or note_pose().
   /// @return nothing if the pose says nothing valid; the robot then stands.
   [[nodiscard]] virtual std::optional<Pose2> take_pose();
+  /// Takes note of odometry, whose frame becomes another one if the base begins anew.
+  void note_odometry(const idl::Odometry& odometry);
   /// Returns whether a reading says anything valid; if it does not, says so in the log.
   template <class Reading>
   [[nodiscard]] bool is_valid(const Reading& reading) {
@@ -91,6 +97,7 @@ class GoalFollower : public Component {
   void arrive(const Pose2& pose);
   void wait_to_be_sure();
   void wait_for_pose();
+  bool is_lost();
   [[nodiscard]] std::string doubt() const;
   [[nodiscard]] std::string place() const;
   bool is_hopeless(const Pose2& pose);
@@ -114,6 +121,9 @@ class GoalFollower : public Component {
   Param<double> weight_;
 
   SenderWatch senders_{host()};
+  OdometryTrust trust_;
+  SenderLife odometer_;
+  bool lost_ = false;  // It is not known where the robot is.
   Route route_;
   PathShown path_shown_;
   Legs legs_;

@@ -33,6 +33,12 @@ namespace orca {
 /// @thread  pure function; any thread.
 [[nodiscard]] double position_deviation(const std::array<double, 9>& covariance);
 
+/// Returns the covariance of a pose that may be anywhere, with which a localizer says that it has lost the robot.
+/// @thread  pure function, as the next; any thread.
+[[nodiscard]] std::array<double, 9> anywhere();
+/// Returns whether a covariance says that: the position is not known to 100 km.
+[[nodiscard]] bool is_anywhere(const std::array<double, 9>& covariance);
+
 /// Composes poses in space, as compose() does in the plane.
 /// @errors  failed_precondition if the result's x axis points straight up or down (within 1e-6 rad) and its
 ///          covariance is not zero: roll and yaw cannot be told apart there, so theirs does not exist.
