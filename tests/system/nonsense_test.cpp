@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sensors, localizers and behaviours that say nothing valid, between a robot and those who drive it.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 
@@ -73,4 +74,34 @@ TEST_CASE(
     "drives on afterwards",
     "[system][nonsense]") {
   check_that_nonsense_stands(12, 1);
+}
+
+TEST_CASE("a robot that stands for good says why, in one line for each cause", "[system][nonsense]") {
+  const auto says = [](const Driver& driver, const std::string& fault, const std::string& cause) {
+    Words words{system_graph("liar.xml"), "--profile", driver.profile, "--set",
+                "fault=" + fault,         "--until",   "15 s"};
+    if (!driver.avoid.empty()) words = words + Words{"--set", "avoid=" + driver.avoid};
+    const Run run = run_deployer(words + with_test_plugins() + virtual_clock());
+    INFO(driver.profile << " " << driver.avoid << " " << fault << "\n" << run.err);
+    const std::vector<std::string> lines = split_lines(run.err);
+    CHECK(std::ranges::count_if(
+              lines, [&](const std::string& line) { return line.find(cause) != std::string::npos; }) == 1);
+  };
+  for (const Driver& driver : kDrivers) {
+    if (driver.profile != "by_laser" && driver.profile != "planner") continue;
+    says(driver, "posts",
+         "the robot stands: of the laser \"liar\" 10 of its 181 beams, from -90 to -81 deg, end within the "
+         "robot's own outline: it sees itself");
+    says(driver, "covered",
+         "the robot stands: of the laser \"liar\" 10 of its 181 beams, from -90 to -81 deg, are nearer than "
+         "its "
+         "min_range of 0 m: something is at the laser");
+  }
+  says({"by_sonar", {}}, "sonars_off",
+       "the SonarRangeReadings of \"liar\" counts as none: no sonar has fired for ");
+}
+
+TEST_CASE("a hundred wrong scans, poses and commands, drawn by the seed, stop each behaviour",
+          "[.][slow][system][nonsense]") {
+  for (const int seed : {2, 3}) check_that_nonsense_stands(100, seed);
 }

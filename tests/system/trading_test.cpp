@@ -58,8 +58,9 @@ TEST_CASE("a robot whose localizer is killed on the way reaches its goal by the 
   CHECK_FALSE(run.says("process localizing is back"));
 }
 
-TEST_CASE("after the process of the base was lost it is not known where the robot is, and the goal ends as lost",
-          "[system][trading]") {
+TEST_CASE(
+    "after the process of the base was lost it is not known where the robot is, and the goal ends as lost",
+    "[system][trading]") {
   System system({kGraph});
   const pid_t base = system.process("base");
   std::this_thread::sleep_for(Seconds(4));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
@@ -104,6 +103,7 @@ Status Avoider::start() {
   heard_at_.reset();
   moved_at_.reset();
   last_direction_ = 0.0;
+  standing_.reset();
   body_.reset();
   return ask_robot();
 }
@@ -192,20 +192,11 @@ double Avoider::age_of(TimePoint seen) const {
   return to_seconds((remembers() && moved_at_ ? *moved_at_ : now()) - seen);
 }
 
-bool Avoider::is_recent(TimePoint seen, const std::string& sender) {
-  const double age = age_of(seen);
-  if (std::abs(age) <= deaf_after()) return true;
-  char text[160];
-  std::snprintf(text, sizeof text, "it was measured %.3g s %s %s; expected at most %.3g s, by the same clock",
-                std::abs(age), age > 0.0 ? "before" : "after", remembers() ? "the robot's odometry" : "now",
-                deaf_after());
-  return senders_.accepts(fail(Code::invalid_argument, text), sensed().name, sender);
-}
-
 Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved(twist_, age), point); }
 
 void Avoider::advise() {
   const bool hears = heard_at_ && to_seconds(now() - *heard_at_) <= deaf_after() && hears_aside(deaf_after());
+  standing_.look(stands(twist_), [&] { return hears && !question_ ? what_holds() : why_deaf(); });
   if (question_ || !hears) {
     motion_.push(full_stop());
     return;
@@ -220,6 +211,18 @@ void Avoider::advise() {
   } else {
     motion_.push(head(advised.direction, advised.speed, weight));
   }
+}
+
+std::string Avoider::why_deaf() {
+  if (question_) return "the base has not described the robot yet";
+  if (heard_at_ && to_seconds(now() - *heard_at_) <= deaf_after()) return silent_aside(deaf_after());
+  const std::uint64_t unmatched = sensor().counters().unmatched;
+  std::string text = "nothing valid comes at its port \"" + sensor().name() + "\"";
+  if (unmatched > 0)
+    text +=
+        "; " + std::to_string(unmatched) +
+        " objects were dropped there because no other port had one of the same moment: stamps do not meet";
+  return text;
 }
 
 std::optional<Pose2> Avoider::pose() {

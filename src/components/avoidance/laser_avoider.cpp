@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "orca/avoidance/scan.hpp"
+#include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -88,11 +89,33 @@ void LaserAvoider::listen_aside(EchoMemory& memory) {
   }
 }
 
+bool LaserAvoider::is_heard(const MoreLasers::Source& source, double longest) const {
+  const auto laser = std::ranges::find(further_, source, &Further::source);
+  return laser != further_.end() && laser->heard && to_seconds(now() - *laser->heard) <= longest;
+}
+
 bool LaserAvoider::hears_aside(double longest) const {
-  return std::ranges::all_of(more_lasers_.sources(), [&](const MoreLasers::Source& source) {
-    const auto laser = std::ranges::find(further_, source, &Further::source);
-    return laser != further_.end() && laser->heard && to_seconds(now() - *laser->heard) <= longest;
-  });
+  return std::ranges::all_of(more_lasers_.sources(),
+                             [&](const MoreLasers::Source& source) { return is_heard(source, longest); });
+}
+
+std::string LaserAvoider::silent_aside(double longest) const {
+  for (const MoreLasers::Source& source : more_lasers_.sources())
+    if (!is_heard(source, longest)) return "nothing valid comes from " + source.path();
+  return {};
+}
+
+std::string LaserAvoider::what_holds() {
+  const auto rectangle = described_body();
+  const RobotOutline robot{radius(), rectangle ? 2.0 * rectangle->half_length : 0.0,
+                           rectangle ? 2.0 * rectangle->half_width : 0.0};
+  std::vector<ObjectPtr<idl::LaserRangeReadings>> scans{laser_.latest()};
+  for (const MoreLasers::Source& source : more_lasers_.sources()) scans.push_back(source.latest());
+  for (const auto& scan : scans) {
+    const std::string beams = scan ? beams_at_robot(*scan, robot) : "";
+    if (!beams.empty()) return "of the laser \"" + scan->origin() + "\" " + beams;
+  }
+  return {};
 }
 
 LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
@@ -106,7 +129,7 @@ LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
 bool LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
                             std::uint32_t number) {
   const TimePoint seen = to_time_point(readings.stamp());
-  if (!is_valid(readings) || !is_recent(seen, readings.origin())) return false;
+  if (!is_valid(readings) || !is_valid(readings, check_age(age_of(seen), deaf_after()))) return false;
   const Pose2 mount = plane_pose(readings.pose());
   const double age = age_of(seen);
   const Vec2 place = moved_since(mount.position(), age);

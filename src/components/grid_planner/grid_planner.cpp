@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/component/standing_watch.hpp"
+#include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/goals/goal_follower.hpp"
 #include "orca/idl/hardware.hpp"
@@ -33,6 +35,7 @@ class GridPlanner final : public orca::go::GoalFollower {
  private:
   static constexpr double kBlockedAfter = 60.0;  // [s]
   static constexpr double kBrakes = 0.8;         // of the change of speed that the base is capable of
+  static constexpr double kSlow = 0.01;          // [m/s], [rad/s]
   static constexpr double kOwnEcho = 0.1;        // [m] what scanners see so near to the robot is the robot
   using Scanners = orca::PushProxyArray<orca::idl::LaserRangeReadings>;
 
@@ -126,7 +129,9 @@ class GridPlanner final : public orca::go::GoalFollower {
   // A scan that says nothing valid is none: the laser is silent until another one comes.
   void take_scan() {
     scan_ = laser_.get_update();
-    if (is_valid(*scan_)) return;
+    const double age =
+        history_.empty() ? 0.0 : orca::to_seconds(history_.newest() - orca::to_time_point(scan_->stamp()));
+    if (is_valid(*scan_) && is_valid(*scan_, orca::check_age(age, *deaf_after_))) return;
     scan_ = {};
     heard_at_.reset();
   }
@@ -227,11 +232,15 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   void idle() override {
+    standing_.reset();
     if (navigator_) navigator_->drop_path();
   }
 
   void drive(const Pose2& pose, const Target& target) override {
-    if (!navigator_ || !heard_at_ || orca::to_seconds(now() - *heard_at_) > *deaf_after_) {
+    const bool hears = navigator_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= *deaf_after_;
+    const bool stands = std::abs(twist_.forward) < kSlow && std::abs(twist_.turn_rate) < kSlow;
+    standing_.look(stands, [&] { return hears ? what_holds() : why_deaf(); });
+    if (!hears) {
       motion().push(orca::full_stop());
       note_speed(0.0);
       return;
@@ -241,6 +250,24 @@ class GridPlanner final : public orca::go::GoalFollower {
     const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
     motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
     note_speed(steer.speed);
+  }
+
+  [[nodiscard]] std::string what_holds() const {
+    const auto scan = laser_.latest();
+    const orca::nav::Footprint own = footprint();
+    const std::string beams =
+        scan ? orca::beams_at_robot(*scan, {own.radius, 2.0 * own.half_length, 2.0 * own.half_width}) : "";
+    return beams.empty() ? beams : "of the laser \"" + scan->origin() + "\" " + beams;
+  }
+
+  [[nodiscard]] std::string why_deaf() const {
+    if (question_) return "the base has not described the robot yet";
+    const auto scan = laser_.latest();
+    const bool comes = scan && orca::check_reading(*scan).ok() &&
+                       orca::to_seconds(now() - orca::to_time_point(scan->creation_time())) <= *deaf_after_;
+    return comes ? "scans of \"" + scan->origin() +
+                       "\" come, but no pose of the time at which they were taken: stamps do not meet"
+                 : "nothing valid comes at its port \"laser\"";
   }
 
   // Comes to rest within reach of a goal, but not by driving into something.
@@ -407,6 +434,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::vector<Scanners::Source> listened_;
   orca::Twist2 twist_;
   std::optional<orca::TimePoint> heard_at_;
+  orca::StandingWatch standing_{host()};
   bool wants_fix_ = false;  // a pose of the localizer from after the places were forgotten
 };
 

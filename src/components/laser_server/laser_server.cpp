@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <atomic>
 #include <string>
 #include <vector>
 
+#include "ignored.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/hw/server.hpp"
@@ -23,7 +25,30 @@ class LaserServer final : public orca::hw::HardwareServer {
     if (seat() != nullptr && seat()->description().laser_sensors().empty())
       return orca::fail(orca::Code::failed_precondition,
                         "its hardware has no laser; bind hardware with a laser to this component");
+    const orca::Result<orca::laser::Ignored> ignored = orca::laser::Ignored::parse(*ignore_);
+    if (!ignored) return ignore_.refuse(ignored.error());
+    ignored_ = *ignored;
+    if (seat() != nullptr) {
+      const orca::idl::Robot robot = seat()->description();
+      robot_ = {robot.radius(), robot.length(), robot.width()};
+    }
     return HardwareServer::configure();
+  }
+
+  orca::Outcome work() override {
+    if (const std::size_t count = left_out_; count != told_) {
+      told_ = count;
+      log_info("leaves out " + std::to_string(count) +
+               " beams of a scan, as its parameter ignore says: " + orca::listed(*ignore_));
+    }
+    return HardwareServer::work();
+  }
+
+  void amend(orca::ObjectLoan& reading) const override {
+    if (ignored_.empty() || reading.type().name != "LaserRangeReadings") return;
+    const std::size_t count =
+        ignored_.leave_out(*static_cast<orca::idl::LaserRangeReadings*>(reading.get()), robot_);
+    if (count > left_out_) left_out_ = count;
   }
 
   orca::Result<orca::Loan<orca::idl::LaserSensor>> on_describe(const orca::ObjectPtr<orca::idl::Ask>& ask) {
@@ -37,6 +62,19 @@ class LaserServer final : public orca::hw::HardwareServer {
     return orca::fail(orca::Code::not_found, "its hardware has no laser " + orca::in_quotes(ask->about()) +
                                                  "; lasers: " + orca::listed(names));
   }
+
+  orca::Param<std::vector<std::string>> ignore_{
+      *this,
+      "ignore",
+      {},
+      {.fixed = true,
+       .text = "Beams to leave out, such as those that see the robot itself: \"sector FROM TO\" in degrees "
+               "of the "
+               "scan, \"box X1 Y1 X2 Y2\" in metres of the robot's frame, \"outline\"."}};
+  orca::laser::Ignored ignored_;
+  orca::RobotOutline robot_;
+  mutable std::atomic<std::size_t> left_out_{0};  // most of a scan so far; written by the driver's strand
+  std::size_t told_ = 0;
 
   orca::QueryServer<orca::idl::Ask, orca::idl::LaserSensor> description_{
       *this,

@@ -33,6 +33,16 @@ void Ear::take(Listened& behaviour, const ObjectPtr<idl::MotionCommand>& newest,
   if (newest->kind() == idl::NORMAL) behaviour.last_wish = newest;
 }
 
+void Ear::note_wait(Duration waited) {
+  if (waited < 500ms) return;
+  const TimePoint now = host_.now();
+  if (starved_at_ && now - *starved_at_ < 10s) return;
+  starved_at_ = now;
+  host_.write_log(log::Level::warning, "the process got no processor for " +
+                                           std::to_string(to_seconds(waited)) +
+                                           " s: what behaviours said meanwhile is late, and the robot stood");
+}
+
 void Ear::ask_about(const std::string& behaviour, const idl::MotionCommand& command) {
   const std::optional<std::string> doubt = doubt_about(command);
   if (doubt && asked_.insert(behaviour).second)

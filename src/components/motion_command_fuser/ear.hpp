@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 
@@ -21,12 +22,16 @@ class Ear {
   /// @param limit [s]  silence of the behaviour that stops the robot.
   void take(Listened& behaviour, const ObjectPtr<idl::MotionCommand>& newest, double limit);
 
+  /// Takes note of how long it has waited for a moment. Half a second means that the process got no processor: it says so.
+  void note_wait(Duration waited);
+
  private:
   void ask_about(const std::string& behaviour, const idl::MotionCommand& command);
 
   const PluginHost& host_;
   SenderWatch senders_;
   std::set<std::string> asked_;  // Behaviours.
+  std::optional<TimePoint> starved_at_;
 };
 
 /// Returns what kind of thing a behaviour has said.

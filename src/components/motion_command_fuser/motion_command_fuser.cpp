@@ -150,7 +150,10 @@ class MotionCommandFuser final : public orca::Component {
       behaviours_.wait_to_fuse(orca::Fusing::clock, orca::from_seconds(*period_));
       return true;
     }
-    if (behaviours_.wait(kWatchPeriod) == nullptr) return false;
+    const orca::TimePoint asked = now();
+    const bool heard = behaviours_.wait(kWatchPeriod) != nullptr;
+    ear_.note_wait(now() - asked);
+    if (!heard) return false;
     if (*sync_ == "all")
       behaviours_.wait_all(orca::from_seconds(*all_wait_), [this] { return stop_is_waiting(); });
     return true;

@@ -51,7 +51,23 @@ class SonarAvoid final : public orca::avoid::Avoider {
     std::optional<orca::TimePoint> last;
     for (const orca::idl::TimeValue& stamp : readings.stamps())
       last = std::max(last, std::optional(orca::to_time_point(stamp)));
-    return !last || is_recent(*last, readings.origin());
+    return !last || is_valid(readings, last_firing(age_of(*last)));
+  }
+
+  [[nodiscard]] orca::Status last_firing(double age) const {
+    if (age <= deaf_after()) return orca::check_age(age, deaf_after());
+    return orca::fail(orca::Code::invalid_argument,
+                      "no sonar has fired for " + std::to_string(age) + " s; are the sonars off?");
+  }
+
+  [[nodiscard]] std::string what_holds() override {
+    const auto round = sonar_.latest();
+    if (!round) return {};
+    const auto near =
+        std::ranges::count_if(round->ranges(), [&](double range) { return range <= round->min_range(); });
+    if (near == 0) return {};
+    return std::to_string(near) + " of the " + std::to_string(round->ranges().size()) + " sonars of \"" +
+           round->origin() + "\" hear something nearer than they can measure";
   }
 
   // A base tells of its whole ring more often than the ring makes its round. What is told again would confirm itself, and each

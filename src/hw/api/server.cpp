@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "orca/idl/checks.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 
@@ -55,6 +56,7 @@ class HardwareServer::SensorPorts {
 
   void connect() {
     server_.seat_->set_sink(sensor_, this, [this](ObjectLoan reading) {
+      server_.amend(reading);
       if (!open_.load(std::memory_order_acquire)) return std::move(reading).seal();
       ObjectRef pushed = push_.push(std::move(reading));
       server_.host().strand().wake();  // a query may wait for it
@@ -115,7 +117,7 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
   if (seat_->has_line())
     statistics_ = std::make_unique<QueryServer<idl::Ask, idl::DeviceStatistics>>(
         *this, "DeviceStatisticsQuery", &HardwareServer::on_statistics,
-        PortOptions{.text = "What was counted on the line to the device, and why it does not work."});
+        PortOptions{.text = "What was counted on the line to the device, and why it failed last."});
 }
 
 HardwareServer::~HardwareServer() {
@@ -191,11 +193,13 @@ Result<Loan<idl::DeviceStatistics>> HardwareServer::on_statistics(const ObjectPt
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
   if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;
+  ask_about(*command);
   return carry_out(command, command->kind() == idl::FULLSTOP);
 }
 
 Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity) {
   if (Status checked = check_command(*velocity); !checked.ok()) return checked;
+  ask_about(*velocity);
   return carry_out(velocity,
                    velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
 }
@@ -223,6 +227,14 @@ Status HardwareServer::carry_out(const ObjectPtr<Command>& command, bool stands)
   if (!stands) waiting_command_ = [this, command] { return seat_->command(*command); };
   stay_active(!stands);
   return ok();
+}
+
+// Asks the sender of a command that no robot can carry out, once. The base does what it can.
+template <class Command>
+void HardwareServer::ask_about(const Command& command) {
+  const std::optional<std::string> doubt = doubt_about(command);
+  if (doubt && doubted_.insert(command.origin()).second)
+    log_warning("\"" + command.origin() + "\" commands " + *doubt);
 }
 
 // A base that stands in front of an obstacle gets command after command: only the first one for each reason is told.

@@ -26,6 +26,8 @@ using orca::idl::SonarRangeReadings;
 /// Stands between a robot and those who drive it, and passes on what they say to each other. Each time that the robot drives
 /// it turns what one port says into nonsense for a second, drawn by the seed: scans, rounds, odometry, poses or commands. It
 /// reports how fast the robot was before, and the largest speed from half a second after the first wrong object on.
+///
+/// With a `fault` it does not lie: the robot has one thing wrong with it from 3 s on.
 class Liar final : public orca::Component {
   template <class T>
   struct Relay {
@@ -72,7 +74,8 @@ class Liar final : public orca::Component {
     look();
     for_each_relay([this](auto& relay, About about) { pass_on(relay, about); });
     if (told_ == *lies_) return orca::done();
-    if (now() - rested_at_ > kPatience) return orca::failed("the robot does not drive any more");
+    if (fault_->empty() && now() - rested_at_ > kPatience)
+      return orca::failed("the robot does not drive any more");
     return orca::again();
   }
 
@@ -80,7 +83,7 @@ class Liar final : public orca::Component {
   void look() {
     while (truth_.new_data_arrived()) speed_ = std::abs(truth_.get_update()->translational_velocity());
     if (about_ == About::nothing) {
-      if (speed_ > kDrives && now() - rested_at_ > 1s) begin();
+      if (fault_->empty() && speed_ > kDrives && now() - rested_at_ > 1s) begin();
       return;
     }
     if (!first_) return;
@@ -113,6 +116,7 @@ class Liar final : public orca::Component {
   void pass_on(Relay<T>& relay, About about) {
     while (relay.in.new_data_arrived()) {
       auto object = copy_value(relay.in.get_update());
+      if (!fault_->empty() && now() > orca::TimePoint{3s}) break_something(*object);
       if (about_ == about) {
         spoil(*object);
         if (!first_) first_ = now();
@@ -128,6 +132,19 @@ class Liar final : public orca::Component {
     act(odometry_, About::odometry);
     act(pose_, About::pose);
     act(motion_, About::command);
+  }
+
+  template <class T>
+  void break_something(T& /*object*/) const {}
+  void break_something(LaserRangeReadings& scan) const {
+    for (std::size_t i = 0; i < 10; ++i) {
+      if (*fault_ == "posts") scan.ranges()[i] = 0.1;
+      if (*fault_ == "covered") scan.ranges()[i] = -std::numeric_limits<double>::infinity();
+    }
+  }
+  void break_something(SonarRangeReadings& round) const {
+    if (*fault_ != "sonars_off") return;
+    for (orca::idl::TimeValue& stamp : round.stamps()) stamp = orca::to_time_value(orca::TimePoint{3s});
   }
 
   // The same for all objects of one lie.
@@ -235,6 +252,7 @@ class Liar final : public orca::Component {
   orca::SendProxy<orca::idl::GoalPoint> goto_{
       *this, "goto", {.text = "Who drives; it is to circle around (x, y)."}};
   orca::Param<std::int64_t> lies_{*this, "lies", 12, {.min = 1.0}};
+  orca::Param<std::string> fault_{*this, "fault", "", {.choices = {"", "posts", "covered", "sonars_off"}}};
   orca::Param<double> x_{*this, "x", 7.0, {.unit = "m"}};
   orca::Param<double> y_{*this, "y", 4.5, {.unit = "m"}};
 

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "executives.hpp"
-#include "orca/idl/motion.hpp"
-#include "orca/patterns/local/local_links.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
+#include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "peer.hpp"
 
 using namespace orca;
@@ -138,8 +138,9 @@ TEST_CASE("the sender of readings that say nothing valid is named once in ten se
   });
 }
 
-TEST_CASE("a sender whose numbers go back has begun anew; one whose object comes twice, or another one, has not",
-          "[component]") {
+TEST_CASE(
+    "a sender whose numbers go back has begun anew; one whose object comes twice, or another one, has not",
+    "[component]") {
   SenderLife life;
   idl::Odometry odometry;
   const auto begins_anew = [&](const char* sender, std::uint64_t number) {

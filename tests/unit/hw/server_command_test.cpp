@@ -124,3 +124,18 @@ TEST_CASE("a command that no base can carry out fails by itself: it starts no ha
     CHECK(base.robot.notes("drive 0.25 0.5"));
   });
 }
+
+TEST_CASE("a base asks once about commands that no robot can carry out, and names their sender",
+          "[hw][server][motion]") {
+  run_on_each(virtual_executives(), [](Executive& executive) {
+    ScoutBase base(executive);
+    base.run();
+    for (int i = 0; i < 3; ++i) {
+      REQUIRE(base.client.motion.send(turn(90.0, 0.5)).ok());
+      sleep(executive, 50ms);
+    }
+    const auto lines = base.bench.diary().lines();
+    CHECK(std::ranges::count(lines,
+                             "log: \"client\" commands a turn rate of 90 rad/s: did you mean degrees?") == 1);
+  });
+}

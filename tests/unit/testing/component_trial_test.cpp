@@ -96,8 +96,10 @@ TEST_CASE("a component that takes goals by Send is driven to its goal by poses t
   CHECK(arrived);
 }
 
-TEST_CASE("Goto ends a goal as lost when its localizer says that the robot may be anywhere, and says of no other one that it is there",
-          "[testing][goto]") {
+TEST_CASE(
+    "Goto ends a goal as lost when its localizer says that the robot may be anywhere, and says of no other "
+    "one that it is there",
+    "[testing][goto]") {
   std::string reason;
   bool stood = false;
   bool arrived = false;
@@ -125,7 +127,8 @@ TEST_CASE("Goto ends a goal as lost when its localizer says that the robot may b
   CHECK_FALSE(arrived);
 }
 
-TEST_CASE("by odometry that does not say how wrong it is Goto claims no arrival after 40 m", "[testing][goto]") {
+TEST_CASE("by odometry that does not say how wrong it is Goto claims no arrival after 40 m",
+          "[testing][goto]") {
   const auto arrives = [](double variance) {
     bool arrived = false;
     try_component<OdometryPorts>({.type = "orca.Goto"}, [&](OdometryPorts& test) {

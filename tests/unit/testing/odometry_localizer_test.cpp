@@ -54,7 +54,8 @@ TEST_CASE("a pose by odometry starts where the robot does, and faces as it did",
   CHECK(pose->stamp().ns() == 123);
 }
 
-TEST_CASE("odometry that does not say how wrong it is gives a pose that is not exact", "[testing][localizer]") {
+TEST_CASE("odometry that does not say how wrong it is gives a pose that is not exact",
+          "[testing][localizer]") {
   const auto covariance = pose_with({})->covariance();
   CHECK(position_deviation(covariance) > 0.05);  // after 2 m
   CHECK(covariance[8] > 0.0);

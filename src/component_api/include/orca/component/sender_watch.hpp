@@ -10,6 +10,13 @@
 
 namespace orca {
 
+/// Checks when a reading was measured.
+/// @param age [s]   that it has, by the clock of the one who takes it or by the odometry's; negative: it is from later.
+/// @param most [s]  that it may have, or be from later.
+/// @errors  invalid_argument.
+/// @thread  pure function; any thread.
+[[nodiscard]] Status check_age(double age, double most);
+
 /// The watch over those whose readings a component drives by. A reading that says nothing valid counts as none, and one line in
 /// the log names its sender and says why: at most one in 10 s for each sender and object type.
 ///

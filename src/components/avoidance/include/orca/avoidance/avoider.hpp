@@ -9,6 +9,7 @@
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
+#include "orca/component/standing_watch.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
@@ -53,13 +54,17 @@ class Avoider : public Component {
   /// Returns the object type that the sensor delivers.
   [[nodiscard]] virtual const ObjectType& sensed() const = 0;
   /// Puts the newest readings of the sensor into the memory.
-  /// @return whether they count: is_valid() and is_recent().
+  /// @return whether they count: is_valid(), and measured lately.
   /// @pre  sensor() has new data.
   virtual bool listen(EchoMemory& memory) = 0;
   /// Does the same for sensors besides it, if the class has any. Called once a lap.
   virtual void listen_aside(EchoMemory& /*memory*/) {}
   /// Returns whether each of those has been heard in the last `longest` seconds.
   [[nodiscard]] virtual bool hears_aside(double /*longest*/) const { return true; }
+  /// Says who of those is silent, for people.
+  [[nodiscard]] virtual std::string silent_aside(double /*longest*/) const { return {}; }
+  /// Says what of the last readings must hold the robot where it is, for people; empty if nothing does. Called while it stands.
+  [[nodiscard]] virtual std::string what_holds() { return {}; }
   /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.
   /// @param limits  those of the parameters, with a side distance of 0.
   [[nodiscard]] virtual Advice advice(const EchoMemory& memory, const Situation& situation,
@@ -82,10 +87,12 @@ class Avoider : public Component {
   [[nodiscard]] bool is_valid(const Reading& reading) {
     return senders_.accepts(reading);
   }
-  /// Returns whether what was sensed at `seen` can be put into the frame in which echoes are kept: it is neither older nor newer
-  /// than the time after which a silent sensor stops the robot. If it is, says so in the log.
-  /// @param sender  of the reading.
-  [[nodiscard]] bool is_recent(TimePoint seen, const std::string& sender);
+  /// Says in the log what is wrong with a reading, if it is not ok.
+  /// @return whether it is.
+  template <class Reading>
+  [[nodiscard]] bool is_valid(const Reading& reading, const Status& checked) {
+    return senders_.accepts(checked, object_type<Reading>().name, reading.origin());
+  }
   /// Moves a point of that age [s] into the frame in which echoes are kept, using odometry.
   [[nodiscard]] Vec2 moved_since(Vec2 point, double age) const;
   /// Returns how far the robot has turned [rad] in the `age` [s] before that frame.
@@ -93,6 +100,10 @@ class Avoider : public Component {
   [[nodiscard]] EchoMemory::Limits keep() const;
   /// Returns the rectangle that holds the robot, if the base has described one.
   [[nodiscard]] std::optional<Rectangle> described_body() const;
+  /// Returns the time [s] without readings after which the robot stops, which is also the largest age of a reading.
+  [[nodiscard]] double deaf_after() const;
+  /// Returns the radius [m] of the circle that holds the robot.
+  [[nodiscard]] double radius() const { return body_ ? body_->radius : *robot_radius_; }
   /// Returns the time [s] from an echo until the robot follows the advice.
   [[nodiscard]] double reaction_time() const { return *reaction_time_; }
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
@@ -120,8 +131,7 @@ class Avoider : public Component {
   bool follow(const idl::Odometry& odometry);
   void advise();
   [[nodiscard]] Limits limits() const;
-  [[nodiscard]] double radius() const { return body_ ? body_->radius : *robot_radius_; }
-  [[nodiscard]] double deaf_after() const;
+  [[nodiscard]] std::string why_deaf();
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
   [[nodiscard]] ObjectPtr<idl::GoalPoint> present_goal() const;
   /// Adds what is known of the goal, if there is one and the robot knows where it is itself.
@@ -164,6 +174,7 @@ class Avoider : public Component {
   std::optional<TimePoint> moved_at_;
   std::optional<TimePoint> heard_at_;
   double last_direction_ = 0.0;
+  StandingWatch standing_{host()};
 };
 
 }  // namespace orca::avoid

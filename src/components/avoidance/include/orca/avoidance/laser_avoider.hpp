@@ -53,6 +53,9 @@ class LaserAvoider : public Avoider {
   bool listen(EchoMemory& memory) override;
   void listen_aside(EchoMemory& memory) override;
   [[nodiscard]] bool hears_aside(double longest) const override;
+  [[nodiscard]] std::string silent_aside(double longest) const override;
+  [[nodiscard]] std::string what_holds() override;
+  [[nodiscard]] bool is_heard(const MoreLasers::Source& source, double longest) const;
   [[nodiscard]] Further& further(const MoreLasers::Source& source);
   // Returns whether the scan counts.
   bool put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings, std::uint32_t number);

@@ -79,6 +79,12 @@ class GoalFollower : public Component {
   [[nodiscard]] bool is_valid(const Reading& reading) {
     return senders_.accepts(reading);
   }
+  /// Says in the log what is wrong with a reading, if it is not ok.
+  /// @return whether it is.
+  template <class Reading>
+  [[nodiscard]] bool is_valid(const Reading& reading, const Status& checked) {
+    return senders_.accepts(checked, object_type<Reading>().name, reading.origin());
+  }
 
  private:
   // What the subscribers to the path have seen.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class HardwareServer : public Component {
   [[nodiscard]] HardwareSeat* seat() const { return seat_; }
   /// Offers the commands that the base can carry out, if there is one, and those of the other actuators.
   void offer_motion();
+  /// Changes a reading before anybody gets it.
+  /// @thread  the driver's strand; what it uses must be constant while the component works.
+  virtual void amend(ObjectLoan& /*reading*/) const {}
 
  private:
   class SensorPorts;
@@ -60,6 +64,8 @@ class HardwareServer : public Component {
   Status carry_out(const ObjectPtr<Command>& command, bool stands);
   void offer_base();
   Status told_once(const Status& taken);
+  template <class Command>
+  void ask_about(const Command& command);
   void carry_out_waiting_command();
   void release_idle_motion();
 
@@ -72,7 +78,8 @@ class HardwareServer : public Component {
   std::vector<std::unique_ptr<SendServerHandle>> actuators_;
   std::function<Status()> waiting_command_;  // came while the hardware was idle
   TimePoint last_command_{};
-  std::string obstruction_;  // why the base did not carry out the last command
+  std::string obstruction_;        // why the base did not carry out the last command
+  std::set<std::string> doubted_;  // senders of commands that no robot can carry out
 };
 
 }  // namespace orca::hw

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/geometry/vec2.hpp"
+#include "orca/idl/sensing.hpp"
+
+namespace orca {
+
+/// The outline of a robot, around the origin of its frame, x forward.
+struct RobotOutline {
+  double radius = 0.0;  ///< [m] of the circle that holds it.
+  double length = 0.0;  ///< [m] of the rectangle that holds it; 0: the circle is all.
+  double width = 0.0;   ///< [m]
+
+  [[nodiscard]] bool holds(Vec2 point) const;
+};
+
+/// Returns the place where a beam of a scan ends, robot frame. One that is too near to be measured ends at the sensor.
+/// @pre  its range is a number.
+[[nodiscard]] Vec2 end_of_beam(const idl::LaserRangeReadings& scan, std::size_t beam);
+
+/// Says which beams of a scan must hold the robot where it is, for people: those that are too near to be measured, and those that
+/// end within the robot's own outline. Empty if there are none.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::string beams_at_robot(const idl::LaserRangeReadings& scan, const RobotOutline& robot);
+
+}  // namespace orca
