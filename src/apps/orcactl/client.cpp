@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "orca/base/own_folder.hpp"
+#include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/names.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/base/open_output.hpp"
+#include "orca/base/files/open_output.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

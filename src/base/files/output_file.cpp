@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
-#include "orca/base/open_output.hpp"
+#include "orca/base/files/open_output.hpp"
 #include "used_files.hpp"
 
 namespace orca {

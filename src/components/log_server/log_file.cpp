@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/files/open_output.hpp"
 #include "orca/base/input_file.hpp"
-#include "orca/base/open_output.hpp"
 
 namespace orca::logs {
 namespace {

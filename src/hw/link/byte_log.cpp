@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "log_writer.hpp"
+#include "orca/base/files/open_output.hpp"
 #include "orca/base/input_file.hpp"
-#include "orca/base/open_output.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::hw::link {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "orca/base/own_folder.hpp"
+#include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/pty_link.hpp"

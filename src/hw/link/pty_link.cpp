@@ -12,7 +12,7 @@
 
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
-#include "orca/base/open_output.hpp"
+#include "orca/base/files/open_output.hpp"
 #include "stream.hpp"
 
 namespace orca::hw::link {

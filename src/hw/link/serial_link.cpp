@@ -13,7 +13,7 @@
 
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
-#include "orca/base/open_output.hpp"
+#include "orca/base/files/open_output.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "serial_places.hpp"
 #include "serial_trouble.hpp"

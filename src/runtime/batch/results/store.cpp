@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "orca/base/files/open_output.hpp"
 #include "orca/base/hash.hpp"
-#include "orca/base/open_output.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::batch {

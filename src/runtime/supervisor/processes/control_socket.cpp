@@ -17,8 +17,8 @@
 #include <string_view>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/files/own_folder.hpp"
 #include "orca/base/hash.hpp"
-#include "orca/base/own_folder.hpp"
 
 namespace orca::supervisor {
 namespace {

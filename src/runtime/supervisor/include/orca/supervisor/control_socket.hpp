@@ -14,7 +14,7 @@
 
 namespace orca::supervisor {
 
-/// The Unix socket of a running system: `<graph>.sock` in the folder of the user (orca/base/own_folder.hpp), with mode 0600.
+/// The Unix socket of a running system: `<graph>.sock` in the folder of the user (orca/base/files/own_folder.hpp), with mode 0600.
 /// It keeps packets apart, as a Channel needs it. Both ends are proven: the folder is this user's alone, and who is at the
 /// other end is this user, or root.
 

@@ -41,7 +41,7 @@ struct LinkOptions {
 [[nodiscard]] std::string real_place(std::string_view text);
 
 /// Returns the path at which an emulation of that name offers its line: `emulated/NAME` in the folder of the user
-/// (orca/base/own_folder.hpp).
+/// (orca/base/files/own_folder.hpp).
 /// @thread  any that may read the environment.
 [[nodiscard]] std::string emulated_path(std::string_view name);
 
