@@ -98,7 +98,10 @@ SharedWorld::Inbox SharedWorld::advance(RobotId robot, TimePoint now) {
 
 void SharedWorld::catch_up(TimePoint now) {
   const Duration behind = now - on_run_clock(world_.time());
-  if (behind > kFarBehind) epoch_ += behind - World::kTick;
+  if (behind > kFarBehind) {
+    epoch_ += behind - World::kTick;
+    if (!members_.empty()) members_.front().inbox.lost += behind - World::kTick;
+  }
   while (on_run_clock(world_.time() + World::kTick) <= now) step();
 }
 

@@ -52,6 +52,8 @@ class SharedWorld {
     };
     std::vector<Contact> contacts;
     std::vector<std::string> happened;  ///< In the world, in words; only the robot that came first is told.
+    Duration lost{
+        0};  ///< Time [s] that the world has left out, because nobody drove it on; the first robot gets it.
   };
 
   /// Returns the world of that key, made by `make` if nobody holds it yet. The key names the run and the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "simulated_robot.hpp"
 
+#include <utility>
+
 #include "objects.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
@@ -193,11 +195,22 @@ idl::Robot SimulatedRobot::description() const { return describe(*robot_, *name_
 
 Realism SimulatedRobot::realism() const { return realism_from(*realism_).value_or(Realism::nominal); }
 
+// Says how much time the world has left out, when that is enough to matter.
+void SimulatedRobot::note_lost(Duration lost) {
+  constexpr Duration kWorthTelling = 500ms;
+  lost_ += lost;
+  if (lost_ < kWorthTelling) return;
+  host().write_log(log::Level::warning,
+                   "the world stood still for " + seconds_text(std::exchange(lost_, Duration{0})) +
+                       ", and goes on without that time: this process had no processor, or was stopped");
+}
+
 void SimulatedRobot::go_on() {
   const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
   for (const auto& contact : inbox.contacts) report(contact);
   for (const std::string& event : inbox.happened)
     host().write_log(log::Level::info, "in the world: " + event);
+  note_lost(inbox.lost);
   if (keeps_moments_) moments_->add(inbox);
   sense(inbox);
 }

@@ -65,6 +65,7 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   [[nodiscard]] Result<ErrorLevels> levels() const { return scaled(error_levels(realism()), *errors_); }
   [[nodiscard]] std::string settings() const;
   void report(const SharedWorld::Inbox::Contact& contact);
+  void note_lost(Duration lost);
 
   hw::Drawable* drawable() final { return this; }
   void keep_moments() final { keeps_moments_ = true; }
@@ -134,6 +135,7 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   std::optional<WorldModel> world_;
   std::optional<RobotModel> robot_;
   Pose2 start_;
+  Duration lost_{0};  // that the world has left out, and that was not told yet
   std::shared_ptr<SharedWorld> shared_;
   RobotId id_{};
   bool keeps_moments_ = false;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The thesis's run in real time, with a thread per component.
+#include <signal.h>
+
 #include <catch2/catch.hpp>
+#include <thread>
 
 #include "deployer.hpp"
 
@@ -35,4 +38,14 @@ TEST_CASE("a short drive in real time arrives once", "[system][slow]") {
   CHECK(run.exit_code() == 0);
   REQUIRE(run.arrivals().size() == 1);
   CHECK(run.arrivals().front().name == "ahead");
+}
+
+TEST_CASE("a simulated world that was stopped for a while says how much time it has left out",
+          "[system][slow]") {
+  Subprocess program(deployer({source_file("graphs/scout_goto.xml"), "--in-process"}));
+  std::this_thread::sleep_for(Seconds(kSlowdown));  // until it drives
+  program.send(SIGSTOP);
+  std::this_thread::sleep_for(Seconds(2));
+  program.send(SIGCONT);
+  CHECK(program.wait_for_output("the world stood still for", Seconds(5 * kSlowdown)));
 }

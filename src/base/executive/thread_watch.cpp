@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "thread_watch.hpp"
 
+#include <unistd.h>
+
 #include "orca/base/steady_clock.hpp"
 
 namespace orca::detail {
 
 static thread_local WaitCount* t_current = nullptr;
 
-void WaitCount::attach() { t_current = this; }
+void WaitCount::attach() {
+  t_current = this;
+  thread_.store(gettid(), std::memory_order_relaxed);
+}
 
 WaitCount* WaitCount::current() { return t_current; }
 
 void ThreadWatch::add(const WaitCount& count) {
   const std::lock_guard lock(mutex_);
-  watched_.push_back({&count, count.state(), steady_now()});
+  watched_.push_back({.count = &count, .state = count.state(), .since = steady_now()});
 }
 
 void ThreadWatch::remove(const WaitCount& count) {
   const std::lock_guard lock(mutex_);
   std::erase_if(watched_, [&](const Watched& watched) { return watched.count == &count; });
+}
+
+// Returns for how long a task has not waited for anything of its executive, without the time in which it had no processor.
+Duration ThreadWatch::busy_time(Watched& watched, TimePoint now) {
+  if (!watched.wait) {
+    watched.wait.emplace(getpid(), watched.count->thread());
+    watched.waited_before = watched.wait->look();
+  }
+  return now - watched.since - (watched.wait->look() - watched.waited_before);
 }
 
 std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
@@ -31,7 +45,8 @@ std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
     if (waits || state != watched.state) {
       watched.state = state;
       watched.since = now;
-    } else if (now - watched.since > limit && (latest == nullptr || watched.since > latest->since)) {
+      watched.wait.reset();
+    } else if (busy_time(watched, now) > limit && (latest == nullptr || watched.since > latest->since)) {
       latest = &watched;
     }
   }

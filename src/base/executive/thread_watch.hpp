@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "orca/base/executive.hpp"
+#include "orca/base/system/processor_wait.hpp"
 
 namespace orca::detail {
 
@@ -30,12 +33,15 @@ class WaitCount {
   void end() { begin(); }
 
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Returns the task's own thread; 0: it has none yet.
+  [[nodiscard]] pid_t thread() const { return thread_.load(std::memory_order_relaxed); }
   /// Returns an odd number while the task waits, and another number after each wait.
   [[nodiscard]] std::uint64_t state() const { return state_.load(std::memory_order_relaxed); }
 
  private:
   const std::string name_;
   std::atomic<std::uint64_t> state_{0};
+  std::atomic<pid_t> thread_{0};
 };
 
 /// A scope during which the task of the calling thread counts as waiting.
@@ -54,7 +60,7 @@ class Waiting {
   WaitCount* const count_;
 };
 
-/// A watch over tasks that have not waited for a long time.
+/// A watch over tasks that have not waited for a long time. Time in which a task waits for a processor does not count.
 ///
 /// Thread contract: any thread.
 class ThreadWatch {
@@ -69,8 +75,11 @@ class ThreadWatch {
   struct Watched {
     const WaitCount* count;
     std::uint64_t state;
-    TimePoint since;  // when it was first seen in this state
+    TimePoint since;                      // when it was first seen in this state
+    std::optional<ProcessorWait> wait{};  // from the second time on
+    Duration waited_before{0};            // as wait told it then
   };
+  static Duration busy_time(Watched& watched, TimePoint now);
 
   std::mutex mutex_;
   std::vector<Watched> watched_;

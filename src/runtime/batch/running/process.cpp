@@ -12,10 +12,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <optional>
 #include <utility>
+
+#include "orca/base/time.hpp"
 
 namespace orca::batch {
 namespace {
@@ -29,37 +29,6 @@ double seconds(const timeval& time) {
 }
 
 constexpr double kShortestOverload = 5.0;  // [s]
-
-// What the system has given to the threads of a process so far; all 0 where it does not say it.
-struct Given {
-  double ran = 0.0;     // [s]
-  double waited = 0.0;  // [s] for a processor. The wait that goes on is counted only when it ends
-  bool can_run = false;
-};
-
-bool can_run(const std::filesystem::path& thread) {
-  std::ifstream file(thread / "stat");
-  std::string line;
-  std::getline(file, line);
-  const std::size_t name_end = line.rfind(')');
-  return name_end != std::string::npos && line.compare(name_end, 3, ") R") == 0;
-}
-
-Given given_to(pid_t pid) {
-  Given sum;
-  std::error_code unused;
-  for (const auto& thread :
-       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", unused)) {
-    std::ifstream file(thread.path() / "schedstat");
-    double ran = 0.0;
-    double waited = 0.0;
-    if (!(file >> ran >> waited)) continue;
-    sum.ran += 1e-9 * ran;
-    sum.waited += 1e-9 * waited;
-    sum.can_run = sum.can_run || can_run(thread.path());
-  }
-  return sum;
-}
 
 std::string reason_of(int status) {
   if (WIFSIGNALED(status)) {
@@ -114,9 +83,7 @@ RunProcess::RunProcess(RunProcess&& other) noexcept
       from_(std::exchange(other.from_, -1)),
       limit_(other.limit_),
       started_(other.started_),
-      last_ran_(other.last_ran_),
-      ran_(other.ran_),
-      waited_(other.waited_),
+      wait_(other.wait_),
       was_killed_(other.was_killed_),
       text_(std::move(other.text_)) {}
 
@@ -125,9 +92,7 @@ RunProcess& RunProcess::operator=(RunProcess&& other) noexcept {
   std::swap(from_, other.from_);
   std::swap(limit_, other.limit_);
   std::swap(started_, other.started_);
-  std::swap(last_ran_, other.last_ran_);
-  std::swap(ran_, other.ran_);
-  std::swap(waited_, other.waited_);
+  std::swap(wait_, other.wait_);
   std::swap(was_killed_, other.was_killed_);
   text_.swap(other.text_);
   return *this;
@@ -159,19 +124,10 @@ int RunProcess::wait(Cost& cost) {
 
 RunProcess::Lateness RunProcess::lateness() {
   const double taken = since(started_);
-  note_wait();
+  const double waited = to_seconds(wait_.look());
   if (taken < limit_) return Lateness::none;
-  if (taken - waited_ >= limit_) return Lateness::hang;
-  return waited_ >= std::max(limit_, kShortestOverload) ? Lateness::overload : Lateness::none;
-}
-
-// Who can run and has not run since the last look waits. That adds up to the wait that the system has not counted yet, which is
-// seconds long where others are preferred.
-void RunProcess::note_wait() {
-  const Given given = given_to(pid_);
-  if (!given.can_run || given.ran > ran_) last_ran_ = Clock::now();
-  ran_ = given.ran;
-  waited_ = std::max(waited_, given.waited + since(last_ran_));  // a thread that ends takes its time with it
+  if (taken - waited >= limit_) return Lateness::hang;
+  return waited >= std::max(limit_, kShortestOverload) ? Lateness::overload : Lateness::none;
 }
 
 void RunProcess::kill_late(Cost& cost) {

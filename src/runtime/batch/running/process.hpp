@@ -8,6 +8,7 @@
 #include <string>
 
 #include "orca/base/result.hpp"
+#include "orca/base/system/processor_wait.hpp"
 #include "orca/batch/record.hpp"
 
 namespace orca::batch {
@@ -55,15 +56,12 @@ class RunProcess {
  private:
   RunProcess(pid_t pid, int from, double limit) : pid_(pid), from_(from), limit_(limit) {}
   int wait(Cost& cost);  // Returns its status.
-  void note_wait();
 
   pid_t pid_;     // 0: it has gone
   int from_;      // -1: closed
   double limit_;  // [s]
   Clock::time_point started_ = Clock::now();
-  Clock::time_point last_ran_ = started_;  // or could not run
-  double ran_ = 0.0;                       // [s] at the last look
-  double waited_ = 0.0;                    // [s] for a processor, as far as it was asked
+  ProcessorWait wait_{pid_};
   bool was_killed_ = false;
   std::string text_;
 };

@@ -13,7 +13,8 @@ using Hung = std::vector<std::size_t>;
 // Heartbeats of two processes, and time as the test has it.
 struct Bench {
   RunPage page = *RunPage::create(2, 0);
-  Heartbeats heartbeats{page};
+  Duration waited{0};  // for a processor, any process
+  Heartbeats heartbeats{page, [this](std::size_t) { return waited; }};
   Moment now{100s};
 
   Bench() { (void)heartbeats.look(now); }
@@ -110,4 +111,38 @@ TEST_CASE("A process that has worked before is judged although it does not beat 
   const auto [hung, after] = bench.wait_for_hang(10s);
   CHECK(hung == Hung{1});
   CHECK(after <= 600ms);
+}
+
+TEST_CASE("A process that has no processor does not hang, and it is told for how long it had none",
+          "[supervisor][heartbeats]") {
+  Bench bench;
+  bench.heartbeats.watch(0, 500ms);
+  bench.beat(0);
+  CHECK(bench.look_after(10ms).empty());
+  for (int i = 0; i < 100; ++i) {
+    bench.waited += 50ms;
+    CHECK(bench.look_after(50ms).empty());
+  }
+  CHECK(bench.heartbeats.take_starved().empty());  // it goes on
+  bench.beat(0);
+  CHECK(bench.look_after(50ms).empty());
+  const auto starved = bench.heartbeats.take_starved();
+  REQUIRE(starved.size() == 1);
+  CHECK(starved[0].first == 0);
+  CHECK(starved[0].second > 4500ms);
+  CHECK(bench.heartbeats.take_starved().empty());
+}
+
+TEST_CASE("A process that hangs after it had no processor is found", "[supervisor][heartbeats]") {
+  Bench bench;
+  bench.heartbeats.watch(0, 500ms);
+  bench.beat(0);
+  CHECK(bench.look_after(10ms).empty());
+  for (int i = 0; i < 20; ++i) {
+    bench.waited += 50ms;
+    CHECK(bench.look_after(50ms).empty());
+  }
+  const auto [hung, after] = bench.wait_for_hang(10s);
+  CHECK(hung == Hung{0});
+  CHECK(after <= 550ms);
 }
