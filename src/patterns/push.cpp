@@ -22,7 +22,7 @@ void PushServerHandle::start(Duration base_period) { endpoint().announce(base_pe
 
 Duration PushServerHandle::base_period() const { return endpoint().base_period(); }
 
-std::size_t PushServerHandle::subscriber_count() const { return endpoint().subscriber_count(); }
+std::size_t PushServerHandle::subscriber_count() const { return endpoint().audience(); }
 
 bool PushServerHandle::push_loan(ObjectLoan loan) {
   PushServerEndpoint& server = endpoint();

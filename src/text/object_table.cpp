@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "instant.hpp"
@@ -24,7 +25,9 @@ class Walk final : public FieldVisitor {
   /// Returns how many elements of a sequence have columns of their own. It may change the sequence.
   using Width = std::function<std::size_t(const std::string& name, const ListValue& list)>;
 
-  Walk(Width width, Leaf leaf) : width_(std::move(width)), leaf_(std::move(leaf)) {}
+  /// @param has_stamp  whether the object's own stamp is among the values; in a table it is the first column.
+  Walk(Width width, Leaf leaf, bool has_stamp = false)
+      : width_(std::move(width)), leaf_(std::move(leaf)), has_stamp_(has_stamp) {}
 
   void walk(const ObjectType& type, void* object) { type.fields(object, *this); }
 
@@ -32,8 +35,7 @@ class Walk final : public FieldVisitor {
   void field(const FieldInfo& info, const Value& value) override {
     const auto* const part = std::get_if<StructValue>(&value.of);
     if (std::exchange(first_, false) && part != nullptr) return fields_of(*part);
-    // An object's own stamp is the first column.
-    if (name_.empty() && info.name == kStamp) return;
+    if (!has_stamp_ && name_.empty() && info.name == kStamp) return;
     const std::size_t length = name_.size();
     if (length > 0) name_ += '.';
     name_ += info.name;
@@ -69,6 +71,7 @@ class Walk final : public FieldVisitor {
 
   const Width width_;
   const Leaf leaf_;
+  const bool has_stamp_;
   std::string name_;
   bool first_ = true;
 };
@@ -168,6 +171,43 @@ std::string ObjectTable::row(std::string_view port, const ObjectRef& object) {
   };
   Walk(width, fill).walk(object.type(), unsealed(object));
   return line_of(cells_);
+}
+
+namespace {
+
+// Walks over an object and changes nothing in it. All elements of its lists have names.
+void look_at(const ObjectType& type, const void* object, std::set<std::string>& lists, Walk::Leaf leaf) {
+  const auto width = [&](const std::string& name, const ListValue& /*list*/) {
+    lists.insert(name);
+    return std::numeric_limits<std::size_t>::max();
+  };
+  Walk(width, std::move(leaf), true).walk(type, const_cast<void*>(object));
+}
+
+bool is_within(std::string_view name, std::string_view field) {
+  return name.starts_with(field) &&
+         (name.size() == field.size() || name[field.size()] == '.' || name[field.size()] == '[');
+}
+
+}  // namespace
+
+std::optional<std::vector<FieldText>> field_texts(const ObjectType& type, const void* object,
+                                                  std::string_view field) {
+  std::set<std::string> lists;
+  std::vector<FieldText> texts;
+  look_at(type, object, lists, [&](const std::string& name, const Value& value) {
+    if (is_within(name, field)) texts.push_back({name, cell_text(value, TimePoint{})});
+  });
+  if (texts.empty() && !lists.contains(std::string(field))) return std::nullopt;
+  return texts;
+}
+
+std::vector<std::string> field_names(const ObjectType& type, const void* object) {
+  std::set<std::string> lists;
+  std::vector<std::string> names;
+  look_at(type, object, lists, [&](const std::string& name, const Value&) { names.push_back(name); });
+  names.insert(names.end(), lists.begin(), lists.end());
+  return names;
 }
 
 }  // namespace orca

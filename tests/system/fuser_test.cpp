@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -243,4 +245,20 @@ TEST_CASE("an unknown mode is refused with those that there are; priority withou
       run_deployer(graph + Words{"--set", "mode=priority", "--set", "order="} + virtual_clock());
   CHECK(unordered.exit_code() == kRefusedByComponent);
   CHECK(unordered.says("mode priority needs the parameter order"));
+}
+
+TEST_CASE("reasons that nobody else takes are made for a recording, and change nothing of the run",
+          "[system][fuser]") {
+  const TempFolder folder;
+  const Words run{source_file("graphs/scout_goto.xml"), "--until", "5 s"};
+  const Run plain = run_deployer(run + virtual_clock());
+  const std::string file = folder.file("reasons.csv");
+  const Run recorded =
+      run_deployer(run + virtual_clock() + Words{"--record", file + "=fuser.FusionReasonPush"});
+  INFO(recorded.err);
+  REQUIRE(plain.trace_hash());
+  CHECK(recorded.trace_hash() == plain.trace_hash());
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  CHECK(split_lines(text).size() > 20);
 }

@@ -324,6 +324,16 @@ TEST_CASE("the objects that pass a port can be seen, counted and timed", "[syste
   CHECK_THAT(echo.out, Contains("origin=\"base\""));
   const Run arriving = run_orcactl({"echo", "avoid.sonar", "--count", "2", "--json"});
   CHECK(System::count_of(arriving.out, "\"type\": \"SonarRangeReadings\"") == 2);
+  const Run field = run_orcactl({"echo", "base.OdometryPush", "--for", "1 s", "--field", "x"});
+  CHECK(field.exit_code() == 0);
+  CHECK(field.lines().size() > 3);
+  for (const std::string& line : field.lines())
+    CHECK(line.find_first_not_of("-.e0123456789") == std::string::npos);
+  const Run wrong = run_orcactl({"echo", "base.OdometryPush", "--field", "steer_angel"});
+  CHECK(wrong.exit_code() == 1);
+  CHECK(wrong.says("Odometry has no field \"steer_angel\"; did you mean \"steer_angle\"?"));
+  const Run reason = run_orcactl({"echo", "fuser.FusionReasonPush", "--for", "20 s", "--count", "2"});
+  CHECK(System::count_of(reason.out, "<FusionReason ") == 2);  // which it makes only for who takes it
   const Run hz = run_orcactl({"hz", "base.OdometryPush", "--for", "2 s", "--json"});
   CHECK(hz.exit_code() == 0);
   const std::size_t at = hz.out.find("\"per_second\": ");

@@ -150,6 +150,11 @@ std::optional<std::uint64_t> Call::count(std::string_view option) const {
   return found == options.end() ? std::nullopt : read_count(found->second);
 }
 
+std::optional<std::string> Call::text(std::string_view option) const {
+  const auto found = options.find(option);
+  return found == options.end() ? std::nullopt : std::optional(found->second);
+}
+
 Result<Call> parse_call(const std::vector<std::string>& words) { return Reader().read(words); }
 
 }  // namespace orca::orcactl

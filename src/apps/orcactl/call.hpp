@@ -29,6 +29,8 @@ struct Call {
   /// Returns the value of an option that holds a span of time, or a count, as parse_call() has checked it.
   [[nodiscard]] std::optional<Duration> duration(std::string_view option) const;
   [[nodiscard]] std::optional<std::uint64_t> count(std::string_view option) const;
+  /// Returns the value of an option as it is written.
+  [[nodiscard]] std::optional<std::string> text(std::string_view option) const;
 };
 
 /// Reads a command line.

@@ -76,11 +76,16 @@ std::vector<Command> port_commands() {
       {.name = "echo",
        .way = Way::tap,
        .arguments = {kPort},
-       .options = {kCount},
+       .options = {kCount,
+                   {"--for", "DURATION", "end after this time"},
+                   {"--field", "NAME",
+                    "only this field of each object, as the columns of a recording are named"}},
        .text = "the objects that pass a port, one per line",
        .details = "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at "
                   "any other port, "
-                  "when it arrives. Looking makes no component work: one that nobody uses pushes nothing. "
+                  "when it arrives. Looking makes no component work: one that nobody uses pushes nothing; "
+                  "but one that "
+                  "works and makes something only for whoever takes it makes it for whoever looks. "
                   "Objects that "
                   "come faster than they can be printed are left out, and counted on stderr."},
       {.name = "hz",
@@ -161,12 +166,16 @@ std::vector<Command> operating_commands() {
   return {
       {.name = "estop",
        .options = {{"--release", "", "let the motors obey commands again"}},
+       .tells = true,
        .text = "stop all motors now, and hold them until estop --release",
-       .details = "The order goes to each process over its control channel, not over a connection of the "
-                  "graph. A held base "
-                  "refuses commands to move; a process that is started meanwhile is held, too. After the "
-                  "release nothing "
-                  "moves before the next command."},
+       .details =
+           "The order goes to each process over its control channel, not over a connection of the "
+           "graph. A held base "
+           "refuses commands to move; a process that is started meanwhile is held, too. After the "
+           "release nothing "
+           "moves before the next command. Both orders are for the whole system: where it runs on several "
+           "machines, each of them is asked, and has a line in the answer; if one does not confirm within "
+           "2 s, the exit status is 1, and the error names it."},
       {.name = "stop",
        .text = "end the system: motors first, then everything else",
        .details = "Processes that go on after their deployer was killed obey this and estop themselves."},

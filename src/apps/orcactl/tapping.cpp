@@ -11,9 +11,12 @@
 #include "asking.hpp"
 #include "client.hpp"
 #include "figures.hpp"
+#include "orca/base/text.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/object_type.hpp"
+#include "orca/text/object_table.hpp"
 #include "orca/text/object_xml.hpp"
+#include "orca/xml/names.hpp"
 #include "table.hpp"
 
 namespace orca::orcactl {
@@ -38,36 +41,60 @@ Result<std::optional<Tapped>> next(Channel& line, Duration limit) {
   return std::optional(std::move(*passed));
 }
 
-Result<std::string> text_of(const Tapped& passed, bool as_json) {
+// Returns the values of a field of an object, with a blank between those of a list.
+Result<std::string> field_of(const ObjectType& type, const void* object, const std::string& field) {
+  const auto texts = field_texts(type, object, field);
+  if (!texts) {
+    const std::vector<std::string> names = field_names(type, object);
+    const auto nearest = xml::nearest_name(field, names);
+    return fail(Code::not_found, std::string(type.name) + " has no field " + in_quotes(field) +
+                                     (nearest ? xml::did_you_mean(nearest) : "; it has: " + listed(names)));
+  }
+  std::string line;
+  for (const FieldText& one : *texts) line += (line.empty() ? "" : " ") + one.text;
+  return line;
+}
+
+Result<std::string> text_of(const Tapped& passed, const Call& call) {
   const ObjectType* const type = find_object_type(passed.type);
   if (type == nullptr)
     return fail(Code::data_loss, "objects of the type " + passed.type + " are not known here");
   ObjectLoan object = make_object(*type);
   if (const Status read = type->deserialize(passed.object, object.get()); !read.ok()) return read.error();
-  const std::string xml = to_xml(*type, object.get());
-  if (!as_json) return xml + "\n";
+  const std::optional<std::string> field = call.text("--field");
+  const Result<std::string> shown =
+      field ? field_of(*type, object.get(), *field) : Result<std::string>(to_xml(*type, object.get()));
+  if (!shown) return shown.error();
+  if (!call.json) return *shown + "\n";
   constexpr double kNanoseconds = 1e9;
   return record_json({{"passed", static_cast<double>(passed.passed) / kNanoseconds, 6},
                       {"created", static_cast<double>(passed.created) / kNanoseconds, 6},
                       {"type", passed.type},
                       {"bytes", passed.size},
                       {"left_out", passed.lost},
-                      {"xml", xml}});
+                      {field ? "value" : "xml", *shown}});
 }
 
 Status echo(Channel& line, const Call& call) {
+  const std::optional<Duration> whole = call.duration("--for");
+  const auto begin = Clock::now();
   std::uint64_t lost = 0;
-  for (std::uint64_t left = call.count("--count").value_or(UINT64_MAX); left > 0; --left) {
-    Result<std::optional<Tapped>> passed = next(line, kForEver);
+  std::uint64_t seen = 0;
+  for (const std::uint64_t most = call.count("--count").value_or(UINT64_MAX); seen < most; ++seen) {
+    const auto left = whole ? *whole - std::chrono::duration_cast<Duration>(Clock::now() - begin) : kForEver;
+    if (left <= Duration{0}) break;
+    Result<std::optional<Tapped>> passed = next(line, left);
     if (!passed) return passed.error();
-    if (!*passed) continue;
+    if (!*passed) break;
     if ((*passed)->lost > lost)
       std::fprintf(stderr, "orcactl: %llu objects were left out here\n",
                    static_cast<unsigned long long>((*passed)->lost - std::exchange(lost, (*passed)->lost)));
-    const Result<std::string> text = text_of(**passed, call.json);
+    const Result<std::string> text = text_of(**passed, call);
     if (!text) return text.error();
     print(*text);
   }
+  if (seen == 0)
+    std::fprintf(stderr, "orcactl: nothing has passed %s in this time\n", call.words.front().c_str());
   return ok();
 }
 

@@ -87,6 +87,12 @@ void PushServerEndpoint::publish(ObjectRef&& object) {
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
 }
 
+std::size_t PushServerEndpoint::audience() const {
+  LinkObserver* const observer = home().observer;
+  const bool is_looked_at = observer != nullptr && observer->is_looked_at(component(), contract().name);
+  return subscriber_count() + (is_looked_at ? 1 : 0);
+}
+
 // Returns false if the publisher must wait for room somewhere. Otherwise the last subscriber may have got the
 // publisher's own view.
 bool PushServerEndpoint::hand_out(ObjectRef& object) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/port_taps.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace orca::host {
@@ -44,6 +45,15 @@ std::shared_ptr<PortTap> PortTaps::open(const std::string& component, const Port
   taps_.push_back(tap);
   count_.store(taps_.size(), std::memory_order_relaxed);
   return tap;
+}
+
+bool PortTaps::are_at(Flow flow, std::string_view component, std::string_view port) const {
+  if (count_.load(std::memory_order_relaxed) == 0) return false;
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(taps_, [&](const std::weak_ptr<PortTap>& weak) {
+    const std::shared_ptr<PortTap> tap = weak.lock();
+    return tap && tap->flow_ == flow && tap->port_ == port && tap->component_ == component;
+  });
 }
 
 void PortTaps::pass_on(Flow flow, std::string_view component, std::string_view port,

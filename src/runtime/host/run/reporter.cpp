@@ -53,6 +53,11 @@ void Reporter::pushed(std::string_view component, std::string_view port, const O
     hear(*static_cast<const idl::GoalFailed*>(object.get()));
 }
 
+bool Reporter::is_looked_at(std::string_view component, std::string_view port) {
+  return (taps_ != nullptr && taps_->are_at(Flow::pushed, component, port)) ||
+         (recorder_ != nullptr && recorder_->records_pushes(component, port));
+}
+
 void Reporter::requested(std::string_view component, std::string_view port, const ObjectRef& object) {
   if (taps_ != nullptr) taps_->pass(Flow::requested, component, port, object);
   if (recorder_ != nullptr) recorder_->requested(component, port, object);

@@ -45,6 +45,7 @@ class Reporter final : public LinkObserver {
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object) override;
   /// Passes on the results of missions: Arrived and GoalFailed.
   void pushed(std::string_view component, std::string_view port, const ObjectRef& object) override;
+  [[nodiscard]] bool is_looked_at(std::string_view component, std::string_view port) override;
   void requested(std::string_view component, std::string_view port, const ObjectRef& object) override;
   void link_changed(std::string_view client, std::string_view server, bool connected) override {
     trace_.link_changed(client, server, connected);

@@ -32,7 +32,7 @@ class PushServerHandle {
   void start(Duration base_period);
   [[nodiscard]] Duration base_period() const;
 
-  /// Returns how many clients are subscribed now.
+  /// Returns how many clients are subscribed now; one more if somebody looks on, such as a recording.
   [[nodiscard]] std::size_t subscriber_count() const;
 
  protected:

@@ -37,6 +37,7 @@ class Recorder::Desk {
   explicit Desk(const Executive& executive) : start_(executive.now()), at_once_(executive.is_virtual()) {}
 
   Status open(const RecordingOptions& options, const std::vector<graph::ListedPort>& ports);
+  [[nodiscard]] bool records(Flow flow, std::string_view component, std::string_view port) const;
   void take(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object);
   void write_until_closing();
   std::vector<Error> close();
@@ -96,6 +97,12 @@ void Recorder::Desk::take(Flow flow, std::string_view component, std::string_vie
                           const ObjectRef& object) {
   for (const Tap& tap : taps_)
     if (tap.flow == flow && tap.ref.port == port && tap.ref.component == component) put(tap, object);
+}
+
+bool Recorder::Desk::records(Flow flow, std::string_view component, std::string_view port) const {
+  return std::ranges::any_of(taps_, [&](const Tap& tap) {
+    return tap.flow == flow && tap.ref.port == port && tap.ref.component == component;
+  });
 }
 
 void Recorder::Desk::put(const Tap& tap, const ObjectRef& object) {
@@ -175,6 +182,10 @@ Status Recorder::open(const std::vector<RecordingOptions>& files,
   desk_->expect_thread();
   std::thread([desk = desk_] { desk->write_until_closing(); }).detach();
   return ok();
+}
+
+bool Recorder::records_pushes(std::string_view component, std::string_view port) const {
+  return desk_->records(Flow::pushed, component, port);
 }
 
 void Recorder::pushed(std::string_view component, std::string_view port, const ObjectRef& object) {

@@ -36,6 +36,8 @@ class Recorder {
   /// @errors  as OutputFile::open().
   Status open(const std::vector<RecordingOptions>& files, const std::vector<graph::ListedPort>& ports);
 
+  /// Returns whether what leaves through a port of a PushServer is recorded.
+  [[nodiscard]] bool records_pushes(std::string_view component, std::string_view port) const;
   /// Take an object that leaves through, or arrives at, a port. They ignore ports that are not recorded.
   void pushed(std::string_view component, std::string_view port, const ObjectRef& object);
   void requested(std::string_view component, std::string_view port, const ObjectRef& object);

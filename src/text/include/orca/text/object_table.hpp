@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -51,5 +52,21 @@ class ObjectTable {
   std::unordered_map<std::string, std::size_t> column_of_;
   std::vector<std::string> cells_;  // of the row that is being written
 };
+
+/// One value of an object, as text.
+struct FieldText {
+  std::string name;  ///< "x", "coordinate.point.x", "ranges[3]".
+  std::string text;
+};
+
+/// Returns the values of a field of an object: one, or all that a struct or a list of this name holds, in their order.
+/// @param field  named as the columns of a table are.
+/// @return nothing if the type has no such field.
+/// @pre  object is of the type.
+/// @thread  any.
+[[nodiscard]] std::optional<std::vector<FieldText>> field_texts(const ObjectType& type, const void* object,
+                                                                std::string_view field);
+/// Returns the names of all fields that an object has now, those of lists and their elements included.
+[[nodiscard]] std::vector<std::string> field_names(const ObjectType& type, const void* object);
 
 }  // namespace orca

@@ -29,6 +29,11 @@ class LinkObserver {
   virtual void pushed(std::string_view /*component*/, std::string_view /*port*/,
                       const ObjectRef& /*object*/) {}
 
+  /// Returns whether somebody looks at what a component pushes there: an operator, or a recording.
+  [[nodiscard]] virtual bool is_looked_at(std::string_view /*component*/, std::string_view /*port*/) {
+    return false;
+  }
+
   /// Reports that a component sends an object, or asks a question, whatever the server says to it.
   virtual void requested(std::string_view /*component*/, std::string_view /*port*/,
                          const ObjectRef& /*object*/) {}

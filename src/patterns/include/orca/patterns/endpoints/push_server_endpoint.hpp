@@ -59,6 +59,8 @@ class PushServerEndpoint final : public Endpoint {
   void publish(ObjectRef&& object);
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
+  /// Returns the same, and one more if somebody looks on.
+  [[nodiscard]] std::size_t audience() const;
   /// Returns the number of objects pushed so far, with or without subscribers.
   [[nodiscard]] std::uint64_t pushed_count() const { return pushed_; }
 

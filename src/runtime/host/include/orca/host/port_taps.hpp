@@ -66,6 +66,9 @@ class PortTaps {
   /// Opens a tap. It is closed when nobody holds the pointer any more.
   [[nodiscard]] std::shared_ptr<PortTap> open(const std::string& component, const PortContract& port);
 
+  /// Returns whether there is a tap at a port.
+  [[nodiscard]] bool are_at(Flow flow, std::string_view component, std::string_view port) const;
+
   /// Takes an object that passes a port.
   void pass(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object) {
     if (count_.load(std::memory_order_relaxed) > 0) pass_on(flow, component, port, object);
@@ -76,7 +79,7 @@ class PortTaps {
 
   const Executive& executive_;
   std::atomic<std::size_t> count_{0};  // of taps_
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::weak_ptr<PortTap>> taps_;  // guarded by mutex_
 };
 
