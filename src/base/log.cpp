@@ -4,13 +4,18 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 #include "orca/base/live_line.hpp"
 #include "orca/base/log_mute.hpp"
+#include "orca/base/system/wall_time.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::log {
@@ -47,6 +52,17 @@ spdlog::level::level_enum to_spdlog(Level level) {
   return spdlog::level::off;
 }
 
+std::string text_of(std::chrono::system_clock::time_point time) {
+  const auto ms = std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count();
+  const std::time_t seconds = ms / 1000;
+  std::tm utc{};
+  gmtime_r(&seconds, &utc);
+  std::array<char, 40> text{};
+  const std::size_t size = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::snprintf(text.data() + size, text.size() - size, ".%03dZ", static_cast<int>(ms % 1000));
+  return text.data();
+}
+
 std::string_view name(Level level) {
   constexpr std::string_view kNames[] = {"debug", "info", "warning", "error", "off"};
   return kNames[static_cast<int>(level)];
@@ -66,6 +82,15 @@ void set_level(Level level) { state().logger->set_level(to_spdlog(level)); }
 void set_clock(std::function<TimePoint()> now) {
   const std::lock_guard lock(state().mutex);
   state().now = std::move(now);
+}
+
+std::string wall_time_text() { return text_of(std::chrono::system_clock::now()); }
+
+std::string wall_time_text(TimePoint moment) {
+  const std::lock_guard lock(state().mutex);
+  const Duration age = state().now ? state().now() - moment : Duration{0};
+  return text_of(std::chrono::system_clock::now() -
+                 std::chrono::duration_cast<std::chrono::system_clock::duration>(age));
 }
 
 Listener::Listener(std::function<void(const Line&)> heard) : heard_(std::move(heard)) {

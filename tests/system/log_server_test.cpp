@@ -113,6 +113,11 @@ TEST_CASE("the log server keeps the lines of all processes and of the deployer, 
   CHECK(comes_true(is_complete, Seconds(3)));
   stop(system);
   INFO(kept());
+  const std::string first = split_lines(kept()).front();
+  CHECK(first.ends_with("==== the log of a run begins ===="));
+  const std::string day = first.substr(0, first.find('T'));
+  CHECK(day.size() == std::string("2026-11-27").size());
+  for (const std::string& line : split_lines(kept())) CHECK(line.substr(0, 4) == day.substr(0, 4));
   CHECK(kept().find(" error deployer: alarm PROCESS_ENDED: process relay was ended by SIGKILL") !=
         std::string::npos);
   for (const std::string& line : split_lines(kept())) {

@@ -9,6 +9,7 @@
 #include "heard_lines.hpp"
 #include "log_file.hpp"
 #include "orca/base/distant_log.hpp"
+#include "orca/base/system/wall_time.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
@@ -62,13 +63,19 @@ class LogServer final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    for (const auto& record : heard_records()) pass_on(record);
+    for (const auto& [record, time] : heard_records()) pass_on(record, time);
     return orca::again();
   }
 
+  // A record, and its absolute time.
+  struct Dated {
+    orca::ObjectPtr<LogRecord> record;
+    std::string time;
+  };
+
   // Returns what this process has logged since the last call.
-  std::vector<orca::ObjectPtr<LogRecord>> heard_records() {
-    std::vector<orca::ObjectPtr<LogRecord>> records;
+  std::vector<Dated> heard_records() {
+    std::vector<Dated> records;
     if (!heard_) return records;
     for (const orca::logs::HeardLines::Line& line : heard_->take()) {
       auto record = orca::make_object<LogRecord>();
@@ -76,7 +83,7 @@ class LogServer final : public orca::Component {
       record->source() = line.who;
       record->text() = line.text;
       record->stamp(orca::to_time_value(line.time));
-      records.push_back(std::move(record).seal());
+      records.push_back({std::move(record).seal(), orca::log::wall_time_text(line.time)});
     }
     if (const std::size_t lost = heard_->take_lost(); lost > 0)
       log_warning(std::to_string(lost) + " lines came too fast and are not in " + *path_);
@@ -84,16 +91,16 @@ class LogServer final : public orca::Component {
   }
 
   void write_heard() {
-    for (const auto& record : heard_records()) write(*record);
+    for (const auto& [record, time] : heard_records()) write(*record, time);
   }
 
   Status on_record(const orca::ObjectPtr<LogRecord>& record) {
-    pass_on(record);
+    pass_on(record, orca::log::wall_time_text());
     return orca::ok();
   }
 
-  void pass_on(const orca::ObjectPtr<LogRecord>& record) {
-    const bool kept = write(*record);
+  void pass_on(const orca::ObjectPtr<LogRecord>& record, const std::string& wall_time) {
+    const bool kept = write(*record, wall_time);
     if (!kept && !failing_)
       log_warning("cannot write to " + *path_ + ": records are being lost, " + std::to_string(file_->lost()) +
                   " so far");
@@ -107,11 +114,13 @@ class LogServer final : public orca::Component {
     passed_on_.push(std::move(copy));
   }
 
-  bool write(const LogRecord& record) {
+  bool write(const LogRecord& record, const std::string& wall_time) {
+    if (!std::exchange(is_begun_, true))
+      (void)file_->append(wall_time + " 0 info " + name() + ": ==== the log of a run begins ====");
     char time[32];
     std::snprintf(time, sizeof time, "%.6f", orca::to_seconds(orca::to_time_point(record.stamp())));
     const std::string& source = record.source().empty() ? record.origin() : record.source();
-    return file_->append(std::string(time) + ' ' + kLevels.at(record.level()) + ' ' + source + ": " +
+    return file_->append(wall_time + ' ' + time + ' ' + kLevels.at(record.level()) + ' ' + source + ": " +
                          record.text());
   }
 
@@ -159,6 +168,7 @@ class LogServer final : public orca::Component {
   std::optional<orca::log::Listener> listener_;
   std::optional<orca::log::DistantListener> distant_;
   bool failing_ = false;
+  bool is_begun_ = false;  // the head of this run is written
 };
 
 }  // namespace

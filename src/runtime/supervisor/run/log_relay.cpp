@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "log_relay.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -18,15 +19,13 @@ void LogRelay::set_source(const Member* source) {
 void LogRelay::note_wish(const Member& member, bool is_wished) {
   const std::lock_guard lock(mutex_);
   if (is_wished)
-    told_[&member] = last_;
+    told_[&member] = most_told_;
   else
     told_.erase(&member);
-  if (told_.empty()) entries_.clear();
 }
 
 void LogRelay::note(const log::Line& line) {
   const std::lock_guard lock(mutex_);
-  if (told_.empty()) return;
   if (entries_.size() == kMostLines) entries_.pop_front();
   const auto time = static_cast<std::uint64_t>(line.time.time_since_epoch().count());
   entries_.push_back(
@@ -64,6 +63,7 @@ TellLines LogRelay::take_for(const Member& member) {
     told = entry.number;
     if (entry.source != &member) order.lines.push_back(entry.line);
   }
+  most_told_ = std::max(most_told_, told);
   return order;
 }
 

@@ -26,7 +26,8 @@ class LogRelay {
 
   LogRelay();
 
-  /// Notes whether a process wishes to hear the others.
+  /// Notes whether a process wishes to hear the others. It hears what was written since the last of those who wished that was told
+  /// something, or since the start.
   void note_wish(const Member& member, bool is_wished);
   /// Says which process the lines come from that are written from now on; null: the supervisor itself.
   void set_source(const Member* source);
@@ -51,6 +52,7 @@ class LogRelay {
   std::map<const Member*, std::uint64_t> told_;  // by who wishes them: the number of the last line
   std::deque<Entry> entries_;                    // the oldest first
   std::uint64_t last_ = 0;                       // number
+  std::uint64_t most_told_ = 0;                  // number of the last line that anybody was told
   const Member* source_ = nullptr;
 
   const log::Listener listener_;  // the last member: it uses the others

@@ -24,7 +24,8 @@ struct Heard {
 
 }  // namespace
 
-TEST_CASE("a process that wishes it is told what all others write from then on", "[supervisor][log]") {
+TEST_CASE("a process that wishes it is told what all others write, and have written before",
+          "[supervisor][log]") {
   Heard h;
   log::info("goto", "before");
   h.relay.note_wish(h.keeper, true);
@@ -34,11 +35,12 @@ TEST_CASE("a process that wishes it is told what all others write from then on",
   h.relay.set_source(&h.other);
   log::info("base", "another");
   const TellLines told = h.relay.take_for(h.keeper);
-  REQUIRE(told.lines.size() == 2);
-  CHECK(told.lines[0].level == log::Level::warning);
-  CHECK(told.lines[0].who == "goto");
-  CHECK(told.lines[0].text == "from the supervisor's own");
-  CHECK(told.lines[1].text == "another");
+  REQUIRE(told.lines.size() == 3);
+  CHECK(told.lines[0].text == "before");
+  CHECK(told.lines[1].level == log::Level::warning);
+  CHECK(told.lines[1].who == "goto");
+  CHECK(told.lines[1].text == "from the supervisor's own");
+  CHECK(told.lines[2].text == "another");
   CHECK(h.relay.take_for(h.keeper).lines.empty());
   CHECK(h.relay.take_for(h.other).lines.empty());
 }
@@ -56,12 +58,17 @@ TEST_CASE("a flood of lines is cut, and the process learns by how much", "[super
   CHECK(count == 1000);
 }
 
-TEST_CASE("nothing is kept once nobody wishes to hear the others", "[supervisor][log]") {
+TEST_CASE("a process that comes again hears what was written meanwhile, and nothing twice",
+          "[supervisor][log]") {
   Heard h;
   h.relay.note_wish(h.keeper, true);
-  log::info("goto", "kept");
+  log::info("goto", "told");
+  CHECK(h.relay.take_for(h.keeper).lines.size() == 1);
   h.relay.pass_on({&h.keeper});  // it does not run any more
+  log::info("goto", "while it was away");
   CHECK(h.relay.take_for(h.keeper).lines.empty());
   h.relay.note_wish(h.keeper, true);
-  CHECK(h.relay.take_for(h.keeper).lines.empty());
+  const TellLines told = h.relay.take_for(h.keeper);
+  REQUIRE(told.lines.size() == 1);
+  CHECK(told.lines[0].text == "while it was away");
 }
