@@ -252,7 +252,8 @@ void Create2Firmware::count() {
 }
 
 void Create2Firmware::stay_safe() {
-  if (mode_ != Create2Mode::safe || !(body_.is_lifted() || charger_ || is_at_cliff())) return;
+  const bool is_charged = charger_ && settings_.heeds_charger;
+  if (mode_ != Create2Mode::safe || !(body_.is_lifted() || is_charged || is_at_cliff())) return;
   mode_ = Create2Mode::passive;
   ++safety_stops_;
   stop();

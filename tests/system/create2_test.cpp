@@ -236,3 +236,19 @@ TEST_CASE("a Create 2 that is lifted up or connected to its charger stands until
   CHECK(mode(create) == Create2Mode::passive);
   check_release(create);
 }
+
+TEST_CASE("a Create 2 that is held is told to stop, although it would drive on by itself",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("create");
+  Create2Settings settings;
+  settings.heeds_charger = false;
+  Create create(device, settings);
+  Subprocess program(deployer(drive(device, far_goal())));
+  set_off(create);
+  create.with([](BadCreate& line, PlainBody&) { line.device().connect_charger(true); });
+  CHECK(program.wait_for_output("alarm ESTOP: the base is held: it is connected to its charger",
+                                Seconds(20 * kSlowdown)));
+  CHECK(eventually([&] { return stands(create); }));
+  CHECK(mode(create) == Create2Mode::safe);
+}

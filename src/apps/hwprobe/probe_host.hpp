@@ -32,6 +32,7 @@ class ProbeHost final : public hw::HardwareHost {
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void report(const idl::Contact& /*contact*/) override {}
   void state_changed(hw::HardwareState /*state*/) override {}
+  void held(const std::optional<std::string>& /*reason*/) override {}
   void pausing() override {}
   [[nodiscard]] Executive& executive() override { return executive_; }
 

@@ -65,13 +65,14 @@ Status HardwareContainer::command(ActuatorEndpoint& actuator, ObjectRef command)
 
 void HardwareContainer::hold(const std::string& reason) {
   for (ActuatorEndpoint* const actuator : actuators()) actuator->hold(reason);
-  if (motion() != nullptr) motion()->hold(reason);
+  if (motion() != nullptr) motion()->hold_by_order(reason);
   wake();
 }
 
 bool HardwareContainer::let_go() {
   bool was_held = motion() != nullptr && motion()->let_go();
   for (ActuatorEndpoint* const actuator : actuators()) was_held = actuator->let_go() || was_held;
+  wake();
   return was_held;
 }
 

@@ -132,12 +132,24 @@ void MotionHW::halt() {
 
 void MotionHW::hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
+  held_ = own_hold_ = reason;
+  stand();
+}
+
+void MotionHW::hold_by_order(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
   held_ = reason;
   stand();
 }
 
+std::optional<std::string> MotionHW::own_hold() const {
+  const std::lock_guard lock(mutex_);
+  return own_hold_;
+}
+
 bool MotionHW::let_go() {
   const std::lock_guard lock(mutex_);
+  own_hold_.reset();
   return std::exchange(held_, std::nullopt).has_value();
 }
 

@@ -82,8 +82,10 @@ void HardwareLifecycle::halt(HardwareState to) {
   const bool failed = to == HardwareState::fault;
   if (failed)
     for (ActuatorEndpoint* const actuator : container_.actuators()) actuator->forget();
-  if (failed && reopens()) container_.hold("it has failed; orcactl estop --release lets it move again");
+  constexpr const char* kFailed = "it has failed; orcactl estop --release lets it move again";
+  if (failed && reopens()) container_.hold(kFailed);
   if (container_.motion() == nullptr) return;
+  if (failed && reopens()) container_.motion()->hold(kFailed);  // nobody has ordered that
   container_.motion()->halt();
   if (!failed) container_.motion()->end_mission();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <typeinfo>
+#include <utility>
 
 #include "orca/base/activity.hpp"
 #include "orca/base/exception_text.hpp"
@@ -58,6 +59,7 @@ void HardwareLoop::main() {
   while (!shutting_down_.load(std::memory_order_acquire)) guarded([this] { turn(); });
   guarded([this] { life_.handle(HardwareEvent::unwanted); });
   guarded([this] { life_.handle(HardwareEvent::shut_down); });
+  if (std::exchange(told_hold_, std::nullopt)) host_.held(std::nullopt);  // a driver that goes holds nothing
 }
 
 void HardwareLoop::turn() {
@@ -65,6 +67,7 @@ void HardwareLoop::turn() {
   apply_motion();
   if (life_.state() == HardwareState::active) life_.act();
   if (is_open()) attend();
+  report_hold();
   reopen();
   host_.pausing();
   strand_->watch_input(is_open() ? container_.descriptor() : -1);
@@ -143,6 +146,14 @@ void HardwareLoop::report_expiry(const MotionHW& motion) {
   const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(motion.max_command_age());
   host_.write_log(log::Level::warning,
                   "the base stands: no motion command for " + std::to_string(age.count()) + " ms");
+}
+
+void HardwareLoop::report_hold() {
+  if (container_.motion() == nullptr) return;
+  std::optional<std::string> hold = container_.motion()->own_hold();
+  if (hold == told_hold_) return;
+  told_hold_ = std::move(hold);
+  host_.held(told_hold_);
 }
 
 bool HardwareLoop::is_open() const { return works() || life_.state() == HardwareState::probing; }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "hardware_lifecycle.hpp"
 #include "line_record.hpp"
@@ -51,6 +52,7 @@ class HardwareLoop {
   void guarded(const std::function<void()>& step);
   void apply_motion();
   void report_expiry(const MotionHW& motion);
+  void report_hold();
   [[nodiscard]] bool is_open() const;
   [[nodiscard]] bool works() const;
   [[nodiscard]] TimePoint silence_ends() const;
@@ -67,6 +69,7 @@ class HardwareLoop {
   Duration pause_{};  // before it is opened again, the next time
   std::optional<TimePoint> retry_at_;
   TimePoint next_expiry_report_{};
+  std::optional<std::string> told_hold_;  // as it was reported
   std::atomic<int> users_{0};
   std::atomic<bool> shutting_down_{false};
 };

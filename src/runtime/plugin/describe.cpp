@@ -124,6 +124,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
 
   [[nodiscard]] std::uint64_t run_seed() const override { refuse("asked for the seed"); }
   void state_changed(hw::HardwareState /*state*/) override { refuse("changed its state"); }
+  void held(const std::optional<std::string>& /*reason*/) override { refuse("held its base"); }
   [[nodiscard]] Executive& executive() override { refuse("asked for the executive"); }
   void report(const idl::Contact& /*contact*/) override { refuse("reported a contact"); }
   void pausing() override { refuse("waited"); }

@@ -130,6 +130,27 @@ TEST_CASE("the base of a device that came back stands until an operator lets it 
   });
 }
 
+TEST_CASE("a base that is held without an order is reported until it is let go, and an order is not",
+          "[hw][recovery]") {
+  run_on_each(all_executives(), [](Executive& executive) {
+    CableRobot robot(executive);
+    robot.drive();
+    robot.scout.hold("emergency stop");
+    sleep(executive, 30ms);
+    CHECK(robot.scout.let_go());
+    robot.scout.wheels().hold("its button was pressed");
+    CHECK(eventually(executive, [&] { return robot.diary.has("held: its button was pressed"); }));
+    CHECK(robot.scout.let_go());
+    CHECK(eventually(executive, [&] { return robot.diary.has("obeys again"); }));
+    robot.outside.plugged = false;
+    REQUIRE(robot.gets(HardwareState::backoff));
+    const std::string failed = "held: it has failed; orcactl estop --release lets it move again";
+    CHECK(eventually(executive, [&] { return robot.diary.has(failed); }));
+    CHECK_FALSE(robot.diary.has("held: emergency stop"));
+    CHECK(robot.count("obeys again") == 1);
+  });
+}
+
 TEST_CASE("a device that stays away is told once, and asked for less and less often", "[hw][recovery]") {
   run_on_each({{ClockKind::virtual_time, Backend::baton}}, [](Executive& executive) {
     CableRobot robot(executive);

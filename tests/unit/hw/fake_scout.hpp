@@ -30,6 +30,9 @@ class FakeHardwareHost final : public hw::HardwareHost {
   void report(const idl::Contact& /*contact*/) override {}
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void state_changed(hw::HardwareState state) override { diary_.note(std::string("-> ") + to_string(state)); }
+  void held(const std::optional<std::string>& reason) override {
+    diary_.note(reason ? "held: " + *reason : "obeys again");
+  }
   void pausing() override {}
   [[nodiscard]] Executive& executive() override { return executive_; }
 

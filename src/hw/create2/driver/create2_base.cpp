@@ -24,6 +24,7 @@ using namespace orca::hw::create2;
 using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;
+constexpr Duration kStopTime = 1s;      // for which it is told to stop, again and again, when it is held
 constexpr Duration kCliffTime = 200ms;  // in which the end of safe mode is put down to a cliff
 constexpr double kMaxTurnRate = 2.0 * kMaxWheelSpeed / kWheelBase;
 const std::vector<std::uint32_t> kRates{115200, 19200};
@@ -86,7 +87,9 @@ class Create2Base final : public orca::hw::LineDriver {
   }
 
   [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
-  [[nodiscard]] TimePoint next_turn() const override { return powered_ ? say_again_ : orca::kForever; }
+  [[nodiscard]] TimePoint next_turn() const override {
+    return powered_ || say_again_ < stops_until_ ? say_again_ : orca::kForever;
+  }
   [[nodiscard]] orca::hw::LineCounts counts() const override {
     return orca::hw::counts_of(session_->statistics());
   }
@@ -108,14 +111,14 @@ class Create2Base final : public orca::hw::LineDriver {
     const TimePoint now = host().now();
     const auto taken = [this](const Sensors& sensors, TimePoint stamp) { take(sensors, stamp); };
     if (Status read = session_->receive(now, taken); !read.ok()) return read;
-    if (!powered_ || now < say_again_) return line().flush();
+    if (!is_told() || now < say_again_) return line().flush();
     return say(applied_);
   }
 
   Status drive(const DriveSetpoint& setpoint) override {
     applied_ = setpoint;
     if (!setpoint.stands()) powered_ = true;
-    return powered_ ? say(setpoint) : orca::ok();
+    return is_told() ? say(setpoint) : orca::ok();
   }
 
  private:
@@ -148,10 +151,18 @@ class Create2Base final : public orca::hw::LineDriver {
       hold("it has left safe mode; was one of its buttons pressed?");
   }
 
+  // It may go on with what it was told last, whatever it says of itself: so it is told to stop before nothing more is said.
   void hold(const std::string& reason) {
-    powered_ = was_safe_ = false;
+    if (powered_) {
+      stops_until_ = host().now() + kStopTime;
+      say_again_ = host().now();
+    }
+    rest();
     motion_->hold(reason + ", then orcactl estop --release");
   }
+
+  // Whether it is told what its wheels are to do.
+  [[nodiscard]] bool is_told() const { return powered_ || host().now() < stops_until_; }
 
   // Safe mode is asked for again until it is there, but not to stand.
   Status say(const DriveSetpoint& setpoint) {
@@ -178,7 +189,8 @@ class Create2Base final : public orca::hw::LineDriver {
   bool was_safe_ = false;  // it has entered safe mode since then
   DriveSetpoint applied_;  // what the wheels were told last
   TimePoint say_again_{};
-  TimePoint last_cliff_{};  // or bumper
+  TimePoint stops_until_{};  // it is told to stop although it is held
+  TimePoint last_cliff_{};   // or bumper
 };
 
 }  // namespace

@@ -215,8 +215,11 @@ class Xr4000Base final : public orca::hw::LineDriver {
     if ((senses_->status() & kJoystick) != 0) hold("somebody drives it with the joystick; let go of that");
   }
 
+  // It is told to stop at once, and again when its axes are ready: those that are not refuse.
   void hold(const std::string& reason) {
+    const bool was_powered = powered_;
     rest();
+    brakes_ = was_powered;
     wants_stop_ = true;
     motion_->hold(reason + ", then orcactl estop --release");
   }

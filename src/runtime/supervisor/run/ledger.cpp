@@ -199,6 +199,7 @@ Status Ledger::recall(const Standing& standing) {
 
 void Ledger::lose(const std::string& process, const std::string& why) {
   restless_.erase(process);
+  settle_holds_of(process, why);
   const std::lock_guard lock(mutex_);
   glances_.erase(process);
   for (const graph::ComponentNode& node : graph_.components) {
@@ -206,6 +207,19 @@ void Ledger::lose(const std::string& process, const std::string& why) {
     host::ComponentReport& report = components_[node.name];
     report.state = host::ComponentState::unloaded;
     report.failure = why;
+  }
+}
+
+// What its devices held goes with a process; when it comes again the supervisor itself holds it.
+void Ledger::settle_holds_of(const std::string& process, const std::string& why) {
+  std::vector<idl::Alarm> over;
+  for (const host::KeptAlarm& kept : alarms_.kept())
+    if (kept.process == process && kept.alarm.active() &&
+        kept.alarm.kind() == host::to_string(host::AlarmKind::estop))
+      over.push_back(own_alarm(host::AlarmKind::estop, kept.alarm.source(), why));
+  for (idl::Alarm& alarm : over) {
+    alarm.active(false);
+    note(std::move(alarm), process, "");
   }
 }
 

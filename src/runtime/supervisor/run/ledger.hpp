@@ -98,6 +98,7 @@ class Ledger final : public host::RunView {
   // Keeps alarms that were raised, and told to everybody, before this supervisor came.
   Status recall(const Standing& standing);
   void recall(const idl::Alarm& alarm, const std::string& process);
+  void settle_holds_of(const std::string& process, const std::string& why);
   Status take_change(const StateChange& change);
   Status take_figures(const Report& report, const std::string& process);
   Status take_object(const Report& report, const std::string& process);

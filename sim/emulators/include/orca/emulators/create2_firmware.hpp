@@ -26,6 +26,8 @@ struct Create2Settings {
   std::uint16_t voltage = 14800;   ///< [mV] of the battery.
   std::uint16_t charge = 2000;     ///< [mAh] in the battery.
   std::uint16_t capacity = 2500;   ///< [mAh] of the full battery.
+  bool heeds_charger =
+      true;  ///< A charger ends safe mode, as its manual says. With some firmware it does not.
 };
 
 /// The modes of the interface, with their numbers.

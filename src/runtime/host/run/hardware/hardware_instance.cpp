@@ -69,9 +69,23 @@ void HardwareInstance::state_changed(hw::HardwareState state) {
   run_.changed();
 }
 
+// A stop that was ordered is an alarm of whoever has ordered it.
+void HardwareInstance::held(const std::optional<std::string>& reason) {
+  if (on_trial_.load()) return;
+  const char* const hook = to_string(Hook::strand);
+  if (reason)
+    return run_.reporter.raise(make_alarm(AlarmKind::estop, name_, hook, "the base is held: " + *reason));
+  idl::Alarm over = make_alarm(AlarmKind::estop, name_, hook, "the base obeys commands again");
+  over.active(false);
+  run_.reporter.note(std::move(over));
+}
+
 void HardwareInstance::accept() {
   const bool was_on_trial = on_trial_.exchange(false);
-  if (was_on_trial && container_->state() == hw::HardwareState::fault) raise_fault();
+  if (!was_on_trial) return;
+  if (container_->state() == hw::HardwareState::fault) raise_fault();
+  if (container_->motion() == nullptr) return;
+  if (const std::optional<std::string> reason = container_->motion()->own_hold()) held(reason);
 }
 
 // The container has written the reason to the log.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ class HardwareInstance final : public hw::HardwareHost {
   void report(const idl::Contact& contact) override;
   [[nodiscard]] std::uint64_t run_seed() const override { return run_.seed; }
   void state_changed(hw::HardwareState state) override;
+  void held(const std::optional<std::string>& reason) override;
   void pausing() override { pause_plugin_turn(); }
   [[nodiscard]] Executive& executive() override { return run_.executive; }
 

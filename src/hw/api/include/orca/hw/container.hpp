@@ -31,6 +31,9 @@ class HardwareHost : public PluginHost {
   virtual void report(const idl::Contact& contact) = 0;
   /// Reports a change of the container's state, for traces.
   virtual void state_changed(HardwareState state) = 0;
+  /// Reports that the base is held, and not by order of the process: a person must do something.
+  /// @param reason  nothing: it is so no more.
+  virtual void held(const std::optional<std::string>& reason) = 0;
   /// Reports that the container's strand has done something and is about to wait.
   virtual void pausing() = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
@@ -149,7 +152,7 @@ class HardwareContainer : public DriverFunctions, public EndpointList {
   /// Takes a command for one of the actuators, to be carried out at once, or as soon as the hardware is active.
   /// @errors  those of ActuatorEndpoint::command().
   Status command(ActuatorEndpoint& actuator, ObjectRef command);
-  /// Refuses commands to move and stops what moves, with the emergency stop of a base, until let_go().
+  /// Refuses commands to move and stops what moves, with the emergency stop of a base, until let_go(), by order of the process.
   /// @param reason  for people, as the error of a refused command gives it.
   void hold(const std::string& reason);
   /// Returns whether anything was held.

@@ -141,8 +141,13 @@ class MotionHW {
   /// @param reason  for people, as the error of a refused command gives it: "emergency stop".
   /// @thread  any, as let_go().
   void hold(const std::string& reason);
+  /// Does the same by order of the process, which tells people of it itself.
+  void hold_by_order(const std::string& reason);
   /// Returns whether it was held.
   bool let_go();
+  /// Returns why the base is held without an order; nothing if it is not: a person is to be told.
+  /// @thread  any.
+  [[nodiscard]] std::optional<std::string> own_hold() const;
 
   /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
   /// asks for another direction.
@@ -182,7 +187,8 @@ class MotionHW {
   TimePoint received_{};
   std::uint64_t mission_ = 0;
   std::uint64_t expired_ = 0;
-  std::optional<std::string> held_;  // why, while it is held
+  std::optional<std::string> held_;      // why, while it is held
+  std::optional<std::string> own_hold_;  // the same, but for orders
 };
 
 }  // namespace orca::hw

@@ -30,8 +30,8 @@ enum class AlarmKind {
   process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
   gave_up,        ///< Processes were restarted too often; the run ends.
   machine_lost,   ///< Another machine of the system is silent, or could not start again.
-  estop,          ///< Motors are held: an operator has stopped all, or the process of some was lost.
-  control_lost,   ///< Nobody can reach this system with orcactl any more, not even to stop it.
+  estop,  ///< Motors are held: an operator has stopped all, the process of some was lost, or the base wants a person.
+  control_lost,  ///< Nobody can reach this system with orcactl any more, not even to stop it.
   swap_undone  ///< A new version of a component failed soon after it had taken over, and the old one is back.
 };
 
