@@ -165,14 +165,17 @@ TEST_CASE("no process outlives a deployer that was killed", "[system][processes]
   CHECK(kept_by_system() == before);
 }
 
-TEST_CASE("SIGINT to all and SIGTERM to the deployer end everything with 0", "[system][processes]") {
-  for (const int signal : {SIGINT, SIGTERM}) {
+// Whoever stops a service, such as systemd, signals all its processes.
+TEST_CASE("SIGINT and SIGTERM to all, and SIGTERM to the deployer, end everything with 0",
+          "[system][processes]") {
+  for (const auto& [signal, to_all] :
+       {std::pair(SIGINT, true), std::pair(SIGTERM, true), std::pair(SIGTERM, false)}) {
     for (const double after : {0.3, 2.5}) {
-      CAPTURE(signal, after);
+      CAPTURE(signal, to_all, after);
       System system({kScout});
       std::this_thread::sleep_for(Seconds(after));
       const Seconds sent = since_boot();
-      signal == SIGINT ? system.program().send_to_group(signal) : system.program().send(signal);
+      to_all ? system.program().send_to_group(signal) : system.program().send(signal);
       const Run run = finish(system.program(), Seconds(10));
       INFO(run.err);
       CHECK(run.exit_code() == 0);

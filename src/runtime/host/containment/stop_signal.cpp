@@ -163,7 +163,12 @@ StopSignal::Wake StopSignal::next() {
     if (ending_.load()) return Wake::end;
     if (g_crashing.load() && !g_crash_handled.load()) return Wake::crash;
     signalfd_siginfo info;
-    if (g_pending.exchange(false) || read(signal_fd_, &info, sizeof info) == sizeof info) return Wake::signal;
+    sender_ = 0;
+    if (g_pending.exchange(false)) return Wake::signal;
+    if (read(signal_fd_, &info, sizeof info) == sizeof info) {
+      sender_ = static_cast<pid_t>(info.ssi_pid);
+      return Wake::signal;
+    }
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
     if (left <= 0ms) return Wake::timeout;
     pollfd fds[] = {{signal_fd_, POLLIN, 0}, {g_wake_fd.load(), POLLIN, 0}};
@@ -178,7 +183,9 @@ void StopSignal::request() {
     if (!urgent_.exchange(true)) deadline_ = std::min(deadline_, Clock::now() + kSecondSignalGrace);
     return;
   }
-  deadline_ = Clock::now() + (is_host_process() ? kHostEndLimit : kEndLimit);
+  // The supervisor has waited already; whoever signals all processes at once has not, and it sees to their end.
+  const bool is_late = is_host_process() && sender_ == getppid();
+  deadline_ = Clock::now() + (is_late ? kHostEndLimit : kEndLimit);
   const std::lock_guard lock(mutex_);
   if (action_) action_();
 }

@@ -140,9 +140,10 @@ class HostedPart::Inside {
   }
 
  private:
-  static void refuse(const PartOrder& order) {
+  // To end is what happens already: whoever else orders that gets the same answer. A signal may have come before the order.
+  void refuse(const PartOrder& order) const {
     const Error ends = fail(Code::failed_precondition, "the process is being taken down");
-    if (order.done) order.done(ends);
+    if (order.done) order.done(order.kind == PartOrder::Kind::take_down ? end_ : Status(ends));
     if (order.swapped) order.swapped(ends);
   }
 
@@ -265,7 +266,8 @@ class HostedPart::Inside {
     taken_down_ = true;
     if (stuck.empty()) return ok();
     close_outputs();  // the process will be ended
-    return fail(Code::deadline_exceeded, listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end");
+    end_ = fail(Code::deadline_exceeded, listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end");
+    return end_;
   }
 
   void report_changes() {
@@ -310,6 +312,7 @@ class HostedPart::Inside {
   PartChanges changes_{process_, {whole_, graph_mutex_}, place_.catalogue, watched_, outer_, offers_, swaps_};
   bool is_open_ = false;  // its components may work
   bool taken_down_ = false;
+  Status end_;  // what has become of that
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;
 

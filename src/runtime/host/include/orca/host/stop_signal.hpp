@@ -91,6 +91,7 @@ class StopSignal {
   std::function<void()> crash_action_;
   // Used by the watcher only.
   Clock::time_point deadline_ = Clock::time_point::max();
+  pid_t sender_ = 0;  // of the last request; 0: not known
   int signal_fd_ = -1;
   std::thread watcher_;
 };
