@@ -305,6 +305,26 @@ TEST_CASE("motors that lose their power by themselves are told, and stay off unt
   CHECK(eventually([&] { return is_moving(pioneer); }));
 }
 
+TEST_CASE("a base that waits for a person raises an alarm, and its goal waits as long",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("pioneer");
+  Pioneer pioneer(device);
+  Subprocess program(deployer(drive(device, far_goal() + Words{"--set", "goto.blocked_after=2 s"})));
+  REQUIRE(eventually([&] { return is_moving(pioneer); }));
+  pioneer.with([](P2osFirmware& firmware, PlainBody&) { firmware.cut_power(); });
+  CHECK(program.wait_for_output("alarm ESTOP: the base is held: its motors have lost their power",
+                                Seconds(20 * kSlowdown)));
+  CHECK_THAT(run_orcactl({"ps"}).out, Contains("ESTOP"));
+  CHECK(run_orcactl({"alarms", "ack", "all"}).exit_code() == 1);
+  std::this_thread::sleep_for(4s);  // twice its patience
+  CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+  CHECK(eventually([&] { return is_moving(pioneer); }));
+  CHECK(program.err().find("blocked") == std::string::npos);
+  CHECK(eventually([] { return run_orcactl({"alarms", "ack", "all"}).exit_code() == 0; }));
+  CHECK(run_orcactl({"ps"}).out.find("ESTOP") == std::string::npos);
+}
+
 TEST_CASE("a Pioneer tells what it has and how often it is told of it", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("pioneer");

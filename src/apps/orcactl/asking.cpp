@@ -61,6 +61,7 @@ class Printer {
 
   void take(supervisor::ControlAnswer& answer) {
     if (const auto* const text = std::get_if<supervisor::TextAnswer>(&answer)) print(text->text);
+    if (const auto* const note = std::get_if<supervisor::NoteAnswer>(&answer)) take_note(note->text);
     auto* const record = std::get_if<supervisor::RecordAnswer>(&answer);
     if (record == nullptr) return;
     if (!call_.json && is_log_line(record->record)) return print(log_line(record->record));
@@ -72,14 +73,19 @@ class Printer {
     if (call_.watch && !call_.json) print(clear_screen());
     if (follows_ || !call_.command->tells) return;
     print(call_.json ? table_json(records_) : table_text(records_, terminal_columns()));
+    for (const std::string& note : notes_) print_note(note);
   }
 
  private:
+  // A note stands below the answer, unless that has no end.
+  void take_note(const std::string& text) { follows_ ? print_note(text) : notes_.push_back(text); }
+  static void print_note(const std::string& text) { std::fprintf(stderr, "orcactl: %s\n", text.c_str()); }
   static std::string clear_screen() { return terminal_columns() > 0 ? "\x1b[H\x1b[2J" : "\n"; }
 
   const Call& call_;
   const bool follows_;
   std::vector<Record> records_;
+  std::vector<std::string> notes_;
 };
 
 // Returns the longest wait for a part of the answer.

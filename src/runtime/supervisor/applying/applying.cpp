@@ -6,6 +6,7 @@
 #include "applying/graph_edit.hpp"
 #include "applying/work.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/supervisor/log_name.hpp"
 
@@ -99,13 +100,20 @@ void Applying::go_on() {
   });
 }
 
-void Applying::begin(GraphSource source, bool carries_out, Told told) {
+Status Applying::can_change() const {
   if (work_)
-    return told(
-        fail(Code::unavailable, "another graph is being compared or applied; try again when that is done"));
-  if (!levers_.read) return told(fail(Code::unimplemented, "this supervisor reads no graphs"));
-  if (graph_.machines.size() > 1)
-    return told(fail(Code::unimplemented, "a system on several machines takes no other graph while it runs"));
+    return fail(Code::unavailable, "another graph is being compared or applied; try again when that is done");
+  if (!levers_.read) return fail(Code::unimplemented, "this supervisor reads no graphs");
+  if (graph_.machines.size() < 2) return ok();
+  std::vector<std::string> machines;
+  for (const graph::MachineNode& node : graph_.machines) machines.push_back(node.name);
+  return fail(Code::unimplemented,
+              "a system on several machines (" + listed(machines) +
+                  ") takes no other graph while it runs; stop it, and start it with that one");
+}
+
+void Applying::begin(GraphSource source, bool carries_out, Told told) {
+  if (const Status free = can_change(); !free.ok()) return told(free.error());
   work_ = std::make_shared<Work>(*this, std::move(source), carries_out, std::move(told));
 }
 

@@ -66,6 +66,9 @@ class Applying {
   void compare(const std::string& file, const ReplyPtr& reply);
   /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
   void apply(const std::string& file, const ReplyPtr& reply);
+  /// Returns why the system can take no other graph now, if that is so.
+  /// @errors  unavailable while another one is being compared or applied; unimplemented.
+  [[nodiscard]] Status can_change() const;
   // The next three are what an operator asks for with a few words. The words are those of the command.
 
   /// Makes a connection, or gives it another policy: see with_connection().

@@ -16,6 +16,7 @@ Cell::Cell(std::string called, double number, int digits) : name(std::move(calle
 void fields(auto& archive, Ask& m) { transfer_all(archive, m.command, m.words, m.as_json); }
 void fields(auto& archive, RecordAnswer& m) { transfer(archive, m.record); }
 void fields(auto& archive, TextAnswer& m) { transfer(archive, m.text); }
+void fields(auto& archive, NoteAnswer& m) { transfer(archive, m.text); }
 void fields(auto& archive, LineAnswer& m) { transfer_all(archive, m.line, m.type, m.reply); }
 void fields(auto& archive, EndAnswer& m) { transfer(archive, m.outcome); }
 void fields(auto& archive, Tapped& m) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <set>
 #include <utility>
@@ -16,6 +17,9 @@ namespace orca::supervisor {
 namespace {
 
 constexpr Duration kSocketLook = 1s;  // until the next look at the socket's file
+// What these show is that of this machine.
+const std::set<std::string, std::less<>> kOfThisMachine{"ps",     "plugins",  "counters",
+                                                        "alarms", "missions", "log"};
 
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
@@ -45,15 +49,15 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ControlDesk::ControlDesk(const graph::Graph& graph, const SystemFacts& facts,
+ControlDesk::ControlDesk(const graph::Graph& whole, const graph::Graph& here, const SystemFacts& facts,
                          const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers,
                          Applying::Levers applying)
     : ledger_(ledger),
-      names_(graph, facts.ports, members),
-      operating_(graph, facts, names_, ledger.reports(), levers),
-      exchanging_(graph, facts, names_, operating_, levers.wake),
-      applying_(graph, members, operating_, exchanging_, std::move(applying)),
-      showing_(graph, facts, members, ledger, exchanging_, levers.edges_in_use),
+      names_(whole, here, facts.ports, members),
+      operating_(here, facts, names_, ledger.reports(), levers),
+      exchanging_(here, facts, names_, operating_, levers.wake),
+      applying_(here, members, operating_, exchanging_, std::move(applying)),
+      showing_(whole, here, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
 
 void ControlDesk::open(Result<ControlSocket> socket) {
@@ -63,7 +67,7 @@ void ControlDesk::open(Result<ControlSocket> socket) {
 }
 
 void ControlDesk::recall(const Standing& standing) {
-  if (standing.motors_held) motors_.recall();
+  if (standing.motors_held) hold_.recall();
   operating_.recall(standing.params);
 }
 
@@ -123,7 +127,8 @@ void ControlDesk::came_up(const std::vector<Member*>& members) {
 
 const ControlDesk::Handlers& ControlDesk::handlers() {
   static const Handlers all{
-      {"ps", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.components(*r); }},
+      {"ps",
+       [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.components(*r, d.log_.rates()); }},
       {"graph", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.graph(*r); }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
@@ -133,7 +138,8 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { handle_alarms(ask.words, d.ledger_, *r); }},
       {"missions", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.show_missions(ask, *r); }},
       {"log", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.show_log(ask, r); }},
-      {"estop", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.stop_motors(ask, r); }},
+      {"estop",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.hold_.order(!has(ask, "--release"), r); }},
       {"stop", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.operating_.stop(r); }},
       {"restart",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.restart(word(ask, 0), r); }},
@@ -158,8 +164,20 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
   return all;
 }
 
+// Whatever an operator asks, and however wrong that goes, the system works on.
 void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
+  try {
+    carry_out(ask, reply);
+  } catch (const std::exception& error) {
+    const std::string text = "a fault of Orca in the command " + in_quotes(ask.command) + ": " + error.what();
+    log::error(kLogName, text);
+    reply->refuse(fail(Code::internal, text));
+  }
+}
+
+void ControlDesk::carry_out(const Ask& ask, const ReplyPtr& reply) {
   const auto handler = handlers().find(ask.command);
+  if (kOfThisMachine.contains(ask.command) && names_.other_machines()) reply->note(*names_.other_machines());
   if (handler != handlers().end()) return handler->second(*this, ask, reply);
   reply->refuse(
       fail(Code::unimplemented, "the supervisor does not know the command " + in_quotes(ask.command)));
@@ -168,12 +186,8 @@ void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
 void ControlDesk::rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring) {
   for (const std::size_t at : {0U, 1U})
     if (const auto port = names_.port(word(ask, at)); !port) return reply->refuse(port.error());
+  if (const Status free = applying_.can_change(); !free.ok()) return reply->refuse(free.error());
   (applying_.*rewiring)(ask.words, reply);
-}
-
-void ControlDesk::stop_motors(const Ask& ask, const ReplyPtr& reply) {
-  if (has(ask, "--release")) return motors_.release(reply);
-  motors_.stop(reply);
 }
 
 void ControlDesk::show_log(const Ask& ask, const ReplyPtr& reply) {
@@ -197,7 +211,9 @@ void ControlDesk::open_line(const Ask& ask, const ReplyPtr& reply) {
   const Result<const graph::ListedPort*> port = names_.port(word(ask, 0));
   if (!port) return reply->refuse(port.error());
   const graph::PortRef& ref = (*port)->ref;
-  const Result<Member*> member = names_.ready_member_of(**names_.component(ref.component));
+  const Result<const graph::ComponentNode*> component = names_.component(ref.component);
+  if (!component) return reply->refuse(component.error());
+  const Result<Member*> member = names_.ready_member_of(**component);
   if (!member) return reply->refuse(member.error());
   Result<SocketPair> pair = make_socket_pair();
   if (!pair) return reply->refuse(pair.error());

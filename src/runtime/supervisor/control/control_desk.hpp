@@ -18,7 +18,9 @@
 #include "control/operating.hpp"
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
+#include "machines/system_hold.hpp"
 #include "orca/base/result.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "run/ledger.hpp"
 #include "run/member.hpp"
@@ -31,8 +33,11 @@ namespace orca::supervisor {
 class ControlDesk {
  public:
   /// All of these outlive the object.
-  ControlDesk(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-              Ledger& ledger, const RunLevers& levers, Applying::Levers applying);
+  /// @param whole  the graph of the whole system.
+  /// @param here   what of it runs on this machine.
+  ControlDesk(const graph::Graph& whole, const graph::Graph& here, const SystemFacts& facts,
+              const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers,
+              Applying::Levers applying);
 
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
   void open(Result<ControlSocket> socket);
@@ -45,8 +50,14 @@ class ControlDesk {
   /// files is saved, the main one first.
   void watch(std::vector<std::string> graph_files);
 
-  /// Stops all motors, and holds them until an operator releases them, those of processes that come up later, too.
-  void hold() { motors_.stop(nullptr); }
+  /// Agrees with other machines on what stops the motors of all.
+  /// @param accord  outlives the object.
+  void join(MotorsAccord& accord) { hold_.join(accord); }
+  /// Goes on with what other machines have said. To be called whenever one was heard.
+  void hear_machines(Moment now) { hold_.turn(now); }
+  /// Stops all motors of the system, and holds them until an operator releases them, those of processes that come up later,
+  /// too.
+  void hold() { hold_.order(true, nullptr); }
   /// Notes that processes are built, before they open their hardware.
   void built(const std::vector<Member*>& members);
   /// Goes on with what an earlier supervisor has ordered a process.
@@ -68,9 +79,9 @@ class ControlDesk {
 
   static const Handlers& handlers();
   void handle(const Ask& ask, const ReplyPtr& reply);
+  void carry_out(const Ask& ask, const ReplyPtr& reply);
   using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
   void rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring);
-  void stop_motors(const Ask& ask, const ReplyPtr& reply);
   void show_log(const Ask& ask, const ReplyPtr& reply);
   void show_missions(const Ask& ask, Reply& reply) const;
   void open_line(const Ask& ask, const ReplyPtr& reply);
@@ -86,7 +97,8 @@ class ControlDesk {
   std::vector<std::string> graph_files_;  // the main one first
   const Showing showing_;
   MotorHold motors_;
-  LogBook log_;
+  SystemHold hold_{motors_};
+  LogBook log_{[this] { return TimePoint(steady_now() - ledger_.start()); }};
   Moment socket_seen_{};
   std::optional<ControlServer> server_;  // the last member: its clients are gone first
 };

@@ -17,7 +17,8 @@ Record record_of(TimePoint time, const char* level, const std::string& who, cons
 
 }  // namespace
 
-LogBook::LogBook() : listener_([this](const log::Line& line) { note(line); }) {}
+LogBook::LogBook(std::function<TimePoint()> clock)
+    : clock_(std::move(clock)), listener_([this](const log::Line& line) { note(line); }) {}
 
 void LogBook::note(const log::Line& line) {
   const std::lock_guard lock(mutex_);
@@ -43,6 +44,20 @@ void LogBook::show(LogWish wish, const ReplyPtr& reply) {
     for (const Entry& entry : entries_) tell(entry, wish, *reply);
   }
   if (wish.follows) followers_.push_back({std::move(wish), reply});
+}
+
+std::map<std::string, double> LogBook::rates() {
+  constexpr Duration kLately = 10s;
+  constexpr Duration kShortest = 100ms;  // from the first line that is kept until now
+  std::map<std::string, double> rates;
+  const std::lock_guard lock(mutex_);
+  if (entries_.empty()) return rates;
+  const TimePoint now = clock_();
+  const bool is_full = entries_.size() == kMost;
+  const Duration span = is_full ? std::clamp(now - entries_.front().time, kShortest, kLately) : kLately;
+  for (const Entry& entry : entries_)
+    if (now - entry.time <= span) rates[entry.who] += 1.0 / to_seconds(span);
+  return rates;
 }
 
 void LogBook::pass_on() {

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <list>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -32,12 +34,15 @@ class LogBook {
   static constexpr std::size_t kLongestLine =
       2000;  ///< [bytes] of a line; its middle is left out if it is longer.
 
-  LogBook();
+  /// @param clock  the clock of the log.
+  explicit LogBook(std::function<TimePoint()> clock);
 
   /// Answers with the lines that are kept; if the client follows, with those that come, until it is gone.
   void show(LogWish wish, const ReplyPtr& reply);
   /// Passes on what was noted since the last call.
   void pass_on();
+  /// Returns how many lines a second each has written lately: within ten seconds, or as far as lines are kept.
+  [[nodiscard]] std::map<std::string, double> rates();
 
  private:
   struct Entry {
@@ -55,6 +60,7 @@ class LogBook {
   void note(const log::Line& line);
   static void tell(const Entry& entry, const LogWish& wish, Reply& reply);
 
+  const std::function<TimePoint()> clock_;
   std::list<Follower> followers_;
   std::uint64_t passed_on_ = 0;  // number of the last line that followers have
 

@@ -16,49 +16,45 @@ constexpr const char* kLost =
     "--release";
 constexpr const char* kReason = "emergency stop; an operator releases it with: orcactl estop --release";
 
-// Refuses to release what nobody holds, when all processes have said so. A base may also be held because its device had failed.
-class Refusal {
+// The answers of all processes to one order. Whoever waits is told when the last one is there, or its process has ended.
+class Answers {
  public:
-  Refusal(ReplyPtr reply, bool holds) : reply_(std::move(reply)), holds_(holds) {}
-  ~Refusal() {
-    if (holds_) reply_->refuse(fail(Code::failed_precondition, "there is no emergency stop to be released"));
-  }
-  Refusal(const Refusal&) = delete;
-  Refusal& operator=(const Refusal&) = delete;
-  void hear(const Status& outcome) {
-    if (outcome.ok()) holds_ = false;
-    if (!outcome.ok() && outcome.error().code != Code::failed_precondition) reply_->refuse(outcome.error());
+  Answers(MotorHold::Done done, Status otherwise) : done_(std::move(done)), outcome_(std::move(otherwise)) {}
+  ~Answers() { done_(outcome_); }
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+  // A process that held nothing has nothing to release.
+  void hear(const Status& answer) {
+    const bool has_failed = !outcome_.ok() && outcome_.error().code != Code::failed_precondition;
+    const bool says_nothing = !answer.ok() && answer.error().code == Code::failed_precondition;
+    if (!has_failed && !says_nothing) outcome_ = answer;
   }
 
  private:
-  const ReplyPtr reply_;
-  bool holds_;
+  const MotorHold::Done done_;
+  Status outcome_;
 };
 
 }  // namespace
 
-void MotorHold::ask_all(const ReplyPtr& reply, const std::function<Order()>& make) const {
-  for (Member* const member : members_) {
-    if (!member->is_built()) continue;
-    member->ask(make(), [reply](const Status& outcome) {
-      if (!outcome.ok() && reply != nullptr) reply->refuse(outcome.error());
-    });
-  }
-}
-
-void MotorHold::stop(const ReplyPtr& reply) {
+void MotorHold::stop(Done done) {
   holds_ = true;
-  ask_all(reply, [] { return StopMotors{kReason}; });
+  const auto answers = std::make_shared<Answers>(std::move(done), ok());
+  for (Member* const member : members_)
+    if (member->is_built())
+      member->ask(StopMotors{kReason}, [answers](const Status& outcome) { answers->hear(outcome); });
   ledger_.raise(host::AlarmKind::estop, "", "all motors are held until orcactl estop --release");
 }
 
-void MotorHold::release(const ReplyPtr& reply) {
+// A base may also be held because its device had failed.
+void MotorHold::release(Done done) {
+  const Status idle = fail(Code::failed_precondition, "there is no emergency stop to be released");
   const bool was_stopped = std::exchange(holds_, false);
-  const auto refusal = std::make_shared<Refusal>(reply, !was_stopped);
+  const auto answers = std::make_shared<Answers>(std::move(done), was_stopped ? ok() : idle);
   for (Member* const member : members_) {
     if (!member->is_built()) continue;
     lost_.erase(member->name());
-    member->ask(ReleaseMotors{}, [refusal](const Status& outcome) { refusal->hear(outcome); });
+    member->ask(ReleaseMotors{}, [answers](const Status& outcome) { answers->hear(outcome); });
   }
   const std::string text = "the emergency stop is released; motors obey commands again";
   if (ledger_.settle_all(host::AlarmKind::estop, text)) log::warning(kLogName, text);
@@ -67,7 +63,8 @@ void MotorHold::release(const ReplyPtr& reply) {
 void MotorHold::recall() {
   if (holds_) return;
   holds_ = true;
-  ask_all(nullptr, [] { return StopMotors{kReason}; });
+  for (Member* const member : members_)
+    if (member->is_built()) member->tell(StopMotors{kReason});
   log::warning(kLogName, "the emergency stop holds all motors until orcactl estop --release");
 }
 

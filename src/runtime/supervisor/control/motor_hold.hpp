@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "control/reply.hpp"
+#include "orca/base/result.hpp"
 #include "run/ledger.hpp"
 #include "run/member.hpp"
 
 namespace orca::supervisor {
 
-/// The emergency stop of a system: stops all motors, in whatever process they are, and holds them until an operator
+/// The emergency stop of a machine: stops all motors, in whatever process they are, and holds them until an operator
 /// releases them. The order goes over the control channels, so no link that carries objects can delay it. A process that
 /// comes up meanwhile is held before it opens its hardware.
 ///
@@ -22,11 +22,14 @@ class MotorHold {
   /// @param members  all; outlives the object, as the ledger does, which keeps the alarm.
   MotorHold(const std::vector<Member*>& members, Ledger& ledger) : members_(members), ledger_(ledger) {}
 
-  /// Stops all motors, and raises the alarm ESTOP. The answer ends when they are held in all processes.
-  /// @param reply  null: nobody asks.
-  void stop(const ReplyPtr& reply);
+  /// Takes what has become of an order, when all processes have answered or ended.
+  using Done = std::function<void(const Status&)>;
+
+  /// Stops all motors, and raises the alarm ESTOP.
+  void stop(Done done);
   /// Lets them obey commands again. Nothing moves before the next command.
-  void release(const ReplyPtr& reply);
+  /// @param done  gets failed_precondition if nothing was held.
+  void release(Done done);
 
   /// Notes that a process has ended, by itself, with others, or to begin anew. When it comes up again, its devices are held until
   /// release(): a robot whose odometry, and with it what goals mean, has begun anew must not go on by itself.
@@ -40,8 +43,6 @@ class MotorHold {
   [[nodiscard]] bool holds() const { return holds_; }
 
  private:
-  void ask_all(const ReplyPtr& reply, const std::function<Order()>& make) const;
-
   const std::vector<Member*>& members_;
   Ledger& ledger_;
   bool holds_ = false;

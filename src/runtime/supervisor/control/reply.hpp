@@ -29,6 +29,8 @@ class Reply {
   void add(Record record) { send(RecordAnswer{std::move(record)}); }
   void add(std::string text) { send(TextAnswer{std::move(text)}); }
   void add(LineAnswer line) { send(std::move(line)); }
+  /// Tells a person something that is no part of the answer.
+  void note(std::string text) { send(NoteAnswer{std::move(text)}); }
   /// Makes the answer end with an error, of several with the first.
   void refuse(const Error& error);
 

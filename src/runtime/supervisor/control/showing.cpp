@@ -9,6 +9,7 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/json.hpp"
 #include "orca/graph/print.hpp"
+#include "orca/host/alarm.hpp"
 #include "orca/host/component_state.hpp"
 
 namespace orca::supervisor {
@@ -39,14 +40,40 @@ std::set<std::string> pinned_files(const std::vector<host::KeptAlarm>& alarms) {
   return names;
 }
 
+// Returns how much memory the process of a component has for itself; all its components share it.
+Cell memory_of(const Member& member) {
+  constexpr double kMega = 1e6;
+  const auto bytes = member.process() != nullptr ? member.process()->memory() : std::nullopt;
+  if (bytes) return {"memory_mb", static_cast<double>(*bytes) / kMega, 1};
+  Cell none{"memory_mb", ""};
+  none.kind = Cell::Kind::number;
+  return none;
+}
+
+// Returns the kinds of the alarms that are not over and concern a component: itself, its hardware, its process, or, if it
+// serves something that may move, all motors.
+std::string alarms_of(const graph::ComponentNode& node, const std::vector<host::KeptAlarm>& alarms) {
+  std::set<std::string> kinds;
+  for (const host::KeptAlarm& kept : alarms) {
+    const idl::Alarm& alarm = kept.alarm;
+    const bool is_estop = alarm.kind() == host::to_string(host::AlarmKind::estop);
+    const bool is_of_all = alarm.source().empty() && kept.process.empty() && is_estop;
+    const bool is_of_hardware = !node.hardware.empty() && (is_of_all || alarm.source() == node.hardware ||
+                                                           (is_estop && alarm.source() == node.process));
+    if (alarm.active() && (alarm.source() == node.name || is_of_hardware)) kinds.insert(alarm.kind());
+  }
+  return text_of(kinds);
+}
+
 }  // namespace
 
-void Showing::components(Reply& reply) const {
+void Showing::components(Reply& reply, const std::map<std::string, double>& lines_per_s) const {
   const host::Reports reports = ledger_.reports();
   for (const graph::ComponentNode& node : graph_.components) {
     const auto member = std::ranges::find(members_, node.process, [](const Member* m) { return m->name(); });
     if (member == members_.end()) continue;
     const CodeFacts code = exchanging_.code_of(node);
+    const auto lines = lines_per_s.find(node.name);
     reply.add(Record{{"name", node.name},
                      {"type", code.type},
                      {"process", node.process},
@@ -54,12 +81,15 @@ void Showing::components(Reply& reply) const {
                      {"state", state_of(**member, reports(node.name).state)},
                      {"plugin", code.plugin.file},
                      {"build_id", code.plugin.build_id},
-                     {"restarts", (*member)->restarts()}});
+                     {"restarts", (*member)->restarts()},
+                     {"alarms", alarms_of(node, ledger_.alarms())},
+                     memory_of(**member),
+                     {"log_per_s", lines != lines_per_s.end() ? lines->second : 0.0, 1}});
   }
 }
 
 void Showing::graph(Reply& reply) const {
-  reply.add(reply.as_json() ? graph::graph_json(graph_) : graph::print(graph_));
+  reply.add(reply.as_json() ? graph::graph_json(whole_) : graph::print(whole_));
 }
 
 void Showing::ports(Reply& reply) const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,20 +22,24 @@ namespace orca::supervisor {
 class Showing {
  public:
   /// All of these outlive the object.
+  /// @param whole         the graph of the whole system.
+  /// @param graph         what of it runs on this machine.
   /// @param edges_in_use  returns the edges in use of those that ports choose from.
-  Showing(const graph::Graph& graph, const SystemFacts& facts, const std::vector<Member*>& members,
-          const Ledger& ledger, const Exchanging& exchanging,
+  Showing(const graph::Graph& whole, const graph::Graph& graph, const SystemFacts& facts,
+          const std::vector<Member*>& members, const Ledger& ledger, const Exchanging& exchanging,
           std::function<std::vector<const graph::Edge*>()> edges_in_use)
-      : graph_(graph),
+      : whole_(whole),
+        graph_(graph),
         facts_(facts),
         members_(members),
         ledger_(ledger),
         exchanging_(exchanging),
         edges_in_use_(std::move(edges_in_use)) {}
 
-  /// A line for each component: where it runs and how it is.
-  void components(Reply& reply) const;
-  /// The graph, as `deployer --print` shows it.
+  /// A line for each component: where it runs, how it is, and what it uses up.
+  /// @param lines_per_s  that each writes to the log.
+  void components(Reply& reply, const std::map<std::string, double>& lines_per_s) const;
+  /// The graph of the whole system, as `deployer --print` shows it.
   void graph(Reply& reply) const;
   /// All ports, as `deployer --list-ports` shows them, and which choices are in use.
   void ports(Reply& reply) const;
@@ -45,6 +51,7 @@ class Showing {
   void counters(const ReplyPtr& reply) const;
 
  private:
+  const graph::Graph& whole_;
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const std::vector<Member*>& members_;

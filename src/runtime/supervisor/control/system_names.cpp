@@ -2,6 +2,7 @@
 #include "control/system_names.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
@@ -9,6 +10,12 @@
 
 namespace orca::supervisor {
 namespace {
+
+std::vector<std::string> component_names(const graph::Graph& graph) {
+  std::vector<std::string> names;
+  for (const graph::ComponentNode& node : graph.components) names.push_back(node.name);
+  return names;
+}
 
 Error unknown(const std::string& kind, const std::string& name, const std::vector<std::string>& names) {
   const auto nearest = xml::nearest_name(name, names);
@@ -19,26 +26,33 @@ Error unknown(const std::string& kind, const std::string& name, const std::vecto
 }  // namespace
 
 Result<const graph::ComponentNode*> SystemNames::component(const std::string& name) const {
-  if (const graph::ComponentNode* const found = graph_.find_component(name)) return found;
-  std::vector<std::string> names;
-  for (const graph::ComponentNode& node : graph_.components) names.push_back(node.name);
-  return unknown("component", name, names);
+  if (const graph::ComponentNode* const found = here_.find_component(name)) return found;
+  if (const graph::ComponentNode* const found = whole_.find_component(name))
+    return elsewhere("component " + name, found->process);
+  const graph::HardwareNode* const hardware = whole_.find_hardware(name);
+  if (hardware != nullptr && here_.find_hardware(name) == nullptr)
+    return elsewhere("hardware " + name, hardware->process);
+  return unknown("component", name, component_names(whole_));
 }
 
 Result<std::vector<const graph::ComponentNode*>> SystemNames::component_or_group(
     const std::string& name) const {
-  if (const graph::ComponentNode* const found = graph_.find_component(name)) return std::vector{found};
-  const graph::GroupNode* const group = graph_.find_group(name);
+  if (whole_.find_component(name) != nullptr) {
+    const Result<const graph::ComponentNode*> found = component(name);
+    if (!found) return found.error();
+    return std::vector{*found};
+  }
+  const graph::GroupNode* const group = whole_.find_group(name);
   if (group == nullptr) {
-    std::vector<std::string> names;
-    for (const graph::ComponentNode& node : graph_.components) names.push_back(node.name);
-    for (const graph::GroupNode& node : graph_.groups) names.push_back(node.name);
+    std::vector<std::string> names = component_names(whole_);
+    for (const graph::GroupNode& node : whole_.groups) names.push_back(node.name);
     return unknown("component or group", name, names);
   }
   std::vector<const graph::ComponentNode*> members;
-  for (const std::string& component : graph::start_order(graph_))
+  for (const std::string& component : graph::start_order(here_))
     if (std::ranges::find(group->components, component) != group->components.end())
-      members.push_back(graph_.find_component(component));
+      members.push_back(here_.find_component(component));
+  if (members.size() < group->components.size()) return spread(*group);
   return members;
 }
 
@@ -60,9 +74,55 @@ Result<Member*> SystemNames::process(const std::string& name) const {
     if (member->name() == name) return member;
     names.push_back(member->name());
   }
-  if (const graph::ComponentNode* const node = graph_.find_component(name)) return &member_of(*node);
-  for (const graph::ComponentNode& node : graph_.components) names.push_back(node.name);
+  if (const graph::ComponentNode* const node = here_.find_component(name)) return &member_of(*node);
+  if (const graph::ComponentNode* const node = whole_.find_component(name))
+    return elsewhere("component " + name, node->process);
+  for (const graph::ProcessNode& node : graph::processes_of(whole_)) {
+    if (node.name == name) return elsewhere("process " + name, name);
+    if (std::ranges::find(names, node.name) == names.end()) names.push_back(node.name);
+  }
+  for (const std::string& component : component_names(whole_)) names.push_back(component);
   return unknown("component or process", name, names);
+}
+
+std::string SystemNames::machine_of(const std::string& process) const {
+  const auto node = std::ranges::find(whole_.processes, process, &graph::ProcessNode::name);
+  return node == whole_.processes.end() ? "" : node->machine;
+}
+
+std::optional<std::string> SystemNames::other_machines() const {
+  std::vector<std::string> others;
+  for (const graph::MachineNode& node : whole_.machines)
+    if (!graph::processes_on(whole_, node.name).empty()) others.push_back(node.name);
+  if (others.size() < 2) return std::nullopt;
+  const std::string here = members_.empty() ? "" : machine_of(members_.front()->name());
+  std::erase(others, here);
+  return "this is what machine " + here + " knows; for the rest ask on " + listed(others);
+}
+
+// Returns the refusal to command something that runs on another machine.
+Error SystemNames::elsewhere(const std::string& what, const std::string& process) const {
+  const std::string name = machine_of(process);
+  const auto machine = std::ranges::find(whole_.machines, name, &graph::MachineNode::name);
+  const bool has_address = machine != whole_.machines.end() && !machine->address.empty();
+  return fail(Code::failed_precondition,
+              what + " runs on machine " + name + "; give this command there" +
+                  (has_address ? ": ssh " + machine->address + " orcactl ..." : ""));
+}
+
+// Returns the refusal to command a group of which this machine has not all components.
+Error SystemNames::spread(const graph::GroupNode& group) const {
+  std::map<std::string, std::vector<std::string>> by_machine;
+  for (const std::string& name : group.components)
+    by_machine[machine_of(whole_.find_component(name)->process)].push_back(name);
+  if (by_machine.size() == 1)
+    return elsewhere("group " + group.name, whole_.find_component(group.components.front())->process);
+  std::string places;
+  for (const auto& [machine, components] : by_machine)
+    places += (places.empty() ? "" : "; ") + listed(components) + " on machine " + machine;
+  return fail(Code::failed_precondition,
+              "group " + group.name + " runs on several machines, so it cannot obey as one: " + places +
+                  ". Command its components one by one, each on its machine");
 }
 
 Member& SystemNames::member(const std::string& process) const {

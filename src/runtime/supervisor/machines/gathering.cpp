@@ -51,21 +51,22 @@ void Gathering::end(idl::MachineEnd end, const std::string& why) {
   own_.why(why);
 }
 
-void Gathering::hear(const idl::MachineState& state, Moment now) {
-  if (state.origin() == here_) return hear_namesake(state);
+bool Gathering::hear(const idl::MachineState& state, Moment now) {
+  if (state.origin() == here_) return hear_namesake(state), false;
   const auto peer =
       std::ranges::find(peers_, state.origin(), [](const Peer& known) { return known.node.name; });
-  if (peer == peers_.end()) return;
-  if (state.graph() != own_.graph()) return refuse(*peer, state);
-  if (!is_later(*peer, state)) return;
+  if (peer == peers_.end()) return false;
+  if (state.graph() != own_.graph()) return refuse(*peer, state), false;
+  if (!is_later(*peer, state)) return false;
   const bool is_new = !peer->said || peer->said->run() != state.run();
-  if (is_new && own_.phase() == idl::MACHINE_ENDED) return;
+  if (is_new && own_.phase() == idl::MACHINE_ENDED) return false;
   tell_arrival(*peer, state);
   peer->said = state;
   peer->heard_at = now;
   peer->lost = false;
   peer->refused.reset();
   if (state.phase() == idl::MACHINE_ENDED && has_heard_us(state)) hear_end(*peer);
+  return true;
 }
 
 // Two deployers for one machine: the one that is further, or was started earlier, stays. A single state may be the last

@@ -58,7 +58,8 @@ class Gathering {
   void end(idl::MachineEnd end, const std::string& why);
 
   /// Takes the state of another machine. Anything may be in it.
-  void hear(const idl::MachineState& state, Moment now);
+  /// @return whether it is believed: it comes from a machine of this system, and is the latest of that.
+  bool hear(const idl::MachineState& state, Moment now);
   /// Notices who has been silent for too long. Call it often, after all that has come was heard.
   void look(Moment now);
 

@@ -60,9 +60,14 @@ RunOutcome outcome_of(idl::MachineEnd end) {
 
 Neighbours::Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger)
     : gathering_(graph, here, new_run()),
+      motors_(here, gathering_.missing()),
       messenger_(std::move(start), meet(graph, here),
-                 [this](const idl::MachineState& state) { gathering_.hear(state, Moment::clock::now()); }),
+                 [this](const idl::MachineState& state) { hear(state); }),
       ledger_(ledger) {}
+
+void Neighbours::hear(const idl::MachineState& state) {
+  if (gathering_.hear(state, Moment::clock::now())) motors_.hear(state, !has_gathered_);
+}
 
 void Neighbours::turn(Moment now) {
   messenger_.turn(now);
@@ -91,6 +96,7 @@ bool Neighbours::listens(Moment now) const {
 
 void Neighbours::publish(Moment now) {
   idl::MachineState state = gathering_.state();
+  motors_.fill(state);
   if (listens(now) || (state == said_ && now < say_at_)) return;
   said_ = state;
   say_at_ = now + (state.phase() == idl::MACHINE_ENDED ? kRepeatEnd : kRepeat);

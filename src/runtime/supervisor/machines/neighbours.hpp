@@ -7,6 +7,7 @@
 
 #include "machines/gathering.hpp"
 #include "machines/messenger.hpp"
+#include "machines/motors_accord.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_result.hpp"
 #include "run/ledger.hpp"
@@ -41,15 +42,19 @@ class Neighbours {
   [[nodiscard]] bool take_leave(Moment now);
 
   [[nodiscard]] Gathering& gathering() { return gathering_; }
+  /// Returns what all machines know of the system's emergency stop.
+  [[nodiscard]] MotorsAccord& motors() { return motors_; }
   /// Returns the process that speaks with the others, to be polled.
   [[nodiscard]] Member& member() { return messenger_.member(); }
 
  private:
   void tell_news();
+  void hear(const idl::MachineState& state);
   [[nodiscard]] bool listens(Moment now) const;
   void publish(Moment now);
 
   Gathering gathering_;
+  MotorsAccord motors_;
   Messenger messenger_;
   Ledger& ledger_;
   bool has_gathered_ = false;

@@ -2,6 +2,7 @@
 #include "orca/supervisor/supervised_run.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "machines/neighbours.hpp"
 #include "member.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/base/system/processor_wait.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/plan.hpp"
@@ -61,11 +63,12 @@ class SupervisedRun {
         starter_(graph_, options, run_, roster_),
         ledger_(here_, listener, run_.start, options.log_name),
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
-        control_(here_, facts_, roster_.all(), ledger_, levers(), applying()) {
+        control_(graph_, here_, facts_, roster_.all(), ledger_, levers(), applying()) {
     ledger_.relay_to(relay_);
     if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
+    control_.join(neighbours_->motors());
     poll_all();
     conclusion_.on_end(
         [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });
@@ -200,17 +203,38 @@ class SupervisedRun {
     for (Member* const member : Members(roster_.all())) look_after(*member);
     log_relay_.pass_on(roster_.all());
     if (neighbours_) neighbours_->turn(now());
-    for (const std::size_t place : beats_.look(now())) {
-      const Member* const member = roster_.at_place(place);
-      if (member != nullptr && member->process() != nullptr)
-        member->process()->end_by_force(Force::hang, now());
-    }
+    control_.hear_machines(now());
+    look_at_beats();
     arrivals_.go_on();
     if (conclusion_.is_over()) return;
     if (conclusion_.has_come_up()) on_demand_.look(now());
     renewal_.turn(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();
+  }
+
+  void look_at_beats() {
+    for (const std::size_t place : beats_.look(now())) {
+      const Member* const member = roster_.at_place(place);
+      if (member != nullptr && member->process() != nullptr)
+        member->process()->end_by_force(Force::hang, now());
+    }
+    for (const auto& [place, time] : beats_.take_starved()) {
+      const Member* const member = roster_.at_place(place);
+      if (member != nullptr)
+        log::warning(options_.log_name, "process " + member->name() + " had no processor for " +
+                                            seconds_text(time) + ": the machine has too much to do");
+    }
+  }
+
+  // Returns for how long the thread of a process that beats has waited for a processor.
+  Duration waited_of(std::size_t place) {
+    const Member* const member = roster_.at_place(place);
+    if (member == nullptr || member->process() == nullptr) return Duration{0};
+    const pid_t pid = member->process()->pid();
+    auto& known = waits_[place];
+    if (known.first != pid) known = {pid, ProcessorWait(pid, find_thread(pid, "orders"))};
+    return known.second->look();
   }
 
   void look_after(Member& member) {
@@ -221,6 +245,8 @@ class SupervisedRun {
     if (!process->exit()) return;
     for (int i = 0; i < kMostReads && hear(member); ++i) continue;  // it may have said why
     const ExitReason exit = *process->exit();
+    // A signal to all processes ends this one, too, and perhaps first.
+    if (stop_.requested() && !conclusion_.is_over()) conclusion_.stop(stop_.failure());
     losses_.ended(member, exit);
   }
 
@@ -368,7 +394,8 @@ class SupervisedRun {
   Trading trading_{graph_, roster_.all(), reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
-  Heartbeats beats_{run_.page};
+  std::map<std::size_t, std::pair<pid_t, std::optional<ProcessorWait>>> waits_;  // by place
+  Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;
   Conclusion conclusion_{here_, reports_, options_.log_name};
   Arrivals arrivals_{{starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,

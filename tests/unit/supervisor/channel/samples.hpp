@@ -118,8 +118,8 @@ inline std::vector<supervisor::Report> all_reports() {
 inline std::vector<supervisor::ControlAnswer> all_answers() {
   using namespace supervisor;
   return list_of<ControlAnswer>(RecordAnswer{{{"name", "goto"}, {"pid", 42}, {"active", true}}},
-                                TextAnswer{"<graph/>"}, LineAnswer{null_device(), "Ask", "ClientList"},
-                                EndAnswer{ok()},
+                                TextAnswer{"<graph/>"}, NoteAnswer{"only a part"},
+                                LineAnswer{null_device(), "Ask", "ClientList"}, EndAnswer{ok()},
                                 EndAnswer{fail(Code::not_found, "there is no component \"gto\"")});
 }
 

@@ -106,7 +106,7 @@ class Desk {
   Member p_{graph::ProcessNode{.name = "p"}, 0, 0};
   Member q_{graph::ProcessNode{.name = "q"}, 1, 1};
   const Members members_{&p_, &q_};
-  const SystemNames names_{graph_, facts_.ports, members_};
+  const SystemNames names_{graph_, graph_, facts_.ports, members_};
   Operating operating_{
       graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
 };

@@ -36,6 +36,11 @@ struct TextAnswer {
   static constexpr Kind kKind = Kind::text_answer;
   std::string text;
 };
+/// Something that a person should know of the answer, and that is no part of it.
+struct NoteAnswer {
+  static constexpr Kind kKind = Kind::note_answer;
+  std::string text;
+};
 /// A line to a port: see below. The supervisor itself carries no objects.
 struct LineAnswer {
   static constexpr Kind kKind = Kind::line_answer;
@@ -48,7 +53,7 @@ struct EndAnswer {
   static constexpr Kind kKind = Kind::end_answer;
   Status outcome;
 };
-using ControlAnswer = std::variant<RecordAnswer, TextAnswer, LineAnswer, EndAnswer>;
+using ControlAnswer = std::variant<RecordAnswer, TextAnswer, LineAnswer, EndAnswer, NoteAnswer>;
 
 /// What a client and the host process of a port say to each other over a line.
 

@@ -72,6 +72,7 @@ enum class Kind : std::uint16_t {
   text_answer,
   line_answer,
   end_answer,
+  note_answer,
   // On a line between an operator's program and a port.
   tapped = 401,
   offer,
