@@ -29,14 +29,18 @@ std::optional<double> given(double value) { return value > 0.0 ? std::optional(v
 // it is missing, at the parameter that names the file.
 void append(const xml::Diagnostics& diagnostics, const char* param, std::vector<HardwareFault>& errors) {
   for (const auto& diagnostic : diagnostics.sorted()) {
+    const bool only_warns = diagnostic.severity == xml::Severity::warning;
     const bool whole_file = diagnostic.position.line == 0 || diagnostic.code == "G101";
     const std::string& file = diagnostic.position.file;
     if (whole_file) {
       errors.push_back({param, "\"" + file + "\": " + diagnostic.message});
       if (diagnostic.code == kScaleOfPicture) errors.back().follows_from = {"map_width", "map_resolution"};
+    } else if (only_warns) {
+      errors.push_back({param, diagnostic.position.text() + ": " + diagnostic.message});
     } else {
       errors.push_back({"", diagnostic.text()});
     }
+    errors.back().only_warns = only_warns;
   }
 }
 
@@ -73,7 +77,7 @@ std::optional<RobotModel> SimulatedRobot::read_robot_file(std::vector<HardwareFa
     return std::nullopt;
   }
   xml::Diagnostics diagnostics;
-  std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics);
+  std::optional<RobotModel> robot = read_robot(*robot_file_, diagnostics, *packages_);
   append(diagnostics, "robot", errors);
   return diagnostics.has_errors() ? std::nullopt : std::move(robot);
 }

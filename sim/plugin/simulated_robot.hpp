@@ -94,6 +94,13 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
       {.unit = "m", .min = 0.0, .text = "Side of one pixel of a bitmap, instead of map_width."}};
   Param<std::string> robot_file_{
       *this, "robot", "", {.file = true, .text = "Description of the robot: URDF with an <orca> element."}};
+  Param<std::string> packages_{
+      *this,
+      "packages",
+      "",
+      {.file = true,
+       .text = "Folder that holds the packages which meshes of the robot name (package://PACKAGE/...); "
+               "empty: they are looked for above the robot's file."}};
   Param<std::string> name_{
       *this, "name", "Dewey", {.text = "Name of this robot; each robot of a world has its own."}};
   Param<std::string> place_{

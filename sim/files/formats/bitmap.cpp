@@ -2,7 +2,9 @@
 #include "orca/sim/bitmap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "orca/xml/number.hpp"
@@ -11,6 +13,9 @@ namespace orca::sim {
 namespace {
 
 constexpr std::uint8_t kOccupiedBelow = 128;
+constexpr std::uint8_t kWhiteFrom = 240;
+constexpr std::uint8_t kWhite = 255;
+constexpr double kUsualLight = 0.05;  // light grey pixels per solid one: the specks of a scanned plan
 
 // The picture as a plan: column to the right, row UP; everything outside is free.
 class Plan {
@@ -19,12 +24,25 @@ class Plan {
   [[nodiscard]] std::int64_t columns() const { return static_cast<std::int64_t>(image_.width); }
   [[nodiscard]] std::int64_t rows() const { return static_cast<std::int64_t>(image_.height); }
   [[nodiscard]] bool occupied(std::int64_t column, std::int64_t row) const {
-    if (column < 0 || row < 0 || column >= columns() || row >= rows()) return false;
-    const std::int64_t from_top = rows() - 1 - row;
-    return image_.grey[static_cast<std::size_t>(from_top * columns() + column)] < kOccupiedBelow;
+    return grey(column, row) < kOccupiedBelow;
+  }
+  [[nodiscard]] bool light_grey(std::int64_t column, std::int64_t row) const {
+    return !occupied(column, row) && grey(column, row) < kWhiteFrom;
+  }
+  [[nodiscard]] bool touches_solid(std::int64_t column, std::int64_t row) const {
+    for (std::int64_t r = row - 1; r <= row + 1; ++r)
+      for (std::int64_t c = column - 1; c <= column + 1; ++c)
+        if (occupied(c, r)) return true;
+    return false;
   }
 
  private:
+  [[nodiscard]] std::uint8_t grey(std::int64_t column, std::int64_t row) const {
+    if (column < 0 || row < 0 || column >= columns() || row >= rows()) return kWhite;
+    const std::int64_t from_top = rows() - 1 - row;
+    return image_.grey[static_cast<std::size_t>(from_top * columns() + column)];
+  }
+
   const GreyImage& image_;
 };
 
@@ -127,9 +145,31 @@ Result<WorldModel> bitmap_world(const GreyImage& image, double pixel, const std:
   return world;
 }
 
-Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height) {
+// Grey beside something solid is the soft edge of a line.
+std::optional<std::string> doubt_about(const GreyImage& image) {
+  const Plan plan(image);
+  std::size_t light = 0, solid = 0;
+  for (std::int64_t row = 0; row < plan.rows(); ++row)
+    for (std::int64_t column = 0; column < plan.columns(); ++column) {
+      solid += plan.occupied(column, row) ? 1 : 0;
+      light += plan.light_grey(column, row) && !plan.touches_solid(column, row) ? 1 : 0;
+    }
+  if (solid == 0) return std::nullopt;  // such a picture is refused
+  if (static_cast<double>(light) <= kUsualLight * static_cast<double>(solid)) return std::nullopt;
+  const double share = 100.0 * static_cast<double>(light) / static_cast<double>(image.grey.size());
+  std::array<char, 16> percent{};
+  std::snprintf(percent.data(), percent.size(), "%.2g", share);
+  return std::string(percent.data()) +
+         " % of the pixels are light grey (128 to 239), neither solid nor white, and count as free; if walls "
+         "are among "
+         "them, draw these darker than 128";
+}
+
+Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height,
+                                     std::optional<std::string>* doubt) {
   const Result<GreyImage> image = read_image(path);
   if (!image) return image.error();
+  if (doubt != nullptr) *doubt = doubt_about(*image);
   const Result<double> pixel = pixel_size(scale, *image);
   if (!pixel) return fail(pixel.error().code, pixel.error().message, path);
   Result<WorldModel> world =

@@ -109,14 +109,45 @@ bool ends_with(const std::string& path, std::string_view ending) {
                     [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
 }
 
+// A binary STL has as many bytes as its number of faces says; a text one begins with "solid" and has facets.
+bool looks_like_stl(std::string_view bytes) {
+  constexpr std::size_t kHeader = 84, kFace = 50;
+  if (bytes.size() >= kHeader) {
+    std::uint32_t faces = 0;
+    std::memcpy(&faces, bytes.data() + 80, sizeof faces);
+    if (bytes.size() == kHeader + kFace * faces) return true;
+  }
+  return bytes.starts_with("solid") && bytes.find("facet") != std::string_view::npos;
+}
+
+// Returns the name of a format that is known but not read; empty: none of these.
+std::string foreign_format(std::string_view bytes) {
+  const std::string_view start = bytes.substr(0, 1000);
+  if (start.find("<COLLADA") != std::string_view::npos) return "COLLADA";
+  if (start.starts_with("glTF")) return "glTF";
+  if (start.starts_with("ply\n") || start.starts_with("ply\r")) return "PLY";
+  if (start.starts_with("Kaydara FBX")) return "FBX";
+  return "";
+}
+
 }  // namespace
 
-Result<Mesh> read_mesh(const std::string& path) {
-  const bool stl = ends_with(path, ".stl");
-  if (!stl && !ends_with(path, ".obj"))
-    return fail(Code::invalid_argument, "the name of a mesh ends in .stl or .obj; convert it", path);
+Result<std::string> detail::foreign_mesh_format(const std::string& path) {
   const Result<std::string> bytes = bytes_of(path);
   if (!bytes) return bytes.error();
+  return foreign_format(*bytes);
+}
+
+Result<Mesh> read_mesh(const std::string& path) {
+  const Result<std::string> bytes = bytes_of(path);
+  if (!bytes) return bytes.error();
+  const bool stl = looks_like_stl(*bytes) || ends_with(path, ".stl");
+  if (const std::string foreign = foreign_format(*bytes); !foreign.empty())
+    return fail(Code::invalid_argument, "this is a " + foreign + " file; convert it to STL or OBJ", path);
+  if (!stl && !ends_with(path, ".obj"))
+    return fail(Code::invalid_argument,
+                "this is no STL file, and its name does not end in .obj; convert the mesh to STL or OBJ",
+                path);
   Result<Mesh> mesh = stl ? detail::decode_stl(*bytes, path) : detail::decode_obj(*bytes, path);
   if (!mesh) return mesh.error();
   if (const Status sound = detail::check_mesh(*mesh, path); !sound) return sound.error();

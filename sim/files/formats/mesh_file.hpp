@@ -15,6 +15,10 @@ inline constexpr std::size_t kMaxFaces = 1'000'000;
 [[nodiscard]] Result<Mesh> decode_stl(std::string_view bytes, const std::string& path);
 [[nodiscard]] Result<Mesh> decode_obj(std::string_view bytes, const std::string& path);
 
+// Returns the name of the file's format if it is one that read_mesh() knows but does not read, such as "COLLADA"; else nothing.
+// @errors  as read_mesh() where the file cannot be read at all.
+[[nodiscard]] Result<std::string> foreign_mesh_format(const std::string& path);
+
 // Adds a triangle, unless it has no area.
 void add_triangle(Mesh& mesh, const Triangle& triangle);
 // Checks a whole mesh. @errors  invalid_argument: no face at all, or a corner that is not finite or beyond

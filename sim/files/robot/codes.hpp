@@ -26,5 +26,9 @@ inline constexpr const char* kUnreadableMesh = "R021";
 inline constexpr const char* kContradiction = "R022";
 inline constexpr const char* kBumperRadius = "R023";
 inline constexpr const char* kUrdfdom = "R024";
+inline constexpr const char* kXacro = "R025";
+inline constexpr const char* kDoubtfulInertia = "R026";
+inline constexpr const char* kBelowFloor = "R027";
+inline constexpr const char* kOtherMesh = "R028";
 
 }  // namespace orca::sim::detail::robot_codes

@@ -5,6 +5,7 @@
 #include "mounts.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/extras.hpp"
 #include "orca/xml/number.hpp"
 #include "robot_extension.hpp"
 #include "robot_rules.hpp"
@@ -17,7 +18,8 @@ namespace {
 
 namespace robot_codes = detail::robot_codes;
 
-constexpr double kBumperTolerance = 0.001;  // [m]
+constexpr double kBumperTolerance = 0.001;     // [m]
+constexpr double kBelowFloorTolerance = 0.01;  // [m] wheels of soft rubber may be drawn into the floor
 
 double reach_of(const Shape& footprint) {
   const auto* circle = std::get_if<Circle>(&footprint);
@@ -29,6 +31,10 @@ double reach_of(const Shape& footprint) {
 void check_body(const RobotModel& model, const xml::Attributes& robot, const xml::Attributes& extension) {
   if (model.mass <= 0.0 && !model.fixed)
     robot.error(robot_codes::kMass, "no link of the robot has a mass; give its main link an <inertial>");
+  if (model.mass > 0.0 && model.yaw_inertia <= 0.0 && !model.fixed)
+    robot.error(robot_codes::kInertia,
+                "all of the robot's mass is on its vertical axis, without an inertia about it; nothing could "
+                "turn it");
   if (model.parts.empty())
     return robot.error(robot_codes::kMissing,
                        "no link of the robot has a <collision>; without one it would pass through walls");
@@ -38,6 +44,18 @@ void check_body(const RobotModel& model, const xml::Attributes& robot, const xml
                        "the collision geometry reaches " + xml::number_text(reach) +
                            " m from the axis, but bumper_radius is " + xml::number_text(model.bumper_radius) +
                            " m; make them agree");
+}
+
+// Public robots often have their root link at the axle of the wheels.
+void check_floor(const RobotModel& model, const xml::Element& root, xml::Reporter& reporter) {
+  if (model.parts.empty() || model.fixed || model.bottom >= -kBelowFloorTolerance) return;
+  const std::string depth = xml::number_text(-model.bottom);
+  reporter.diagnostics().warning(
+      robot_codes::kBelowFloor, root.position(),
+      "the robot reaches " + depth +
+          " m below its root link, which stands on the floor, so all of it is that much too low; "
+          "put a link in front of the root, with a fixed joint of xyz=\"0 0 " +
+          depth + "\"");
 }
 
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
@@ -55,10 +73,11 @@ void read_body(const xml::Element& root, const xml::Element& orca, const detail:
     std::tie(model.bottom, model.top) = height_range_of(model.parts);
   }
   check_body(model, robot, {orca, detail::kRobotFile, reporter});
+  check_floor(model, root, reporter);
   detail::mount_devices(model, *body, orca, reporter);
 }
 
-std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
+std::optional<RobotModel> read_root(const xml::Element& root, std::string text, const std::string& packages,
                                     xml::Diagnostics& diagnostics) {
   const std::size_t before = diagnostics.error_count();
   xml::Reporter reporter(diagnostics);
@@ -67,8 +86,9 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
     return robot.refuse(robot_codes::kWrongRoot, "the root element is <" + root.name() +
                                                      ">; a robot file begins with <robot name=\"...\">");
   robot.require("name");
+  if (detail::report_xacro(root, reporter)) return std::nullopt;
   detail::MeshHulls hulls;
-  detail::check_urdf(root, reporter, hulls);
+  detail::check_urdf(root, packages, reporter, hulls);
   const bool urdf_is_sound = diagnostics.error_count() == before;
   RobotModel model;
   model.urdf = std::move(text);
@@ -86,19 +106,21 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text,
 }  // namespace
 
 std::optional<RobotModel> read_robot_text(std::string_view text, const std::string& file_name,
-                                          xml::Diagnostics& diagnostics) {
+                                          xml::Diagnostics& diagnostics, const std::string& packages) {
   const std::size_t before = diagnostics.error_count();
-  const auto document = xml::read_text(text, file_name, diagnostics);
+  std::string plain = xml::without_extras(std::string(text));
+  const auto document = xml::read_text(plain, file_name, diagnostics);
   if (!document || diagnostics.error_count() != before) return std::nullopt;
-  return read_root(document->root, std::string(text), diagnostics);
+  // urdfdom has its own parser and needs the text.
+  return read_root(document->root, std::move(plain), packages, diagnostics);
 }
 
-std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& diagnostics) {
-  const std::size_t before = diagnostics.error_count();
+std::optional<RobotModel> read_robot(const std::string& path, xml::Diagnostics& diagnostics,
+                                     const std::string& packages) {
   const Result<std::string> bytes = xml::read_bytes(path);
-  const auto document = bytes ? xml::read_text(*bytes, path, diagnostics) : xml::read_file(path, diagnostics);
-  if (!bytes || !document || diagnostics.error_count() != before) return std::nullopt;
-  return read_root(document->root, *bytes, diagnostics);  // urdfdom has its own parser and needs the text
+  if (bytes) return read_robot_text(*bytes, path, diagnostics, packages);
+  static_cast<void>(xml::read_file(path, diagnostics));  // which reports why not
+  return std::nullopt;
 }
 
 }  // namespace orca::sim

@@ -4,6 +4,7 @@
 #include <LinearMath/btTransform.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <exception>
 
 #include "urdf_rotations.hpp"
@@ -69,7 +70,7 @@ std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_B
                                   UrdfBody& body) {
   std::vector<std::string> names{link.name};
   body.links[link.name] = pose_of(X_BL);
-  if (link.inertial) add_inertial(*link.inertial, X_BL, body);
+  if (link.inertial && link.inertial->mass > 0.0) add_inertial(*link.inertial, X_BL, body);
   for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL, hulls));
   for (const auto& child : link.child_links) {
     const urdf::Joint& joint = *child->parent_joint;
@@ -84,7 +85,10 @@ std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_B
   return names;
 }
 
-urdf::ModelInterfaceSharedPtr parsed(const std::string& text) {
+// In the values of attributes XML makes a blank of every line end and tab; urdfdom does not.
+urdf::ModelInterfaceSharedPtr parsed(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\t' || c == '\n' || c == '\r'; }, ' ');
   try {
     return urdf::parseURDF(text);
   } catch (const std::exception&) {  // Thrown for some wrong versions and numbers; null otherwise.

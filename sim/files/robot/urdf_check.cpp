@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "codes.hpp"
+#include "files/formats/mesh_place.hpp"
 #include "motion/hull_corners.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
 #include "robot_rules.hpp"
 #include "urdf_parts.hpp"
@@ -16,7 +17,8 @@ namespace {
 
 class UrdfChecker {
  public:
-  UrdfChecker(xml::Reporter& reporter, MeshHulls& hulls) : reporter_(reporter), hulls_(hulls) {}
+  UrdfChecker(const std::string& packages, xml::Reporter& reporter, MeshHulls& hulls)
+      : packages_(packages), reporter_(reporter), hulls_(hulls) {}
 
   void link(const xml::Element& link) const {
     if (const auto* inertial = only_child(link, "inertial")) this->inertial(*inertial);
@@ -36,7 +38,8 @@ class UrdfChecker {
     const xml::Attributes a = of(joint);
     const auto type = a.require("type") ? a.choice("type", kJointType) : std::nullopt;
     origin(joint);
-    if (const auto* axis = only_child(joint, "axis")) {
+    const bool moves = type != "fixed" && type != "floating";  // the axis of one that does not means nothing
+    if (const auto* axis = moves ? only_child(joint, "axis") : nullptr) {
       const auto xyz = numbers(of(*axis), "xyz");
       if (xyz && std::ranges::all_of(*xyz, [](double v) { return v == 0.0; }))
         of(*axis).error_at("xyz", robot_codes::kZeroAxis,
@@ -87,10 +90,10 @@ class UrdfChecker {
   void inertial(const xml::Element& inertial) const {
     origin(inertial);
     const auto mass = value(inertial, "mass", "value");
-    if (mass && *mass <= 0.0)
+    if (mass && *mass < 0.0)
       of(*only_child(inertial, "mass"))
           .error_at("value", robot_codes::kMass,
-                    "the mass must be more than 0 kg; leave <inertial> out for a link that is only a frame");
+                    "the mass must not be negative; 0 kg, or no <inertial>, is a link that is only a frame");
     std::array<double, 6> m{};  // xx, xy, xz, yy, yz, zz.
     constexpr std::array<const char*, 6> kNames{"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
     for (std::size_t i = 0; i < m.size(); ++i) {
@@ -100,12 +103,33 @@ class UrdfChecker {
       if (!entry) return;
       m[i] = *entry;
     }
+    // With a mass of 0 it is as if there were no <inertial>: the link is only a frame.
+    if (mass != 0.0) judge(m, *only_child(inertial, "inertia"));
+  }
+
+  using Inertia = std::array<double, 6>;  // xx, xy, xz, yy, yz, zz.
+
+  // Sylvester's criterion.
+  static bool positive_definite(const Inertia& m) {
     const double minor = m[0] * m[3] - m[1] * m[1];
     const double determinant = m[0] * (m[3] * m[5] - m[4] * m[4]) - m[1] * (m[1] * m[5] - m[4] * m[2]) +
                                m[2] * (m[1] * m[4] - m[3] * m[2]);
-    if (!(m[0] > 0.0 && minor > 0.0 && determinant > 0.0))  // Sylvester's criterion.
-      of(*only_child(inertial, "inertia"))
-          .error(robot_codes::kInertia, "the inertia is not positive definite; no body has such an inertia");
+    return m[0] > 0.0 && minor > 0.0 && determinant > 0.0;
+  }
+
+  // No principal moment of a body is larger than the sum of the other two, that is: than half of all.
+  void judge(const Inertia& m, const xml::Element& inertia) const {
+    if (std::ranges::all_of(m, [](double v) { return v == 0.0; })) return;  // a point
+    if (!positive_definite(m))
+      return of(inertia).error(robot_codes::kInertia,
+                               "the inertia is not positive definite; no body has such an inertia");
+    constexpr double kTolerance = 1.02;  // of the digits in files
+    const double half = kTolerance * 0.5 * (m[0] + m[3] + m[5]);
+    if (positive_definite({half - m[0], -m[1], -m[2], half - m[3], -m[4], half - m[5]})) return;
+    reporter_.diagnostics().warning(robot_codes::kDoubtfulInertia, inertia.position(),
+                                    "no body has this inertia: one of its moments is larger than the sum of "
+                                    "the other two; the robot turns by it all the "
+                                    "same. Are two numbers exchanged, or is it that of another mass?");
   }
 
   void shape(const xml::Element& shape, bool collision) const {
@@ -131,11 +155,13 @@ class UrdfChecker {
     if (scale && std::ranges::any_of(*scale, [](double v) { return v == 0.0; }))
       a.error_at("scale", robot_codes::kSize, "scale of <mesh> must not be 0");
     if (!name || hulls_.contains(*name)) return;
-    if (name->find("://") != std::string::npos)
-      return a.error_at("filename", robot_codes::kUnreadableMesh,
-                        "\"" + *name + "\" cannot be looked up; write the path, beside this file or from /");
-    const auto folder = std::filesystem::path(a.element().position().file).parent_path();
-    const auto mesh = read_mesh((folder / *name).lexically_normal().string());
+    const Result<MeshPlace> place = find_mesh(*name, a.element().position().file, packages_);
+    if (!place) return a.error_at("filename", robot_codes::kUnreadableMesh, place.error().text());
+    if (place->instead)
+      reporter_.diagnostics().warning(
+          robot_codes::kOtherMesh, a.element().position(),
+          in_quotes(*name) + " is not read; " + place->path + " beside it is taken instead");
+    const auto mesh = read_mesh(place->path);
     if (!mesh) return a.error_at("filename", robot_codes::kUnreadableMesh, mesh.error().text());
     hulls_[*name] = hull_corners(*mesh);
   }
@@ -149,14 +175,34 @@ class UrdfChecker {
                std::string(name) + " of <" + a.element().name() + "> must be more than 0 m");
   }
 
+  const std::string& packages_;
   xml::Reporter& reporter_;
   MeshHulls& hulls_;
 };
 
+// Returns whether an element, or one of its values, is to be expanded by xacro.
+bool is_xacro(const xml::Element& e) {
+  const auto to_expand = [](const xml::Attribute& a) {
+    return a.value.find("${") != std::string::npos || a.value.find("$(") != std::string::npos;
+  };
+  return e.name().starts_with("xacro:") || std::ranges::any_of(e.attributes(), to_expand) ||
+         std::ranges::any_of(e.children(), is_xacro);
+}
+
 }  // namespace
 
-void check_urdf(const xml::Element& robot, xml::Reporter& reporter, MeshHulls& hulls) {
-  const UrdfChecker checker(reporter, hulls);
+bool report_xacro(const xml::Element& robot, xml::Reporter& reporter) {
+  if (!is_xacro(robot)) return false;
+  const std::string file = robot.position().file;
+  reporter.error(robot_codes::kXacro, robot.position(),
+                 "this is xacro, a language from which robots are made; expand it with \"xacro " + file +
+                     " > robot.urdf\", put <orca> into robot.urdf, and name that file");
+  return true;
+}
+
+void check_urdf(const xml::Element& robot, const std::string& packages, xml::Reporter& reporter,
+                MeshHulls& hulls) {
+  const UrdfChecker checker(packages, reporter, hulls);
   for (const xml::Element& e : robot.children()) {
     if (e.name() == "link") checker.link(e);
     if (e.name() == "joint") checker.joint(e);

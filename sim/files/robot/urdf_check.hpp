@@ -16,8 +16,12 @@ namespace orca::sim::detail {
 using MeshHulls = std::map<std::string, std::vector<Vec3>>;
 
 // Reports the errors in the links and joints of a <robot>, with line and column; urdfdom, which reads the
-// file afterwards, does not report places. Reads the meshes of collision geometry, beside the file, into
-// `hulls`.
-void check_urdf(const xml::Element& robot, xml::Reporter& reporter, MeshHulls& hulls);
+// file afterwards, does not report places. Reads the meshes of collision geometry into `hulls`; `packages` is the folder of
+// packages that mesh_path() takes.
+void check_urdf(const xml::Element& robot, const std::string& packages, xml::Reporter& reporter,
+                MeshHulls& hulls);
+
+// Reports a file that is still in the language xacro, once, and returns whether it is one.
+bool report_xacro(const xml::Element& robot, xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

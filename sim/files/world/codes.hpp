@@ -29,5 +29,7 @@ inline constexpr const char* kBottomAboveTop = "W022";
 inline constexpr const char* kScaleOfPicture = "W023";
 inline constexpr const char* kBadEvent = "W024";
 inline constexpr const char* kBadItem = "W025";
+inline constexpr const char* kOtherFormat = "W026";
+inline constexpr const char* kLightGrey = "W027";
 
 }  // namespace orca::sim::detail::world_codes

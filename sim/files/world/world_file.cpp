@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 
 #include "codes.hpp"
 #include "cylinder_file.hpp"
+#include "files/formats/image_file.hpp"
+#include "orca/base/input_file.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 #include "world_reader.hpp"
@@ -18,9 +21,39 @@ namespace world_codes = detail::world_codes;
 
 enum class Format { xml, bitmap, cylinders };
 
-Format format_of(std::string_view file) {
+Format format_of(std::string file) {
+  std::ranges::transform(file, file.begin(), [](unsigned char c) { return std::tolower(c); });
   if (file.ends_with(".png") || file.ends_with(".pgm")) return Format::bitmap;
   return file.ends_with(".csv") || file.ends_with(".csv.gz") ? Format::cylinders : Format::xml;
+}
+
+// Returns the beginning of a file; nothing of one that cannot be read, which is reported when all of it is read.
+std::string beginning_of(const std::string& file) {
+  constexpr std::size_t kEnough = 4096;
+  const Result<std::string> bytes = read_input_file(file, kEnough);
+  return bytes ? *bytes : "";
+}
+
+// Returns the value of a key in the first lines of a YAML file, without quotes; empty: it is not there.
+std::string yaml_value(const std::string& text, const std::string& key) {
+  const std::size_t at = text.starts_with(key + ":") ? 0 : text.find("\n" + key + ":");
+  if (at == std::string::npos) return "";
+  const std::size_t from = text.find(':', at) + 1;
+  std::string value(xml::trimmed(text.substr(from, text.find('\n', from) - from)));
+  std::erase_if(value, [](char c) { return c == '"' || c == '\''; });
+  return value;
+}
+
+// Returns what to do with a file that is known but not read as a world; empty: it may be one.
+std::string advice_about_other(const std::string& file, const std::string& bytes) {
+  if (const std::string format = detail::foreign_picture(bytes); !format.empty())
+    return detail::advice_about(format, file);
+  const std::string image = yaml_value(bytes, "image"), resolution = yaml_value(bytes, "resolution");
+  if (image.empty() || resolution.empty()) return "";
+  return "this is the YAML file of a map of ROS; name its picture instead, with world=\"" +
+         (std::filesystem::path(file).parent_path() / image).lexically_normal().string() +
+         "\" and map_resolution=\"" + resolution +
+         " m\". Its origin is not used: (0, 0) is the lower left corner; what is not known counts as free";
 }
 
 // The parts of "FILE#N". The name of a file may contain a # itself, unless the part before it is one of our
@@ -72,6 +105,8 @@ std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& 
   if (from.number) refuse(world_codes::kNumber, "a picture holds one world; leave \"#N\" out");
   const Result<GreyImage> image = read_image(from.file);
   if (!image) return refuse(world_codes::kUnreadable, image.error().message);
+  if (const auto doubt = doubt_about(*image))
+    diagnostics.warning(world_codes::kLightGrey, {from.file, 0, 0}, *doubt);
   const Result<double> pixel = pixel_size(scale, *image);
   if (!pixel) refuse(world_codes::kScaleOfPicture, pixel.error().message);
   Result<WorldModel> world =
@@ -95,7 +130,12 @@ std::optional<WorldModel> read_world(const std::string& path, const BitmapScale&
   const std::size_t before = diagnostics.error_count();
   const auto from = reference_of(path, diagnostics);
   if (!from) return std::nullopt;
-  const Format format = format_of(from->file);
+  const std::string beginning = beginning_of(from->file);
+  if (const std::string advice = advice_about_other(from->file, beginning); !advice.empty()) {
+    diagnostics.error(world_codes::kOtherFormat, {from->file, 0, 0}, advice);
+    return std::nullopt;
+  }
+  const Format format = detail::is_picture(beginning) ? Format::bitmap : format_of(from->file);
   if (format == Format::bitmap) return read_bitmap(*from, scale, diagnostics);
   refuse_scale(from->file, scale, diagnostics);
   if (format == Format::cylinders) {

@@ -265,7 +265,12 @@ void WorldReader::bitmap(const Attributes& element) {
   if (!file) return;
   const auto path = std::filesystem::path(file_name_).parent_path() / *file;
   // Without its scale the picture is read all the same, for its own errors.
-  auto map = read_bitmap_world(path.lexically_normal().string(), scale.value_or(BitmapScale{{}, 1e-3}));
+  std::optional<std::string> doubt;
+  auto map =
+      read_bitmap_world(path.lexically_normal().string(), scale.value_or(BitmapScale{{}, 1e-3}), 2.5, &doubt);
+  if (doubt)
+    reporter_.diagnostics().warning(world_codes::kLightGrey, element.element().position(),
+                                    *file + ": " + *doubt);
   if (!map) return element.error_at("file", world_codes::kUnreadable, map.error().text());
   if (scale && tall) add(element, std::move(map->obstacles.front().shape), *tall);
 }

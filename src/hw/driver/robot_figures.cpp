@@ -9,6 +9,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/xml/document.hpp"
+#include "orca/xml/extras.hpp"
 #include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
 #include "robot_plan.hpp"
@@ -170,7 +171,10 @@ class FiguresReader {
 std::optional<RobotFigures> read_robot_figures(const std::string& path, std::vector<HardwareFault>& faults) {
   if (path.empty()) return std::nullopt;
   xml::Diagnostics diagnostics;
-  const std::optional<xml::Document> document = xml::read_file(path, diagnostics);
+  const Result<std::string> bytes = xml::read_bytes(path);
+  const std::optional<xml::Document> document =
+      bytes ? xml::read_text(xml::without_extras(*bytes), path, diagnostics)
+            : xml::read_file(path, diagnostics);
   for (const xml::Diagnostic& wrong : diagnostics.sorted())
     if (wrong.severity == xml::Severity::error)
       faults.push_back({"robot", wrong.position.text() + ": " + wrong.message});

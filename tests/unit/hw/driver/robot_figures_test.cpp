@@ -291,6 +291,18 @@ TEST_CASE("a laser that hangs upside down measures in the other sense, for drive
   CHECK(place.sense() == -1.0);
 }
 
+TEST_CASE("a byte order mark, instructions and dashes in comments hinder a driver as little as the simulator",
+          "[hw][robot_file]") {
+  const TempFolder folder;
+  const std::string file = folder.write(
+      "foreign.urdf",
+      "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<?xml-model href=\"urdf.xsd\"?>\n<!-- -- two -- -->\n" +
+          std::string(kTwoLasers));
+  std::vector<HardwareFault> faults;
+  CHECK(hw::read_robot_figures(file, faults));
+  CHECK(all_of(faults).empty());
+}
+
 TEST_CASE("a laser sits where the robot's file says, through all joints", "[hw][robot_file]") {
   Placed laser(kTwoLasers);
   laser.owner.set("mount", std::string("high"));

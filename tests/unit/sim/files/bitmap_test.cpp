@@ -85,7 +85,8 @@ TEST_CASE("a dithered picture, which has more edges than any plan, is refused", 
 
 TEST_CASE("a picture that cannot serve as a map is refused with its reason", "[sim][bitmap]") {
   CHECK_THAT(error_of(""), Catch::Contains("the file is empty"));
-  CHECK_THAT(error_of("GIF89a"), Catch::Contains("neither a PNG nor a PGM"));
+  CHECK_THAT(error_of("GIF89a"), Catch::Contains("this is a GIF file"));
+  CHECK_THAT(error_of("a plan"), Catch::Contains("neither a PNG nor a PGM"));
   CHECK_THAT(error_of("P5 2"), Catch::Contains("no width, height and largest value"));
   CHECK_THAT(error_of("P5 0 2 255\n"), Catch::Contains("no pixels"));
   CHECK_THAT(error_of("P5 9 9 255\nabc"), Catch::Contains("fewer pixels"));

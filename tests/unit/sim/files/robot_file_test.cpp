@@ -154,7 +154,9 @@ TEST_CASE("wrong masses, inertias and shapes are reported", "[sim][robot_file]")
     return errors_of_robot(robot(replaced(kBase, from, to)));
   };
   CHECK_THAT(base("value=\"10\"", "value=\"0\""),
-             Catch::Contains("error R018: the mass must be more than 0 kg"));
+             Catch::Contains("error R018: no link of the robot has a mass"));
+  CHECK_THAT(base("value=\"10\"", "value=\"-1\""),
+             Catch::Contains("error R018: the mass must not be negative"));
   CHECK_THAT(base("value=\"10\"", "value=\"1e999\""), Catch::Contains("error R005: value"));
   CHECK_THAT(base("ixx=\"1\"", "ixx=\"-1\""),
              Catch::Contains("error R019: the inertia is not positive definite"));

@@ -37,6 +37,10 @@ struct BitmapScale {
 ///          neither format or larger than 100 million pixels.
 [[nodiscard]] Result<GreyImage> read_image(const std::string& path);
 
+/// Returns what is doubtful about a picture of which grey below 128 is solid: that much of it is light grey, away from what is
+/// solid, as where walls are drawn in light grey, or not known in a map of ROS. Nothing if all of it is clear.
+[[nodiscard]] std::optional<std::string> doubt_about(const GreyImage& image);
+
 /// Returns the side of a pixel of the picture [m].
 ///
 /// @errors  invalid_argument if the scale is missing, given twice or not positive, or if the map is wider or
@@ -62,8 +66,10 @@ struct BitmapScale {
 
 /// Reads an occupancy bitmap as such a world, named after its file.
 ///
+/// @param doubt  receives what doubt_about() says; null: nobody wants to know.
 /// @errors  those of read_image, pixel_size and bitmap_world.
 [[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
-                                                   double height = 2.5);
+                                                   double height = 2.5,
+                                                   std::optional<std::string>* doubt = nullptr);
 
 }  // namespace orca::sim
