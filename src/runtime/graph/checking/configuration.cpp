@@ -65,23 +65,23 @@ class ConfigurationCheck {
       if (is_known(component) && component.sound) nodes.push_back(&component.value);
     std::multimap<std::string, std::size_t> followers;  // by the name of who must be up before
     std::vector<std::size_t> awaited;                   // of each node
-    std::set<std::size_t> ready;
+    std::vector<std::size_t> ready;                     // in the order in which they come up
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       for (const std::string& name : nodes[i]->start_after) followers.emplace(name, i);
       awaited.push_back(nodes[i]->start_after.size());
-      if (awaited[i] == 0) ready.insert(i);
+      if (awaited[i] == 0) ready.push_back(i);
     }
     Candidates result;
     const auto take = [&](std::size_t i, bool doubtful) {
       result.names.push_back(nodes[i]->name);
       if (doubtful) result.doubtful.insert(nodes[i]->name);
     };
-    while (!ready.empty()) {
-      const std::size_t next = ready.extract(ready.begin()).value();
+    for (std::size_t done = 0; done < ready.size(); ++done) {
+      const std::size_t next = ready[done];
       take(next, is_doubtful(*nodes[next]));
       const auto [first, last] = followers.equal_range(nodes[next]->name);
       for (auto follower = first; follower != last; ++follower)
-        if (--awaited[follower->second] == 0) ready.insert(follower->second);
+        if (--awaited[follower->second] == 0) ready.push_back(follower->second);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (awaited[i] > 0) take(i, true);
