@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include "orca/base/stall_watch.hpp"
 #include "orca/base/steady_clock.hpp"
 
 namespace orca::detail {
@@ -42,7 +43,7 @@ std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
   for (Watched& watched : watched_) {
     const std::uint64_t state = watched.count->state();
     const bool waits = state % 2 == 1;
-    if (waits || state != watched.state) {
+    if (waits || !watched.count->is_watched() || state != watched.state) {
       watched.state = state;
       watched.since = now;
       watched.wait.reset();
@@ -55,3 +56,11 @@ std::optional<StuckTask> ThreadWatch::stuck_task(Duration limit) {
 }
 
 }  // namespace orca::detail
+
+namespace orca {
+
+void leave_stall_watch() {
+  if (detail::WaitCount* const count = detail::WaitCount::current()) count->leave_watch();
+}
+
+}  // namespace orca

@@ -32,6 +32,10 @@ class WaitCount {
   void begin() { state_.store(state_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed); }
   void end() { begin(); }
 
+  /// Lets nobody watch the task from now on.
+  void leave_watch() { is_watched_.store(false, std::memory_order_relaxed); }
+  [[nodiscard]] bool is_watched() const { return is_watched_.load(std::memory_order_relaxed); }
+
   [[nodiscard]] const std::string& name() const { return name_; }
   /// Returns the task's own thread; 0: it has none yet.
   [[nodiscard]] pid_t thread() const { return thread_.load(std::memory_order_relaxed); }
@@ -40,6 +44,7 @@ class WaitCount {
 
  private:
   const std::string name_;
+  std::atomic<bool> is_watched_{true};
   std::atomic<std::uint64_t> state_{0};
   std::atomic<pid_t> thread_{0};
 };

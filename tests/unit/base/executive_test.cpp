@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "executive_kinds.hpp"
+#include "orca/base/stall_watch.hpp"
 #include "orca/base/strand.hpp"
 
 using namespace orca;
@@ -293,6 +294,36 @@ TEST_CASE("a task that sleeps in the system instead of waiting is named", "[base
         name_culprit(*executive, [] { std::this_thread::sleep_for(std::chrono::milliseconds(500)); });
     CHECK(named.asleep == (kind.backend != Backend::thread));
   }
+}
+
+TEST_CASE("a task on a thread of its own that has left the watch is not named, and the others still are",
+          "[base][executive]") {
+  const auto executive = make({ClockKind::steady, Backend::thread});
+  std::atomic<bool> found{false};
+  std::atomic<int> named{0};
+  std::thread monitor([&] {
+    while (!found) {
+      const auto stuck = executive->stuck_task(50ms);
+      if (stuck && stuck->name == "candidate") ++named;
+      found = stuck && stuck->name == "culprit";
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  executive->run([&] {
+    const auto sleep = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
+    const auto candidate = executive->spawn({"candidate", 0}, [&] {
+      leave_stall_watch();
+      while (!found) sleep();
+    });
+    const auto culprit = executive->spawn({"culprit", 0}, [&] {
+      sleep();
+      while (!found) sleep();
+    });
+    candidate->join_until(kForever);
+    culprit->join_until(kForever);
+  });
+  monitor.join();
+  CHECK(named == 0);
 }
 
 TEST_CASE("a task that waits as it should is not named, however long", "[base][executive]") {

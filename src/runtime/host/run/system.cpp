@@ -194,7 +194,7 @@ Status System::on_strand(const std::string& component, Event& changed, TimePoint
   if (fresh_.contains(component)) return rewire();
   const std::shared_ptr<Order> order = (*found)->order_rewiring(std::move(rewire));
   const Status outcome = await(**found, *order, changed, deadline);
-  if (order->withdraw())
+  if (order->is_withdrawn())
     return fail(outcome.error().code, outcome.error().message + "; its connections stay as they are",
                 component);
   wait_until_holds(run_.executive, changed, kForever, [&] { return order->done(); });  // it is under way
@@ -227,15 +227,19 @@ Status System::set_params(const std::string& name, const std::map<std::string, s
   return await(**component, *(*component)->order_params(std::move(values).value()), changed, deadline);
 }
 
-Status System::await(const ComponentInstance& component, const Order& order, Event& changed,
-                     TimePoint deadline) {
+// An order that is refused here is never carried out later.
+Status System::await(const ComponentInstance& component, Order& order, Event& changed, TimePoint deadline) {
   const bool came =
       wait_until_holds(run_.executive, changed, deadline, [&] { return order.done() || give_up_(); });
+  const bool is_withdrawn = order.withdraw();
   if (order.done()) return order.result();
   if (came) return fail(Code::failed_precondition, "the system is being taken down", component.name());
   const std::string hook = component.current_hook();
-  return fail(Code::deadline_exceeded,
-              "it has not come to the end of a lap in time" + (hook.empty() ? "" : "; it is in " + hook),
+  const std::string where = hook.empty() ? "" : "; it is in " + hook;
+  if (!is_withdrawn)
+    return fail(Code::deadline_exceeded, "it has begun to do that, and has not ended in time" + where,
+                component.name());
+  return fail(Code::deadline_exceeded, "it has not come to the end of a lap in time" + where,
               component.name());
 }
 

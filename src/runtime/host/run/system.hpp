@@ -124,7 +124,7 @@ class System {
   Status build_components(PluginCatalogue& catalogue);
   Result<std::unique_ptr<ComponentInstance>> make(const graph::ComponentNode& node,
                                                   ComponentSettings settings, PluginCatalogue& catalogue);
-  Status await(const ComponentInstance& component, const Order& order, Event& changed, TimePoint deadline);
+  Status await(const ComponentInstance& component, Order& order, Event& changed, TimePoint deadline);
 
   const graph::Graph& graph_;
   RunContext& run_;

@@ -17,8 +17,11 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
 // Destroys the component first, because its destructor may still use any part.
 ComponentInstance::~ComponentInstance() { residency_.destroy(); }
 
-void ComponentInstance::start() {
-  parts_.strand.start([this] { loop_.run(); });
+void ComponentInstance::start(std::function<void()> first) {
+  parts_.strand.start([this, first = std::move(first)] {
+    if (first) first();
+    loop_.run();
+  });
 }
 
 std::shared_ptr<Order> ComponentInstance::order_suspend() {
@@ -33,9 +36,14 @@ std::shared_ptr<Order> ComponentInstance::order_params(ParamValues values) {
   return parts_.orders.add([this, values = std::move(values)] { return life_.change_params(values); });
 }
 
-std::shared_ptr<Order> ComponentInstance::order_take_over(ComponentInstance& successor, TakeOver& report) {
+std::shared_ptr<Order> ComponentInstance::order_state_check() {
+  return parts_.orders.add([this] { return succession_.check_state(life_.state()); });
+}
+
+std::shared_ptr<Order> ComponentInstance::order_take_over(ComponentInstance& successor, bool fresh,
+                                                          TakeOver& report) {
   return parts_.orders.add(
-      [this, &successor, &report] { return life_.take_over(successor.residency_, report); });
+      [this, &successor, fresh, &report] { return life_.take_over(successor.residency_, fresh, report); });
 }
 
 std::shared_ptr<Order> ComponentInstance::order_rewiring(std::function<Status()> rewire) {
@@ -43,13 +51,6 @@ std::shared_ptr<Order> ComponentInstance::order_rewiring(std::function<Status()>
     Status rewired = rewire();
     loop_.watch_deadlines();
     return rewired;
-  });
-}
-
-std::shared_ptr<Order> ComponentInstance::order_confirmation() {
-  return parts_.orders.add([this] {
-    succession_.confirm();
-    return ok();
   });
 }
 

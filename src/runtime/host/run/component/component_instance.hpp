@@ -46,7 +46,8 @@ class ComponentInstance final {
   /// Lets other processes wake its strand.
   /// @pre  it has not been loaded or declared yet.
   void set_doorbell(DoorbellWord& word) { parts_.strand.set_doorbell(word); }
-  void start();
+  /// @param first  called on the strand before anything else; empty: nothing is.
+  void start(std::function<void()> first = {});
   /// Lets the component leave IDLE: the whole system is up.
   void open_gate() { loop_.open_gate(); }
   /// Announces request_exit(): the component begins nothing new, and what others refuse it is no news. To be called
@@ -64,16 +65,17 @@ class ComponentInstance final {
   /// Orders new parameter values. They change all together, or none does.
   /// @param values  checked against the contract.
   std::shared_ptr<Order> order_params(ParamValues values);
+  /// Orders that its object saves its state and loads that again, as a test; see Succession::check_state().
+  std::shared_ptr<Order> order_state_check();
   /// Orders a call of a function that changes connections of its ports.
   std::shared_ptr<Order> order_rewiring(std::function<Status()> rewire);
   /// Orders that the successor's object takes the place of this component's, which goes to the successor.
-  /// @param successor  configured, and IDLE with a closed gate. It lives until the order is done and confirm_take_over()
-  ///                   as well, as `report` does.
-  std::shared_ptr<Order> order_take_over(ComponentInstance& successor, TakeOver& report);
-  /// Orders that the old object does not come back from here on.
-  std::shared_ptr<Order> order_confirmation();
-  /// Returns why the old object is back after a take-over; nothing if it is not.
-  [[nodiscard]] std::optional<std::string> take_back_reason() const { return succession_.take_back_reason(); }
+  /// @param successor  configured, and IDLE with a closed gate. It lives until the order is done and Succession::confirm() has
+  ///                   returned true, as `report` does.
+  /// @param fresh      see Succession::take_over().
+  std::shared_ptr<Order> order_take_over(ComponentInstance& successor, bool fresh, TakeOver& report);
+  /// Returns the exchange of its object, which others may confirm and ask why it was undone.
+  [[nodiscard]] Succession& succession() { return succession_; }
 
   [[nodiscard]] ComponentState state() const { return life_.state(); }
   [[nodiscard]] bool at_rest() const;

@@ -183,13 +183,13 @@ Status Lifecycle::order(ComponentEvent event, const std::string& only) {
   return ok();
 }
 
-Status Lifecycle::take_over(Residency& successor, TakeOver& report) {
+Status Lifecycle::take_over(Residency& successor, bool fresh, TakeOver& report) {
   const ComponentState now = state();
   if (now == ComponentState::init)
     return fail(Code::failed_precondition, "it is being loaded; try again", parts_.settings.name);
   if (now == ComponentState::unloaded) return residency_.trade_loaders(successor), ok();
   const std::string was = residency_.type_name();
-  if (Status taken = succession_.take_over(successor, now, report); !taken.ok()) return taken;
+  if (Status taken = succession_.take_over(successor, now, fresh, report); !taken.ok()) return taken;
   parts_.run.trace.code_exchanged(parts_.settings.name, was, residency_.type_name(), report.pause);
   handle(ComponentEvent::replaced);
   return ok();

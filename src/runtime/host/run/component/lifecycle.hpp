@@ -42,7 +42,7 @@ class Lifecycle {
   /// Puts the object of a successor in the place of the present one; see Succession::take_over(). A component that has
   /// failed becomes IDLE.
   /// @errors  also failed_precondition with the state in which that is not possible.
-  Status take_over(Residency& successor, TakeOver& report);
+  Status take_over(Residency& successor, bool fresh, TakeOver& report);
 
   /// Returns whether the lap that began then was one too many that took too long, and the old object is back: see
   /// Succession::judge_lap().

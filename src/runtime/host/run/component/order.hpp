@@ -11,7 +11,7 @@ namespace orca::host {
 
 /// A request to one component from outside. It is carried out on the component's strand, between laps.
 ///
-/// Thread contract: done() and withdraw() from anywhere, result() after done(); the rest on the component's strand.
+/// Thread contract: done(), withdraw() and is_withdrawn() from anywhere, result() after done(); the rest on the component's strand.
 class Order {
  public:
   explicit Order(std::function<Status()> body) : body_(std::move(body)) {}
@@ -27,6 +27,9 @@ class Order {
   /// @return false if it is too late: it is being carried out, or is done.
   bool withdraw() { return leave_waiting(State::withdrawn); }
 
+  [[nodiscard]] bool is_withdrawn() const {
+    return state_.load(std::memory_order_acquire) == State::withdrawn;
+  }
   [[nodiscard]] bool done() const { return state_.load(std::memory_order_acquire) == State::done; }
   [[nodiscard]] const Status& result() const { return result_; }
 

@@ -60,7 +60,9 @@ class HostedPart::Inside {
         outer_(whole_, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options, place.listener), [this] { return is_to_end_.load(); }),
-        swaps_(whole_, watched_.context(), place.catalogue, watched_.system()) {
+        swaps_(
+            whole_, watched_.context(), place.catalogue, watched_.system(),
+            [this](const std::string& component, const std::string& text) { stand_still(component, text); }) {
     watched_.reporter().tap(taps_);
   }
 

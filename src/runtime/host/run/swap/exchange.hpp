@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,10 @@
 
 namespace orca::host {
 
+/// Handles a component that hangs where nothing else can help: it ends the process.
+/// @param text  what hangs, for people.
+using Standstill = std::function<void(const std::string& component, const std::string& text)>;
+
 /// One exchange of code while the system runs, of a component or of a driver.
 ///
 /// Thread contract: one task, the executive's main task.
@@ -17,7 +22,7 @@ class Exchange {
  public:
   virtual ~Exchange() = default;
 
-  /// Loads the plugin, and compares its type with what runs. Nothing has happened yet when it fails.
+  /// Begins it. Nothing has happened yet when it fails.
   virtual Status prepare() = 0;
   /// Goes on as far as possible. To be called whenever an instance has changed, and at wake_up(), until it returns the
   /// outcome. It does not block.

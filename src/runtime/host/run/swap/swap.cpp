@@ -6,13 +6,18 @@
 
 #include "containment/environment.hpp"
 #include "fit.hpp"
+#include "orca/base/stall_watch.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::host {
 namespace {
 
+constexpr Duration kMakeLimit = 10s;
 constexpr Duration kConfigureLimit = 10s;
-constexpr Duration kEndLimit = 2s;
+constexpr Duration kLapEndLimit = 5s;     // for the component to come to the end of a lap
+constexpr Duration kTakeOverLimit = 10s;  // of save_state(), start() and load_state() together
+constexpr Duration kEndLimit = 5s;
+constexpr Duration kMostComputing = 500ms;  // while it is past its limit: whoever takes more does not sleep
 
 }  // namespace
 
@@ -24,37 +29,71 @@ Swap::Swap(const Place& place, SwapOrder order)
 
 Swap::~Swap() = default;
 
-Result<SwapReport> Swap::give_up() {
-  return end(refuse(Code::unavailable, "the system was stopped before the swap was done"));
+Error Swap::refuse(Code code, const std::string& why) const { return fail(code, why, order_.component); }
+
+void Swap::enter(Phase phase, Duration limit) {
+  phase_ = phase;
+  limit_ = saturating_add(place_.run.executive.now(), limit);
+  computed_ = clock_.used();
 }
 
-Error Swap::refuse(Code code, const std::string& why) const { return fail(code, why, order_.component); }
+bool Swap::is_late() const { return place_.run.executive.now() >= limit_; }
+
+bool Swap::computes() const { return clock_.used() - computed_ > kMostComputing; }
 
 // --- Beside the component ---------------------------------------------------------------------------------
 
 Status Swap::prepare() {
-  LoadedType type;
-  Contract contract;
-  if (Status acquired = acquire(type, contract); !acquired.ok()) return acquired;
-  const std::vector<std::string> faults =
-      misfits_in(place_.graph, place_.component.parts().settings, place_.component.parts().ports.contracts(),
-                 contract.ports);
-  if (!faults.empty())
-    return refuse(Code::failed_precondition,
-                  report_.new_type + " cannot take its place: " + joined(faults, "; "));
-  if (Status made = make_successor(type, contract); !made.ok()) return made;
-  limit_ = saturating_add(place_.run.executive.now(), kConfigureLimit);
-  successor_->start();
+  if (place_.component.parts().hardware != nullptr)
+    return refuse(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs");
+  begin_task(Phase::making, kMakeLimit, [this] {
+    made_ = make();
+    if (!made_.ok()) successor_.reset();
+  });
   return ok();
 }
 
+// Begins a phase in which code runs that may hang.
+void Swap::begin_task(Phase phase, Duration limit, std::function<void()> body) {
+  clock_.reset();
+  enter(phase, limit);
+  is_done_.store(false);
+  task_ = place_.run.executive.spawn({"swap", 0}, [this, body = std::move(body)] {
+    leave_stall_watch();
+    clock_.start();
+    body();
+    is_done_.store(true, std::memory_order_release);
+    place_.run.changed();
+  });
+}
+
+// Runs on a task of its own.
+Status Swap::make() {
+  LoadedType type;
+  Contract contract;
+  if (Status acquired = acquire(type, contract); !acquired.ok()) return acquired;
+  offered_ = contract.ports;
+  return make_successor(type, contract);
+}
+
+// The graph may change while the new object is made.
+Status Swap::connect() {
+  const std::vector<std::string> faults = misfits_in(place_.graph, place_.component.parts().settings,
+                                                     place_.component.parts().ports.contracts(), offered_);
+  if (!faults.empty())
+    return refuse(Code::failed_precondition,
+                  report_.new_type + " cannot take its place: " + joined(faults, "; "));
+  Backdrop::keep_places(place_.component, *successor_);
+  return backdrop_.connect(place_.graph, *successor_);
+}
+
 Status Swap::acquire(LoadedType& type, Contract& contract) {
-  if (place_.component.parts().hardware != nullptr)
-    return refuse(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs");
   report_.old_type = place_.type;
   report_.new_type = order_.type.empty() ? place_.type : order_.type;
+  is_loading_.store(true);
   Result<LoadedType> acquired = place_.catalogue.acquire(std::move(order_.plugin), PluginKind::component,
                                                          report_.new_type, order_.trial);
+  is_loading_.store(false);
   if (!acquired) return acquired.error();
   type = std::move(acquired).value();
   report_.build_id = type.library->build_id();
@@ -75,80 +114,143 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
       beside_.context(), std::move(settings), [type] { return Result<LoadedType>(type); },
       [&catalogue = place_.catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); },
       nullptr);
-  if (Status loaded = successor_->load(); !loaded.ok()) return loaded;
-  Backdrop::keep_places(place_.component, *successor_);
-  return backdrop_.connect(place_.graph, *successor_);
+  return successor_->load();
 }
 
 // --- Step by step -----------------------------------------------------------------------------------------
 
-std::optional<Result<SwapReport>> Swap::step() {
+Swap::Outcome Swap::step() {
   switch (phase_) {
+    case Phase::making: return made();
     case Phase::configuring: return configured();
-    case Phase::taking_over: return taken_over();
-    case Phase::probation: return watch();
-    case Phase::confirming: return confirmed();
+    case Phase::taking_over:
+    case Phase::in_take_over: return taken_over();
+    case Phase::probation:
+    case Phase::going_back: return watch();
+    case Phase::ending: return ended();
   }
   return std::nullopt;
 }
 
-TimePoint Swap::wake_up() const {
-  return phase_ == Phase::configuring || phase_ == Phase::probation ? limit_ : kForever;
-}
+TimePoint Swap::wake_up() const { return limit_; }
 
-void Swap::await(Phase phase, std::shared_ptr<Order> order) {
-  phase_ = phase;
-  pending_ = std::move(order);
-}
-
-std::optional<Result<SwapReport>> Swap::configured() {
-  if (successor_->state() == ComponentState::init) {
-    if (place_.run.executive.now() < limit_) return std::nullopt;
-    return end(refuse(Code::deadline_exceeded, "configure() of the new one did not return within 10 s"));
+Swap::Outcome Swap::made() {
+  if (!is_done()) {
+    if (!is_late()) return std::nullopt;
+    outcome_ = refuse(Code::deadline_exceeded, "the constructor of the new one did not return within 10 s");
+    if (is_loading_.load())
+      return lose("its static initialisation hangs, and no code can be loaded any more");
+    return leave_behind("the constructor of the new one");
   }
-  if (successor_->has_failed()) return end(refuse(Code::failed_precondition, successor_->failure()));
-  Environment::of_process().look_ahead(order_.component);
-  await(Phase::taking_over, place_.component.order_take_over(*successor_, take_over_));
+  task_.reset();
+  if (!made_.ok()) return Outcome(made_.error());
+  if (const Status connected = connect(); !connected.ok()) return end(connected.error());
+  enter(Phase::configuring, kConfigureLimit);
+  successor_->start([this] {
+    leave_stall_watch();
+    clock_.start();
+  });
   return step();
 }
 
-std::optional<Result<SwapReport>> Swap::taken_over() {
-  if (!pending_->done()) return std::nullopt;
+Swap::Outcome Swap::configured() {
+  if (successor_->state() == ComponentState::init) {
+    if (!is_late()) return std::nullopt;
+    outcome_ = refuse(Code::deadline_exceeded, "configure() of the new one did not return within 10 s");
+    return leave_behind("configure() of the new one");
+  }
+  if (successor_->has_failed()) return end(refuse(Code::failed_precondition, successor_->failure()));
+  Environment::of_process().look_ahead(order_.component);
+  enter(Phase::taking_over, kLapEndLimit);
+  pending_ = place_.component.order_take_over(*successor_, order_.fresh, take_over_);
+  return step();
+}
+
+Swap::Outcome Swap::taken_over() {
+  if (!pending_->done()) return is_late() ? withdraw() : std::nullopt;
   if (const Status& taken = pending_->result(); !taken.ok())
     return end(refuse(taken.error().code, "the new one was not taken: " + taken.error().message));
   report_.pause = take_over_.pause;
   if (take_over_.state) report_.state = take_over_.state->text();
-  phase_ = Phase::probation;
-  limit_ = saturating_add(place_.run.executive.now(), order_.probation);
+  enter(Phase::probation, order_.probation);
   return step();
 }
 
-std::optional<Result<SwapReport>> Swap::watch() {
-  if (place_.component.take_back_reason() || place_.run.executive.now() >= limit_) {
-    await(Phase::confirming, place_.component.order_confirmation());
-    return step();
+// Gives up what the component has not begun. What hangs in its place hangs on its strand, where nothing else can run then.
+Swap::Outcome Swap::withdraw() {
+  const std::string hook = place_.component.current_hook();
+  if (pending_->withdraw())
+    return end(refuse(Code::deadline_exceeded, "it has not come to the end of a lap within 5 s" +
+                                                   (hook.empty() ? "" : "; it is in " + hook) +
+                                                   "; nothing has changed, so try again when that is over"));
+  if (phase_ == Phase::in_take_over) return lose((hook.empty() ? "it" : hook) + " hangs in an exchange");
+  enter(Phase::in_take_over, kTakeOverLimit);
+  return step();
+}
+
+Swap::Outcome Swap::watch() {
+  const auto back = [this]() -> Outcome {
+    const std::optional<std::string> why = place_.component.succession().take_back_reason();
+    if (!why) return std::nullopt;
+    return end(refuse(Code::failed_precondition, "the new one failed, and the old one is back: " + *why));
+  };
+  if (const Outcome outcome = back(); outcome || phase_ == Phase::ending) return outcome;
+  if (!is_late()) return std::nullopt;
+  if (place_.component.succession().confirm()) {
+    const Outcome outcome = back();
+    return outcome || phase_ == Phase::ending ? outcome : end(report_);
   }
+  if (phase_ == Phase::going_back) return lose("the old object, which is to be back, hangs");
+  enter(Phase::going_back, kTakeOverLimit);
   return std::nullopt;
 }
 
-std::optional<Result<SwapReport>> Swap::confirmed() {
-  if (!pending_->done()) return std::nullopt;
-  if (const std::optional<std::string> why = place_.component.take_back_reason())
-    return end(refuse(Code::failed_precondition, "the new one failed, and the old one is back: " + *why));
-  return end(report_);
+// --- The end ----------------------------------------------------------------------------------------------
+
+// Lets the object that is not needed any more end, the old one or the new one.
+Swap::Outcome Swap::end(Result<SwapReport> outcome) {
+  outcome_ = std::move(outcome);
+  begin_task(Phase::ending, kEndLimit, [this] {
+    successor_->request_exit();
+    (void)successor_->join_until(kForever);
+    successor_.reset();
+  });
+  return std::nullopt;
 }
 
-// Destroys the object that is not needed any more, the old one or the new one.
-Result<SwapReport> Swap::end(Result<SwapReport> outcome) {
+Swap::Outcome Swap::ended() {
+  if (is_done()) return task_.reset(), outcome_;
+  if (!is_late()) return std::nullopt;
+  return leave_behind("stop() or the destructor of the object that is not needed any more");
+}
+
+// The exchange ends without the object. One that sleeps for ever takes nothing but memory.
+Swap::Outcome Swap::leave_behind(const std::string& hangs) {
+  if (computes()) return lose(hangs + " computes without end");
+  is_stuck_ = true;
+  place_.run.reporter.log(log::Level::error, order_.component,
+                          hangs + " does not return; it stays in memory until the process is started again");
+  return outcome_;
+}
+
+Swap::Outcome Swap::lose(const std::string& hangs) {
+  is_stuck_ = true;
+  if (place_.stand_still)
+    place_.stand_still(order_.component,
+                       hangs + ", so the process is ended, and begins anew with the code of the graph");
+  return outcome_ ? outcome_ : Outcome(refuse(Code::deadline_exceeded, hangs));
+}
+
+// What has not ended by now will not.
+Result<SwapReport> Swap::give_up() {
+  const Error reason = refuse(Code::unavailable, "the system was stopped before the swap was done");
+  const TimePoint limit = saturating_add(place_.run.executive.now(), kEndLimit);
+  if (task_ != nullptr && !task_->join_until(limit)) is_stuck_ = true;
+  if (is_stuck_ || successor_ == nullptr) return reason;
   successor_->request_exit();
-  if (successor_->join_until(saturating_add(place_.run.executive.now(), kEndLimit))) {
-    successor_.reset();
-  } else {
-    is_stuck_ = true;
-    place_.run.reporter.log(log::Level::error, order_.component,
-                            "the object that is not needed any more does not end; it stays in memory");
-  }
-  return outcome;
+  is_stuck_ = !successor_->join_until(limit);
+  if (!is_stuck_) successor_.reset();
+  return reason;
 }
 
 }  // namespace orca::host

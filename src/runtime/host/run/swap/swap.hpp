@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "candidate_clock.hpp"
 #include "exchange.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
@@ -21,6 +25,10 @@ namespace orca::host {
 /// One exchange of a component's code while the system runs (docs/adr/0008): the new object is made and configured beside
 /// the old one, takes its place between two laps, and is on probation until the old one is destroyed.
 ///
+/// Whatever is not in its place, the new object or the old one, runs on a thread of its own, with limits of its own. If it hangs, the
+/// exchange ends without it: what sleeps stays in memory, and for what computes the process is given up, as for an
+/// object that hangs in its place.
+///
 /// Thread contract: one task, which does not run the component.
 class Swap final : public Exchange {
  public:
@@ -31,6 +39,8 @@ class Swap final : public Exchange {
     PluginCatalogue& catalogue;
     ComponentInstance& component;
     std::string type;  ///< Of its present object.
+    /// Ends the process because a component, or what was to take its place, hangs; empty: nobody does.
+    const Standstill& stand_still;
   };
 
   Swap(const Place& place, SwapOrder order);
@@ -38,10 +48,10 @@ class Swap final : public Exchange {
   Swap(const Swap&) = delete;
   Swap& operator=(const Swap&) = delete;
 
-  /// Also lets the new object configure itself.
-  /// @errors  those of PluginCatalogue::acquire(); failed_precondition with all differences; invalid_argument for
-  ///          parameters; internal with what a constructor threw.
+  /// @errors  failed_precondition if the component cannot be exchanged.
   Status prepare() override;
+  /// @return also the errors of PluginCatalogue::acquire(); failed_precondition with all differences; invalid_argument for
+  ///         parameters; internal with what a constructor threw; deadline_exceeded if something takes too long.
   std::optional<Result<SwapReport>> step() override;
   Result<SwapReport> give_up() override;
   [[nodiscard]] TimePoint wake_up() const override;
@@ -49,28 +59,47 @@ class Swap final : public Exchange {
   [[nodiscard]] bool is_stuck() const override { return is_stuck_; }
 
  private:
-  enum class Phase { configuring, taking_over, probation, confirming };
+  enum class Phase { making, configuring, taking_over, in_take_over, probation, going_back, ending };
+  using Outcome = std::optional<Result<SwapReport>>;
 
+  void begin_task(Phase phase, Duration limit, std::function<void()> body);
+  [[nodiscard]] bool is_done() const { return is_done_.load(std::memory_order_acquire); }
+  Status make();
+  Status connect();
   Status acquire(LoadedType& type, Contract& contract);
   Status make_successor(const LoadedType& type, const Contract& contract);
-  std::optional<Result<SwapReport>> configured();
-  std::optional<Result<SwapReport>> taken_over();
-  std::optional<Result<SwapReport>> watch();
-  std::optional<Result<SwapReport>> confirmed();
-  Result<SwapReport> end(Result<SwapReport> outcome);
-  void await(Phase phase, std::shared_ptr<Order> order);
+  Outcome made();
+  Outcome configured();
+  Outcome taken_over();
+  Outcome withdraw();
+  Outcome watch();
+  Outcome end(Result<SwapReport> outcome);
+  Outcome ended();
+  Outcome leave_behind(const std::string& hangs);
+  Outcome lose(const std::string& hangs);
+  void enter(Phase phase, Duration limit);
+  [[nodiscard]] bool is_late() const;
+  [[nodiscard]] bool computes() const;
   [[nodiscard]] Error refuse(Code code, const std::string& why) const;
 
   const Place place_;
   SwapOrder order_;
   QuietRun beside_;  // surroundings of the new object while it is configured
   Backdrop backdrop_;
+  CandidateClock clock_;                 // of the thread on which the object runs that is not in its place
+  std::atomic<bool> is_loading_{false};  // and not only constructing
+  std::atomic<bool> is_done_{false};     // by the task
+  Status made_;                          // set before is_done_
+  std::unique_ptr<Task> task_;  // makes the new object, or destroys the one that is not needed any more
+  std::vector<PortContract> offered_;  // by the new type
   std::unique_ptr<ComponentInstance> successor_;
-  Phase phase_ = Phase::configuring;
+  Phase phase_ = Phase::making;
   TimePoint limit_{};
+  Duration computed_{};             // by that thread when the phase began
   std::shared_ptr<Order> pending_;  // at the component
   TakeOver take_over_;
   SwapReport report_;
+  Outcome outcome_;  // once the object that is not needed any more has ended
   bool is_stuck_ = false;
 };
 

@@ -34,8 +34,8 @@ Result<std::unique_ptr<Exchange>> Swaps::make(SwapOrder order) {
   }
   Result<ComponentInstance*> component = system_.instance(name);
   if (!component) return component.error();
-  const Swap::Place place{graph_, run_, catalogue_, **component,
-                          type_of(name, graph_.find_component(name)->type)};
+  const Swap::Place place{
+      graph_, run_, catalogue_, **component, type_of(name, graph_.find_component(name)->type), stand_still_};
   swap = std::make_unique<Swap>(place, std::move(order));
   return swap;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "exchange.hpp"
@@ -21,8 +22,14 @@ class Swaps {
   using Done = std::function<void(const Result<SwapReport>&)>;
 
   /// @param graph  with all connections of the components, to whichever process. Outlives the object, as all else does.
-  Swaps(const graph::Graph& graph, RunContext& run, PluginCatalogue& catalogue, System& system)
-      : graph_(graph), run_(run), catalogue_(catalogue), system_(system) {}
+  /// @param stand_still  ends the process because of a component that hangs in an exchange; empty: nobody does.
+  Swaps(const graph::Graph& graph, RunContext& run, PluginCatalogue& catalogue, System& system,
+        Standstill stand_still = {})
+      : graph_(graph),
+        run_(run),
+        catalogue_(catalogue),
+        system_(system),
+        stand_still_(std::move(stand_still)) {}
   ~Swaps();
   Swaps(const Swaps&) = delete;
   Swaps& operator=(const Swaps&) = delete;
@@ -62,6 +69,7 @@ class Swaps {
   RunContext& run_;
   PluginCatalogue& catalogue_;
   System& system_;
+  const Standstill stand_still_;
   std::vector<Open> open_;
   std::map<std::string, std::string> types_;  // of what was exchanged, by its name
 };

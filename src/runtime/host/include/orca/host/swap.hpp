@@ -21,6 +21,7 @@ struct SwapOrder {
   Duration probation{2s};
   /// Whether the plugin still is to be tried out in a copy of this process.
   plugin::Trial trial = plugin::Trial::now;
+  bool fresh = false;  ///< The new object begins without the state of the old one, which is not asked for it.
   Duration open_limit{
       5s};  ///< [s of the run's clock] for a driver to open its device, and to start it if it is in use.
 };

@@ -5,6 +5,13 @@
 
 namespace orca::host {
 
+namespace {
+
+constexpr std::size_t kMostStateBytes = std::size_t{64}
+                                        << 20;  // of a state: more would take too long between two laps
+
+}  // namespace
+
 bool can_tell_its_state(ComponentState state) {
   return state == ComponentState::idle || state == ComponentState::work ||
          state == ComponentState::suspended_idle || state == ComponentState::suspended_work;
@@ -17,6 +24,10 @@ Result<KeptState> StateHooks::save() {
     return ok();
   });
   if (!saved.ok()) return saved.error();
+  if (writer.bytes().size() > kMostStateBytes)
+    return fail(Code::failed_precondition, "save_state() wrote " + std::to_string(writer.bytes().size()) +
+                                               " bytes; a state can have " + std::to_string(kMostStateBytes) +
+                                               " at most");
   return KeptState{{residency_.type_name(), residency_.component()->state_version()}, writer.bytes()};
 }
 

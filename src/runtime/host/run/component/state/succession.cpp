@@ -10,18 +10,33 @@ namespace {
 
 constexpr std::size_t kMostLateLaps = 3;
 
+Error with_way_out(const Error& error) {
+  return fail(
+      error.code,
+      error.message + "; orcactl swap with --fresh lets the new one begin without the old one's state",
+      error.where);
+}
+
 bool works(ComponentState state) {
   return state == ComponentState::work || state == ComponentState::suspended_work;
 }
 
 }  // namespace
 
-Status Succession::take_over(Residency& successor, ComponentState state, TakeOver& report) {
+Status Succession::check_state(ComponentState state) {
+  if (!can_tell_its_state(state)) return ok();
+  const Result<KeptState> saved = hooks_.save();
+  if (!saved) return saved.error();
+  const Result<bool> loaded = hooks_.load(*saved);
+  return loaded ? ok() : Status(loaded.error());
+}
+
+Status Succession::take_over(Residency& successor, ComponentState state, bool fresh, TakeOver& report) {
   const TimePoint began = parts_.now();
   std::optional<KeptState> kept;
-  if (can_tell_its_state(state)) {
+  if (!fresh && can_tell_its_state(state)) {
     Result<KeptState> saved = hooks_.save();
-    if (!saved) return saved.error();
+    if (!saved) return with_way_out(saved.error());
     kept = std::move(saved).value();
   }
   residency_.trade_places(successor);
@@ -30,10 +45,10 @@ Status Succession::take_over(Residency& successor, ComponentState state, TakeOve
     seat(state);
     return entered;
   }
-  predecessor_ = &successor;
   allowed_late_laps_ = 2 * late_laps_.count() + kMostLateLaps;
   late_laps_ = {};
   const std::lock_guard lock(mutex_);
+  predecessor_ = &successor;
   taken_back_.reset();
   report.pause = parts_.now() - began;
   return ok();
@@ -51,7 +66,7 @@ Status Succession::enter(ComponentState state, const std::optional<KeptState>& s
 
 Status Succession::load(const KeptState& saved, TakeOver& report) {
   const Result<bool> loaded = hooks_.load(saved);
-  if (!loaded) return loaded.error();
+  if (!loaded) return with_way_out(loaded.error());
   if (*loaded) report.state = saved.tag;
   return ok();
 }
@@ -69,9 +84,23 @@ void Succession::seat(ComponentState state) {
     parts_.ports.open();  // what comes while it is suspended waits
 }
 
+bool Succession::confirm() {
+  const std::lock_guard lock(mutex_);
+  predecessor_ = nullptr;
+  return !is_going_back_;
+}
+
+// Returns what holds the old object, to which the component goes back now; null: there is no way back.
+Residency* Succession::leave_predecessor() {
+  const std::lock_guard lock(mutex_);
+  is_going_back_ = predecessor_ != nullptr;
+  return std::exchange(predecessor_, nullptr);
+}
+
 bool Succession::take_back(ComponentState state, const std::string& why) {
-  if (predecessor_ == nullptr) return false;
-  residency_.trade_places(*std::exchange(predecessor_, nullptr));
+  Residency* const predecessor = leave_predecessor();
+  if (predecessor == nullptr) return false;
+  residency_.trade_places(*predecessor);
   late_laps_ = {};
   seat(state);
   catch_up(state);
@@ -80,6 +109,7 @@ bool Succession::take_back(ComponentState state, const std::string& why) {
   {
     const std::lock_guard lock(mutex_);
     taken_back_ = why;
+    is_going_back_ = false;
   }
   parts_.run.changed();  // whoever has ordered the exchange need not wait for the end of the probation
   return true;
@@ -122,7 +152,7 @@ Status Succession::pause() {
 bool Succession::is_too_slow(TimePoint began) {
   const Duration period = parts_.laps.period();
   late_laps_.note(period > Duration{0} && parts_.now() - began > period);
-  return predecessor_ != nullptr && late_laps_.count() >= allowed_late_laps_;
+  return late_laps_.count() >= allowed_late_laps_;
 }
 
 std::string Succession::too_slow_text() const {

@@ -43,21 +43,26 @@ class LateLaps {
 /// The exchange of one component's object for another one while the component runs, and the way back. The old object keeps
 /// its state, and goes on with it if the new one fails before confirm().
 ///
-/// Thread contract: take_back_reason() from anywhere, the rest on the component's strand.
+/// Thread contract: confirm() and take_back_reason() from anywhere, the rest on the component's strand.
 class Succession {
  public:
   Succession(ComponentParts& parts, Residency& residency)
       : parts_(parts), residency_(residency), hooks_(parts, residency) {}
 
+  /// Lets the object save its state and load it again, as its next version would: otherwise none could follow it.
+  /// @errors  what its hooks say or throw.
+  Status check_state(ComponentState state);
   /// Puts the successor's object in the place of the present one, with its state, and starts it if the component works. The
   /// present object goes to the successor, which must live until confirm().
+  /// @param fresh  the new object begins without the state of the old one, which is not asked for it.
   /// @param state  of the component: idle, at work or suspended; or one in which the present object has failed, whose state is
   ///               then of no use.
   /// @errors  what the new object's hooks say or throw; failed_precondition if it cannot read the state. Everything is then
   ///          as before.
-  Status take_over(Residency& successor, ComponentState state, TakeOver& report);
+  Status take_over(Residency& successor, ComponentState state, bool fresh, TakeOver& report);
   /// Ends the time in which the old object may come back.
-  void confirm() { predecessor_ = nullptr; }
+  /// @return false if it is just coming back; take_back_reason() says why as soon as it is there.
+  bool confirm();
 
   /// Notes how long a lap has taken. Brings the old object back if too many laps of the new one have taken longer than their
   /// period, before confirm(): three more than twice as many as of the old one's last laps, since on a busy machine any lap may.
@@ -81,17 +86,20 @@ class Succession {
   void catch_up(ComponentState state);
   void pause_as(ComponentState state);
   Status pause();
+  [[nodiscard]] Residency* leave_predecessor();
   bool is_too_slow(TimePoint began);
   [[nodiscard]] std::string too_slow_text() const;
 
   ComponentParts& parts_;
   Residency& residency_;
   StateHooks hooks_;
-  Residency* predecessor_ = nullptr;   // holds the old object; null: there is no way back
-  LateLaps late_laps_;                 // of the present object
-  std::size_t allowed_late_laps_ = 0;  // of the new object on probation
+  LateLaps late_laps_;                                     // of the present object
+  std::size_t allowed_late_laps_ = LateLaps::kWindow + 1;  // of the new object on probation
   mutable std::mutex mutex_;
-  std::optional<std::string> taken_back_;  // guarded by mutex_
+  // Below: guarded by mutex_.
+  Residency* predecessor_ = nullptr;  // holds the old object; null: there is no way back
+  bool is_going_back_ = false;
+  std::optional<std::string> taken_back_;
 };
 
 }  // namespace orca::host
