@@ -264,8 +264,9 @@ TEST_CASE("a plugin whose old code cannot be unloaded is shown as pinned", "[sys
   const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
   REQUIRE(comes_true(works, Seconds(10)));
   CHECK_THAT(run_orcactl({"plugins", "--json"}).out, !Contains("\"pinned\": true"));
-  const Run swapped =
-      run_orcactl({"swap", "hooligan", ORCA_BINARY_DIR "/tests/plugins/test_hooligan.so"}, Seconds(20));
+  const Run swapped = run_orcactl(
+      {"swap", "hooligan", ORCA_BINARY_DIR "/tests/plugins/test_hooligan.so", "--set", "deed=none"},
+      Seconds(20));
   INFO(swapped.err << program.err());
   CHECK(swapped.exit_code() == 0);
   CHECK_THAT(program.err(), Contains("PLUGIN_PINNED"));

@@ -24,6 +24,7 @@ namespace {
 using supervisor::Record;
 
 constexpr Duration kLimit = 30s;        // for a part of an answer: a process that is restarted is back before
+constexpr Duration kSwapLimit = 120s;   // more than the limits of all its steps together
 constexpr Duration kApplyLimit = 600s;  // several exchanges, each with its trial and probation
 constexpr std::chrono::seconds kWatchInterval{1};
 constexpr std::chrono::seconds kStubborn{1};
@@ -93,7 +94,8 @@ Duration limit_of(const Call& call) {
   if (call.has("--follow")) return kForEver;
   constexpr std::array<std::string_view, 4> kApplying{"apply", "connect", "disconnect", "move"};
   if (std::ranges::find(kApplying, call.command->name) != kApplying.end()) return kApplyLimit;
-  return kLimit + call.duration("--probation").value_or(Duration{0}) +
+  if (call.command->name != "swap") return kLimit;
+  return kSwapLimit + call.duration("--probation").value_or(Duration{0}) +
          call.duration("--tryout").value_or(Duration{0});
 }
 

@@ -200,6 +200,8 @@ std::vector<Command> operating_commands() {
   };
 }
 
+const OptionSpec kUntried{"--untried", "", "take new code even if it cannot be tried out"};
+
 // What puts something else in the place of what runs.
 std::vector<Command> exchanging_commands() {
   return {
@@ -207,15 +209,20 @@ std::vector<Command> exchanging_commands() {
        .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
        .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on; may be repeated", true},
                    {"--tryout", "DURATION",
-                    "time for which the new code is tried with what reaches the old one (default 1 s)"},
+                    "time for which the new code is tried with what reaches the old one (default 2 s)"},
                    {"--probation", "DURATION",
-                    "time in which a failure brings the old code back (default 2 s)"}},
+                    "time in which a failure brings the old code back (default 2 s)"},
+                   kUntried,
+                   {"--fresh", "", "begin without the old code's state, which is not asked for it"}},
        .tells = true,
        .text = "exchange the code of a component, or a driver, while it runs",
        .details =
-           "For a second, what reaches the component is collected; then the new code is tried with that in a "
+           "For two seconds, what reaches the component is collected; then the new code is tried with that "
+           "in a "
            "process of its own, where it can do no harm. "
-           "If it crashes, hangs or fails there, nothing changes. Otherwise the new object is made and "
+           "If it crashes, hangs or fails there, nothing changes, and neither if it cannot be tried out, "
+           "because it "
+           "would write a file, for example. Otherwise the new object is made and "
            "configured beside the old one, which works on meanwhile. Between two "
            "laps it takes over the old one's state, ports and subscriptions; nothing that waits in queues is "
            "lost. "
@@ -250,6 +257,7 @@ std::vector<Command> exchanging_commands() {
        .details = kApplyDetails},
       {.name = "apply",
        .arguments = {{"GRAPH.xml", Names::file}},
+       .options = {kUntried},
        .tells = true,
        .text = "let the running system become what a graph says: all of it, or nothing",
        .details = kApplyDetails},

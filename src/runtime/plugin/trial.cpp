@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,11 +42,37 @@ constexpr std::chrono::milliseconds kLook{50};  // between two questions whether
 constexpr const char* kEffectText = "would have left a trace outside its trial";
 
 // What the copy says: a kind, then a text with its length before it.
-enum class Kind : char { step = 's', finding = 'f', thrown = 't', effect = 'e', impossible = 'i', end = 'w' };
+enum class Kind : char {
+  step = 's',
+  finding = 'f',
+  question = 'q',
+  thrown = 't',
+  effect = 'e',
+  impossible = 'i',
+  end = 'w'
+};
 
 // --- In the copy ------------------------------------------------------------------------------------------
 
 int g_report_fd = -1;
+
+void read_all(char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t count = read(g_report_fd, data, size);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) _exit(1);  // the parent waits no longer
+    data += count;
+    size -= static_cast<std::size_t>(count);
+  }
+}
+
+std::string read_answer() {
+  std::uint32_t size = 0;
+  read_all(reinterpret_cast<char*>(&size), sizeof size);
+  std::string answer(size, '\0');
+  read_all(answer.data(), size);
+  return answer;
+}
 
 void write_all(const char* data, std::size_t size) {
   while (size > 0) {
@@ -57,11 +84,14 @@ void write_all(const char* data, std::size_t size) {
   }
 }
 
-void report(Kind kind, const std::string& text) {
-  std::string record(1, static_cast<char>(kind));
+// Returns a text with its length before it.
+std::string measured(const std::string& text) {
   const auto size = static_cast<std::uint32_t>(text.size());
-  record.append(reinterpret_cast<const char*>(&size), sizeof size);
-  record += text;
+  return std::string(reinterpret_cast<const char*>(&size), sizeof size) + text;
+}
+
+void report(Kind kind, const std::string& text) {
+  const std::string record = static_cast<char>(kind) + measured(text);
   write_all(record.data(), record.size());
 }
 
@@ -69,6 +99,10 @@ class Line final : public TrialLine {
  public:
   void step(const std::string& what) override { report(Kind::step, what); }
   void find(const std::string& finding) override { report(Kind::finding, finding); }
+  std::string ask(const std::string& question) override {
+    report(Kind::question, question);
+    return read_answer();
+  }
   [[noreturn]] void end() override {
     report(Kind::end, {});
     _exit(0);
@@ -137,6 +171,9 @@ class Heard {
   std::string thrown;
   bool over = false;  // the copy has said its last word
 
+  /// @param ask  takes what the copy asks.
+  explicit Heard(std::function<void(const std::string&)> ask) : ask_(std::move(ask)) {}
+
   void add(const char* data, std::size_t size) {
     bytes_.append(data, size);
     while (!over && take_record()) {
@@ -159,6 +196,7 @@ class Heard {
     switch (kind) {
       case Kind::step: result.last_step = std::move(text); return;
       case Kind::finding: result.findings.push_back(std::move(text)); return;
+      case Kind::question: return ask_(text);
       case Kind::thrown: thrown = std::move(text); return;
       case Kind::effect: return end(Ending::effect, kEffectText);
       case Kind::impossible: return end(Ending::silent, std::move(text));
@@ -172,6 +210,7 @@ class Heard {
     result.text = std::move(text);
   }
 
+  const std::function<void(const std::string&)> ask_;
   std::string bytes_;
 };
 
@@ -213,6 +252,18 @@ bool has_ended(pid_t copy, Clock::time_point deadline, int& status) {
   }
 }
 
+// Answers a question of the copy, which does not have that time for its own.
+void answer_copy(int fd, const std::string& answer, Patience& patience, Clock::time_point asked) {
+  const std::string bytes = measured(answer);
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t count = send(fd, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) break;  // it has ended meanwhile
+    sent += static_cast<std::size_t>(count);
+  }
+  patience.deadline += Clock::now() - asked;
+}
+
 void end_copy(pid_t copy) {
   kill(copy, SIGKILL);
   int status = 0;
@@ -228,9 +279,13 @@ std::string how_it_died(int status, const std::string& thrown) {
   return "ended the process with exit(" + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
-TrialResult conclude(pid_t copy, int fd, Duration limit, const std::function<bool()>& give_up) {
-  const Patience patience{Clock::now() + limit, give_up};
-  Heard heard;
+TrialResult conclude(pid_t copy, int fd, Duration limit, const std::function<bool()>& give_up,
+                     const TrialAnswerer& answer) {
+  Patience patience{Clock::now() + limit, give_up};
+  Heard heard([&](const std::string& question) {
+    const Clock::time_point asked = Clock::now();
+    answer_copy(fd, answer ? answer(question) : std::string(), patience, asked);
+  });
   const bool heard_out = hear_out(fd, patience, heard);
   close(fd);
   int status = 0;
@@ -261,18 +316,21 @@ TrialResult cannot_try(int reason) {
 }  // namespace
 
 TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit, Effects effects,
-                      const std::function<bool()>& give_up) {
+                      const std::function<bool()>& give_up, const TrialAnswerer& answer) {
   int fds[2];
-  if (pipe2(fds, O_CLOEXEC) != 0) return cannot_try(errno);
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds) != 0) return cannot_try(errno);
   ActivityKeeper here;
   here.keep();
   ActivityKeeper().restore();  // this fork() must not count as a plugin's
   const pid_t copy = fork();
   const int reason = errno;
-  if (copy == 0) run_copy(fds[1], attempt, effects);
+  if (copy == 0) {
+    close(fds[0]);
+    run_copy(fds[1], attempt, effects);
+  }
   here.restore();
   close(fds[1]);
-  if (copy > 0) return conclude(copy, fds[0], limit, give_up);
+  if (copy > 0) return conclude(copy, fds[0], limit, give_up, answer);
   close(fds[0]);
   return cannot_try(reason);
 }

@@ -37,14 +37,15 @@ void Applying::answer(const ReplyPtr& reply, const Result<Outcome>& outcome) {
 }
 
 void Applying::compare(const std::string& file, const ReplyPtr& reply) {
-  begin({file}, false, [reply](const Result<Outcome>& outcome) { answer(reply, outcome); });
+  begin({file}, Way::compares, [reply](const Result<Outcome>& outcome) { answer(reply, outcome); });
 }
 
-void Applying::apply(const std::string& file, const ReplyPtr& reply) {
-  begin({file}, true, [reply, file](const Result<Outcome>& outcome) {
-    answer(reply, outcome);
-    if (outcome) log::info(kLogName, "an operator has applied " + file);
-  });
+void Applying::apply(const std::string& file, bool untried, const ReplyPtr& reply) {
+  begin({file}, untried ? Way::carries_out_untried : Way::carries_out,
+        [reply, file](const Result<Outcome>& outcome) {
+          answer(reply, outcome);
+          if (outcome) log::info(kLogName, "an operator has applied " + file);
+        });
 }
 
 void Applying::connect(const std::vector<std::string>& words, const ReplyPtr& reply) {
@@ -61,12 +62,13 @@ void Applying::move(const std::vector<std::string>& words, const ReplyPtr& reply
 
 void Applying::edit(Result<std::string> text, const ReplyPtr& reply) {
   if (!text) return reply->refuse(text.error());
-  begin({"the changed graph", std::move(text).value()}, true, [reply](const Result<Outcome>& outcome) {
-    answer(reply, outcome);
-    if (!outcome) return;
-    for (const graph::GraphPlan::Line& line : outcome->plan.lines)
-      log::info(kLogName, "an operator has changed the system: " + line.part);
-  });
+  begin({"the changed graph", std::move(text).value()}, Way::carries_out,
+        [reply](const Result<Outcome>& outcome) {
+          answer(reply, outcome);
+          if (!outcome) return;
+          for (const graph::GraphPlan::Line& line : outcome->plan.lines)
+            log::info(kLogName, "an operator has changed the system: " + line.part);
+        });
 }
 
 void Applying::lose(const std::string& process) {
@@ -90,7 +92,7 @@ void Applying::go_on() {
   if (work_) work_->go_on();
   if (work_ && work_->has_ended()) work_.reset();
   if (work_ || !saved_) return;
-  begin({*std::exchange(saved_, {})}, true, [](const Result<Outcome>& outcome) {
+  begin({*std::exchange(saved_, {})}, Way::carries_out, [](const Result<Outcome>& outcome) {
     if (!outcome)
       return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
                                       outcome.error().text());
@@ -112,9 +114,9 @@ Status Applying::can_change() const {
                   ") takes no other graph while it runs; stop it, and start it with that one");
 }
 
-void Applying::begin(GraphSource source, bool carries_out, Told told) {
+void Applying::begin(GraphSource source, Way way, Told told) {
   if (const Status free = can_change(); !free.ok()) return told(free.error());
-  work_ = std::make_shared<Work>(*this, std::move(source), carries_out, std::move(told));
+  work_ = std::make_shared<Work>(*this, std::move(source), way, std::move(told));
 }
 
 // Returns the graph as it would be written for what runs now.

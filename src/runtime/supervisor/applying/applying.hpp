@@ -65,7 +65,8 @@ class Applying {
   /// Answers with what a file would change, and what that takes.
   void compare(const std::string& file, const ReplyPtr& reply);
   /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
-  void apply(const std::string& file, const ReplyPtr& reply);
+  /// @param untried  new code is taken even if it cannot be tried out.
+  void apply(const std::string& file, bool untried, const ReplyPtr& reply);
   /// Returns why the system can take no other graph now, if that is so.
   /// @errors  unavailable while another one is being compared or applied; unimplemented.
   [[nodiscard]] Status can_change() const;
@@ -97,7 +98,8 @@ class Applying {
   static void answer(const ReplyPtr& reply, const Result<Outcome>& outcome);
   using Told = std::function<void(const Result<Outcome>&)>;
 
-  void begin(GraphSource source, bool carries_out, Told told);
+  enum class Way { compares, carries_out, carries_out_untried };
+  void begin(GraphSource source, Way way, Told told);
   void edit(Result<std::string> text, const ReplyPtr& reply);
   void accept(const CheckedSystem& system, std::string text);
   [[nodiscard]] graph::Graph present() const;

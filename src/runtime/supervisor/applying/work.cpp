@@ -18,9 +18,9 @@ Error with(const Error& reason, const std::string& what, const Error& obstacle) 
 
 }  // namespace
 
-Applying::Work::Work(Applying& owner, GraphSource source, bool carries_out, Told told)
+Applying::Work::Work(Applying& owner, GraphSource source, Way way, Told told)
     : owner_(owner),
-      carries_out_(carries_out),
+      way_(way),
       is_edit_(source.text.has_value()),
       told_(std::move(told)),
       announcing_(owner.graph_, owner.all_, owner.levers_.introduce, owner.levers_.introduce_processes),
@@ -36,7 +36,7 @@ void Applying::Work::go_on() {
                          {true, owner_.levers_.executor});
   processes_ = records_of(plan_.renewed, owner_.all_, wanted_.graph);
   lost_.clear();  // nothing was changed before
-  if (!carries_out_) return end(std::nullopt);
+  if (way_ == Way::compares) return end(std::nullopt);
   if (!plan_.is_possible()) return end(fail(Code::failed_precondition, graph::obstacles_of(plan_)));
   if (is_edit_ && !plan_.renewed.empty())
     return end(fail(Code::failed_precondition,
@@ -73,10 +73,11 @@ void Applying::Work::exchange_next() {
   const CodeFacts& present = before_.back().code;
   const std::string& file =
       present.type == next.type ? present.plugin.file : wanted_.facts.plugins[next.type].file;
-  owner_.exchanging_.exchange({next.component, file, next.type, graph::print_values(next.params)},
-                              [work = weak_from_this()](const Result<Record>& outcome) {
-                                if (const auto self = work.lock()) self->exchanged(outcome);
-                              });
+  SwapWish wish{next.component, file, next.type, graph::print_values(next.params)};
+  wish.untried = way_ == Way::carries_out_untried;
+  owner_.exchanging_.exchange(std::move(wish), [work = weak_from_this()](const Result<Record>& outcome) {
+    if (const auto self = work.lock()) self->exchanged(outcome);
+  });
 }
 
 void Applying::Work::exchanged(const Result<Record>& outcome) {

@@ -20,7 +20,7 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread.
 class Applying::Work : public std::enable_shared_from_this<Work> {
  public:
-  Work(Applying& owner, GraphSource source, bool carries_out, Told told);
+  Work(Applying& owner, GraphSource source, Way way, Told told);
   /// Goes on with what has been read.
   void go_on();
   /// Notes that a process has ended, or is about to be started.
@@ -82,7 +82,7 @@ class Applying::Work : public std::enable_shared_from_this<Work> {
   void end(const std::optional<Error>& error);
 
   Applying& owner_;
-  const bool carries_out_;
+  const Way way_;
   const bool is_edit_;  // of the run's graph: what operators have set and exchanged stays as it is
   const Told told_;
   CheckedSystem wanted_;

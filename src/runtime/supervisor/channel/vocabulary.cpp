@@ -44,7 +44,7 @@ void fields(auto& /*archive*/, Adopt& /*m*/) {}
 void fields(auto& /*archive*/, AskUse& /*m*/) {}
 void fields(auto& archive, TellLines& m) { transfer(archive, m.lines); }
 void fields(auto& archive, SwapCode& m) {
-  transfer_all(archive, m.component, m.type, m.values, m.probation, m.origin, m.plugin, m.tried);
+  transfer_all(archive, m.component, m.type, m.values, m.probation, m.origin, m.plugin, m.tried, m.fresh);
 }
 
 void fields(auto& archive, Answer& m) { transfer_all(archive, m.outcome, m.records); }

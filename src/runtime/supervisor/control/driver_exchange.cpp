@@ -23,6 +23,7 @@ Status order_driver_exchange(const SwapWish& wish, const graph::HardwareNode& ha
                 0,
                 file,
                 std::move(*image).take_bytes(),
+                false,
                 false};
   (*member)->ask_for(std::move(swap), std::move(take));
   return ok();

@@ -44,6 +44,13 @@ Status read_option(const std::string& option, const std::string& text, SwapWish&
   return ok();
 }
 
+// Takes an option without a value, if it is one.
+bool take_flag(const std::string& option, SwapWish& wish) {
+  if (option == "--untried") return wish.untried = true;
+  if (option == "--fresh") return wish.fresh = true;
+  return false;
+}
+
 Result<SwapWish> read_wish(const std::vector<std::string>& words) {
   SwapWish wish;
   std::vector<std::string> plain;
@@ -53,6 +60,7 @@ Result<SwapWish> read_wish(const std::vector<std::string>& words) {
       continue;
     }
     const std::string& option = words[i];
+    if (take_flag(option, wish)) continue;
     if (Status read = read_option(option, i + 1 < words.size() ? words[++i] : "", wish); !read.ok())
       return read.error();
   }
@@ -193,14 +201,30 @@ void Exchanging::exchange(SwapWish wish, Told told) {
                           wish.type.empty() ? code_of(**node).type : wish.type,
                           ports_of(wish.component),
                           operating_.params_of(**node),
-                          std::move(wish.params),
+                          wish.params,
                           wish.tryout};
-  if (wish.has_worked) return order_swap(order, std::move(image).value(), wish.probation, true, pending);
+  if (wish.has_worked) return order_swap(order, std::move(image).value(), wish, true, pending);
   std::vector<WatchedPort> ports;
   if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, **member);
+  Tryout::Lines lines{std::move(ports), lines_to_servers_of(wish.component)};
   open_.push_back(
-      {std::make_unique<Tryout>(std::move(order), std::move(image).value(), std::move(ports), wake_),
-       wish.probation, pending});
+      {std::make_unique<Tryout>(std::move(order), std::move(image).value(), std::move(lines), wake_),
+       std::move(wish), pending});
+}
+
+std::vector<ServerLine> Exchanging::lines_to_servers_of(const std::string& component) const {
+  std::vector<ServerLine> lines;
+  for (const graph::Edge& edge : graph_.edges) {
+    if (edge.pattern != Pattern::query || edge.from.component != component) continue;
+    const Result<const graph::ComponentNode*> server = names_.component(edge.to.component);
+    if (!server) continue;
+    const Result<Member*> member = names_.ready_member_of(**server);
+    Result<SocketPair> pair = make_socket_pair();
+    if (!member || !pair) continue;  // then it gets no answers
+    (*member)->tell(OpenLine{edge.to.component, edge.to.port, false, false, std::move(pair->host)});
+    lines.push_back({edge.to, std::move(pair->supervisor)});
+  }
+  return lines;
 }
 
 std::vector<PortContract> Exchanging::ports_of(const std::string& component) const {
@@ -251,13 +275,19 @@ void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
   if (tried.untried.empty()) {
     log::info(component, "the new code was tried out: it got " + counted(tried.given, "object") +
                              " and pushed " + std::to_string(tried.pushed));
-  } else {
+  } else if (open.wish.untried || !host::kTriesCode) {
     log::warning(component, "the new code could not be tried out: " + tried.untried);
+  } else {
+    return open.pending->end(fail(Code::failed_precondition,
+                                  "the new one cannot be tried out, and is not taken: " + tried.untried +
+                                      "; with --untried it is taken all the same, and if it crashes or hangs "
+                                      "then, its process ends and begins anew",
+                                  component));
   }
-  order_swap(order, open.tryout->take_plugin(), open.probation, tried.untried.empty(), open.pending);
+  order_swap(order, open.tryout->take_plugin(), open.wish, tried.untried.empty(), open.pending);
 }
 
-void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, Duration probation,
+void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, const SwapWish& wish,
                             bool was_tried, const PendingPtr& pending) const {
   const Result<const graph::ComponentNode*> node = names_.component(order.component);
   if (!node) return pending->end(node.error());  // it has gone meanwhile
@@ -267,10 +297,11 @@ void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage 
   SwapCode swap{order.component,
                 order.type,
                 {order.new_params.begin(), order.new_params.end()},
-                static_cast<std::uint64_t>(probation.count()),
+                static_cast<std::uint64_t>(wish.probation.count()),
                 file,
                 std::move(plugin).take_bytes(),
-                was_tried};
+                was_tried,
+                wish.fresh};
   (*member)->ask_for(std::move(swap), [pending](const Answer& answer) { pending->end(answer); });
 }
 

@@ -13,7 +13,7 @@
 #include "control/operating.hpp"
 #include "control/reply.hpp"
 #include "control/system_names.hpp"
-#include "control/tryout.hpp"
+#include "control/trial/tryout.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/graph/graph.hpp"
@@ -36,9 +36,11 @@ struct SwapWish {
   std::string file;
   std::string type;                           ///< Empty: the present one.
   std::map<std::string, std::string> params;  ///< New values, as written in a graph.
-  Duration tryout{1s};
+  Duration tryout{2s};
   Duration probation{2s};
   bool has_worked = false;  ///< In this system before, so it is not tried out.
+  bool untried = false;     ///< It is taken even if it cannot be tried out.
+  bool fresh = false;       ///< It begins without the state of the old one, which is not asked for it.
 };
 
 /// Exchanges the code of components and drivers at an operator's word, and knows which code each of them runs.
@@ -54,7 +56,8 @@ class Exchanging {
 
   /// Exchanges a component's code, after it was tried out, or a driver. The answer ends when the old code, or the new one if it was
   /// refused, is gone.
-  /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION].
+  /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION] [--untried]
+  ///               [--fresh].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Takes the end of an exchange, with what an operator is told of it.
   using Told = std::function<void(const Result<Record>&)>;
@@ -96,15 +99,16 @@ class Exchanging {
   // What is tried out.
   struct Open {
     std::unique_ptr<Tryout> tryout;
-    Duration probation;
+    SwapWish wish;
     PendingPtr pending;
   };
 
   void swap_rebuilt(const graph::ComponentNode& node);
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
+  [[nodiscard]] std::vector<ServerLine> lines_to_servers_of(const std::string& component) const;
   void go_on(Open& open);
   void exchange(Open& open, const host::ShadowReport& tried);
-  void order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, Duration probation,
+  void order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, const SwapWish& wish,
                   bool was_tried, const PendingPtr& pending) const;
   void begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware, const PendingPtr& pending);
   [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type,

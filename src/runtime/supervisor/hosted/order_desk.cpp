@@ -251,7 +251,8 @@ void OrderDesk::pass_on(SwapCode& swap, const Told& told) {
                       swap.type,
                       {swap.values.begin(), swap.values.end()},
                       Duration(swap.probation),
-                      swap.tried ? plugin::Trial::done : plugin::Trial::now});
+                      swap.tried ? plugin::Trial::done : plugin::Trial::now,
+                      swap.fresh});
   order.swapped = [this, by = told.by, request = told.request, component = swap.component,
                    file = swap.origin](const Result<host::SwapReport>& outcome) {
     if (outcome)

@@ -144,7 +144,7 @@ TEST_CASE("a trial that is given up says nothing about the code", "[host][shadow
   CHECK_FALSE(tried->untried.empty());
 }
 
-TEST_CASE("an object that asks others and fails without an answer is not refused for it", "[host][shadow]") {
+TEST_CASE("what an object on trial sends counts as accepted, and reaches nobody", "[host][shadow]") {
   Result<plugin::PluginImage> image =
       plugin::PluginImage::copy(ORCA_BINARY_DIR "/tests/host_plugins/test_talker.so");
   REQUIRE(image);
@@ -152,6 +152,17 @@ TEST_CASE("an object that asks others and fails without an answer is not refused
   const ShadowOrder order{telling(), "talker", "test.Talker", {}, {}, {{"period", "10 ms"}}, 1s};
   const Result<ShadowReport> tried = run_in_shadow(order, *image, none, {});
   INFO((tried ? tried->untried : tried.error().text()));
-  CHECK(tried);
+  REQUIRE(tried);
+  CHECK(tried->untried.empty());
+  CHECK(tried->pushed > 50);
+}
+
+TEST_CASE("code that could not give its state to a next version is refused", "[host][shadow]") {
+  const Result<ShadowReport> throws = try_teller("test_teller_save");
+  REQUIRE_FALSE(throws);
+  CHECK_THAT(throws.error().text(), Contains("save_state() threw std::runtime_error: no state today"));
+  const Result<ShadowReport> cannot_load = try_teller("test_teller_odd");
+  REQUIRE_FALSE(cannot_load);
+  CHECK_THAT(cannot_load.error().text(), Contains("value 1 of the state is a whole number"));
 }
 #endif

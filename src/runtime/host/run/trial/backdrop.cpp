@@ -16,23 +16,32 @@ void Backdrop::keep_places(const ComponentInstance& running, const ComponentInst
   }
 }
 
-Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object) {
-  LocalLinks links;
+Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object, TrialServers* servers) {
   for (const graph::Edge& edge : graph.edges) {
     const bool comes_from = edge.from.component == object.name();
     if (!comes_from && edge.to.component != object.name()) continue;
     Endpoint* const own = object.endpoint(comes_from ? edge.from.port : edge.to.port);
     if (own == nullptr) continue;
-    Endpoint* const other = counterpart(comes_from ? edge.to : edge.from, *own);
-    Endpoint& client = (edge.pattern == Pattern::push) == comes_from ? *other : *own;
-    if (&client == own) prepare_choice(edge, client);
-    QueuePolicy policy = policy_of(edge);
-    if (edge.pattern == Pattern::push && policy.overflow == QueuePolicy::Overflow::block)
-      policy.overflow = QueuePolicy::Overflow::drop_newest;  // a peer here has no strand that could wait
-    const Status connected = links.connect(comes_from ? *own : *other, comes_from ? *other : *own, policy);
-    if (!connected.ok()) return connected;
+    const bool is_client = (edge.pattern == Pattern::push) != comes_from;
+    if (is_client) prepare_choice(edge, *own);
+    if (is_client && servers != nullptr && edge.pattern != Pattern::push) {
+      servers->connect(edge, *own);
+    } else if (Status connected = connect(edge, comes_from, *own); !connected.ok()) {
+      return connected;
+    }
+    if (is_client) take_first_choice(edge, *own);
   }
   return ok();
+}
+
+// Connects the object's end of an edge with a port of a peer.
+Status Backdrop::connect(const graph::Edge& edge, bool comes_from, Endpoint& own) {
+  Endpoint& other = *counterpart(comes_from ? edge.to : edge.from, own);
+  QueuePolicy policy = policy_of(edge);
+  if (edge.pattern == Pattern::push && policy.overflow == QueuePolicy::Overflow::block)
+    policy.overflow = QueuePolicy::Overflow::drop_newest;  // a peer here has no strand that could wait
+  LocalLinks links;
+  return links.connect(comes_from ? own : other, comes_from ? other : own, policy);
 }
 
 void Backdrop::push(const graph::PortRef& from, ObjectRef object) {

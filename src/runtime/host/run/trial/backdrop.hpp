@@ -7,6 +7,7 @@
 
 #include "orca/graph/graph.hpp"
 #include "run/component/component_instance.hpp"
+#include "trial_servers.hpp"
 
 namespace orca::host {
 
@@ -24,8 +25,9 @@ class Backdrop {
   static void keep_places(const ComponentInstance& running, const ComponentInstance& object);
 
   /// Connects an object's ports as the graph connects those of the component of that name.
+  /// @param servers  take what it asks and sends, and outlive the object; null: nobody does.
   /// @errors  those of Links::connect().
-  Status connect(const graph::Graph& graph, ComponentInstance& object);
+  Status connect(const graph::Graph& graph, ComponentInstance& object, TrialServers* servers = nullptr);
 
   /// Lets a peer push an object, if it is connected.
   /// @param from  the peer's port.
@@ -41,6 +43,7 @@ class Backdrop {
     PortSet ports;
   };
 
+  Status connect(const graph::Edge& edge, bool comes_from, Endpoint& own);
   Endpoint* counterpart(const graph::PortRef& ref, const Endpoint& of);
 
   Executive& executive_;

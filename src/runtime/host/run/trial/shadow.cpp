@@ -18,6 +18,7 @@
 #include "run/component_making.hpp"
 #include "run/part/outer_offers.hpp"
 #include "run/swap/fit.hpp"
+#include "trial_servers.hpp"
 
 namespace orca::host {
 namespace {
@@ -30,16 +31,9 @@ constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // [bytes] of private memory
 constexpr const char* kLaps = "its laps, in the shadow of the present one,";
 
 // What the copy says at its end: a mark, then a text.
-enum class Mark : char { refused = 'r', unanswered = 'u', well = 'w' };
+enum class Mark : char { refused = 'r', well = 'w' };
 
 std::string marked(Mark mark, const std::string& text) { return static_cast<char>(mark) + text; }
-
-// Returns whether the object can depend on answers, which nobody gives here.
-bool asks(const ComponentInstance& object, const graph::Graph& graph) {
-  return std::ranges::any_of(graph.edges, [&](const graph::Edge& edge) {
-    return edge.from.component == object.name() && edge.pattern != Pattern::push;
-  });
-}
 
 // The new object in the copy of the process.
 class Shadow {
@@ -47,8 +41,9 @@ class Shadow {
   Shadow(const ShadowOrder& order, std::vector<SeenObject>& seen, Executive& executive, TrialLine& line)
       : order_(order), seen_(seen), executive_(executive), line_(line) {}
 
-  Status make(PluginCatalogue& catalogue, const LoadedType& type) {
-    const Result<Contract> contract = plugin::describe_component(*type.entry, type.file(), nullptr);
+  Status make(PluginCatalogue& catalogue, LoadedType type) {
+    type_ = std::move(type);
+    const Result<Contract> contract = plugin::describe_component(*type_.entry, type_.file(), nullptr);
     if (!contract) return contract.error();
     ComponentSettings settings = settings_of(*order_.graph.find_component(order_.component));
     const std::vector<std::string> faults = misfits_in(order_.graph, settings, order_.ports, contract->ports);
@@ -60,14 +55,14 @@ class Shadow {
     settings.on_demand = false;
     settings.autonomous = true;
     object_ = std::make_unique<ComponentInstance>(
-        quiet_.context(), std::move(settings), [type] { return Result<LoadedType>(type); },
+        quiet_.context(), std::move(settings), [this] { return Result<LoadedType>(type_); },
         [&catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); }, nullptr);
     if (Status loaded = object_->load(); !loaded.ok()) return loaded;
-    return backdrop_.connect(order_.graph, *object_);
+    return backdrop_.connect(order_.graph, *object_, &servers_);
   }
 
   // Runs as the executive's main task.
-  void work() {
+  void work(PluginCatalogue& catalogue) {
     const TimePoint first = seen_.empty() ? executive_.now() : std::max(executive_.now(), seen_[0].time);
     wait_until_holds(executive_, *changed_, first, [] { return false; });
     line_.step("its configure()");
@@ -77,7 +72,13 @@ class Shadow {
     object_->open_gate();
     reach(ComponentState::work);
     follow(executive_.now());
-    line_.find(marked(Mark::well, std::to_string(given_) + " " + std::to_string(pushed())));
+    const std::string well = std::to_string(given_) + " " + std::to_string(pushed());
+    obey("its suspend()", object_->order_suspend(), Refusal::is_none);
+    obey("its resume()", object_->order_resume(), Refusal::is_none);
+    obey("its save_state() or load_state()", object_->order_state_check(), Refusal::counts);
+    line_.step("its end");
+    end(catalogue);
+    line_.find(marked(Mark::well, well));
     line_.end();
   }
 
@@ -104,10 +105,34 @@ class Shadow {
   }
 
   void conclude_if_failed() {
-    if (!object_->has_failed()) return;
-    const Mark mark = asks(*object_, order_.graph) ? Mark::unanswered : Mark::refused;
-    line_.find(marked(mark, object_->failure()));
+    if (object_->has_failed()) refuse(object_->failure());
+  }
+
+  void refuse(const std::string& why) {
+    line_.find(marked(Mark::refused, why));
     line_.end();
+  }
+
+  enum class Refusal { is_none, counts };  // an order that does not suit the object's state is no fault of it
+
+  // Lets the object carry out an order, unless it is in a long lap.
+  void obey(const char* step, const std::shared_ptr<Order>& order, Refusal refusal) {
+    line_.step(step);
+    wait_until_holds(executive_, *changed_, saturating_add(executive_.now(), kMostTime),
+                     [&] { return order->done() || object_->has_failed(); });
+    conclude_if_failed();
+    if (refusal == Refusal::counts && order->done() && !order->result().ok())
+      refuse(order->result().error().text());
+  }
+
+  // Stops the object, destroys it and unloads its code.
+  void end(PluginCatalogue& catalogue) {
+    object_->request_exit();
+    if (!object_->join_until(saturating_add(executive_.now(), kMostTime))) refuse("it does not end");
+    conclude_if_failed();
+    object_.reset();
+    if (const Status gone = catalogue.release(std::exchange(type_, {})); !gone.ok())
+      refuse(gone.error().text());
   }
 
   void give(SeenObject& seen) {
@@ -149,6 +174,8 @@ class Shadow {
   QuietRun quiet_{executive_, "shadow", order_.graph.seed.value_or(1), [this] { changed_->notify(); },
                   missions_};
   OuterOffers offers_{executive_, nullptr};
+  TrialServers servers_{[this](const std::string& question) { return line_.ask(question); }};
+  LoadedType type_;
   Backdrop backdrop_{executive_};
   std::unique_ptr<ComponentInstance> object_;
   std::uint64_t given_ = 0;
@@ -172,8 +199,8 @@ void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<See
   };
   line.step("its static initialisation or its constructor");
   auto& catalogue = *new PluginCatalogue(plugin::PluginIndex({}));
-  auto& type = *new Result<LoadedType>(
-      catalogue.acquire(std::move(plugin), PluginKind::component, order.type, plugin::Trial::done));
+  Result<LoadedType> type =
+      catalogue.acquire(std::move(plugin), PluginKind::component, order.type, plugin::Trial::done);
   if (!type) return refuse(type.error());
   const bool needs_machine = type->library != nullptr && !type->library->virtual_time_faults().empty();
   const auto options = needs_machine ? ExecutiveOptions{ClockKind::steady, Backend::thread}
@@ -182,8 +209,9 @@ void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<See
   if (!made) return;
   Executive& executive = *std::move(made).value().release();
   auto& shadow = *new Shadow(order, seen, executive, line);
-  if (const Status ready = shadow.make(catalogue, *type); !ready.ok()) return refuse(ready.error());
-  executive.run([&] { shadow.work(); });
+  if (const Status ready = shadow.make(catalogue, std::move(*type)); !ready.ok())
+    return refuse(ready.error());
+  executive.run([&] { shadow.work(catalogue); });
 }
 
 ShadowReport untried(const std::string& why) { return {why, 0, 0}; }
@@ -192,7 +220,6 @@ Result<ShadowReport> read(const std::string& finding) {
   const std::string text = finding.substr(1);
   const auto mark = static_cast<Mark>(finding[0]);
   if (mark == Mark::refused) return fail(Code::failed_precondition, text);
-  if (mark == Mark::unanswered) return untried("nobody answers it there: " + text);
   return ShadowReport{"", std::stoull(text), std::stoull(text.substr(text.find(' ')))};
 }
 
@@ -210,15 +237,22 @@ Result<ShadowReport> judged(const TrialResult& tried) {
   return untried(how);
 }
 
+// Answers a question from the copy of the process.
+std::string answered(const ShadowOrder& order, const std::string& bytes) {
+  Result<TrialQuestion> question = unpacked_question(bytes);
+  if (!question) return packed_answer(question.error());
+  if (!order.answer) return packed_answer(fail(Code::unavailable, "nobody answers in a trial"));
+  return packed_answer(order.answer(question->server, std::move(question->object)));
+}
+
 }  // namespace
 
 Result<ShadowReport> run_in_shadow(const ShadowOrder& order, plugin::PluginImage& plugin,
                                    std::vector<SeenObject>& seen, const std::function<bool()>& give_up) {
-#if defined(__SANITIZE_THREAD__)
-  return untried("ThreadSanitizer cannot follow a copy of a process");
-#endif
+  if constexpr (!kTriesCode) return untried("ThreadSanitizer cannot follow a copy of a process");
   return judged(plugin::run_trial([&](TrialLine& line) { play(order, plugin, seen, line); },
-                                  order.span + kMostTime, plugin::Effects::none, give_up));
+                                  order.span + kMostTime, plugin::Effects::none, give_up,
+                                  [&](const std::string& question) { return answered(order, question); }));
 }
 
 }  // namespace orca::host

@@ -31,21 +31,31 @@ struct ShadowOrder {
   graph::Params params;                           ///< Parameters of the present object.
   std::map<std::string, std::string> new_params;  ///< New values, as written in a graph.
   Duration span;                                  ///< Time for which objects were watched.
+  /// Answers what the new object asks a server of the system; empty: nobody does, and it gets errors.
+  std::function<Result<ObjectRef>(const graph::PortRef& server, ObjectLoan question)> answer{};
 };
 
 /// What came of a shadow run.
 struct ShadowReport {
-  std::string untried;       ///< Why it came to no end, which says nothing about the code; empty: it did.
+  /// Why the code could not be tried to the end, which says nothing about it; empty: it was.
+  std::string untried;
   std::uint64_t given = 0;   ///< Objects that reached the new object.
   std::uint64_t pushed = 0;  ///< Objects that the new object pushed, to nobody.
 };
 
+/// Whether new code can be tried at all in this build: ThreadSanitizer cannot follow a copy of a process.
+#if defined(__SANITIZE_THREAD__)
+inline constexpr bool kTriesCode = false;
+#else
+inline constexpr bool kTriesCode = true;
+#endif
+
 /// Lets new code of a component work in a copy of this process, where it gets objects that reached the component before, at
 /// their times, and where whatever it says reaches nobody. So a crash, an endless loop or memory without end cost the
-/// running system nothing.
+/// running system nothing. Then it is suspended and resumed, saves its state and loads that again, ends and is unloaded.
 ///
-/// Questions that it asks get no answer there, so an object that asks or sends may fail without being refused.
-/// Plugins that the run's clock does not suit get the machine's. Under ThreadSanitizer nothing is tried.
+/// What it asks is answered by the order, and what it sends counts as accepted. Plugins that the run's clock does not suit get
+/// the machine's.
 ///
 /// @param plugin   holds the new code; the copy of the process uses it up, this process does not.
 /// @param seen     in the order of their times.

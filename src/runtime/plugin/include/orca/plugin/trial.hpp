@@ -21,6 +21,8 @@ class TrialLine {
   virtual void step(const std::string& what) = 0;
   /// Hands over a finding; any bytes.
   virtual void find(const std::string& finding) = 0;
+  /// Asks the process that waits, and blocks until it has answered; any bytes. That does not count as time of the trial.
+  [[nodiscard]] virtual std::string ask(const std::string& question) = 0;
   /// Ends the trial well from wherever it is.
   [[noreturn]] virtual void end() = 0;
 };
@@ -47,15 +49,20 @@ enum class Effects {
   ///< process, starts one, or talks to a network.
 };
 
+/// Answers what the copy asks: see TrialLine::ask().
+using TrialAnswerer = std::function<std::string(const std::string& question)>;
+
 /// Runs `attempt` in a copy of this process, so that a crash, exit() or endless loop affects only the copy. Its
 /// changes to memory are lost, its standard streams lead nowhere. An exception is not a failure of the trial.
 ///
 /// @param limit    [s of the steady clock] for the whole trial.
 /// @param give_up  asked several times a second; true ends the trial, with the ending `silent`. Empty: never.
+/// @param answer   empty: all questions get an empty answer.
 /// @errors  ending `silent` with the reason in `text`.
 /// @thread  any; the copy has only the calling thread.
 [[nodiscard]] TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit,
-                                    Effects effects, const std::function<bool()>& give_up = {});
+                                    Effects effects, const std::function<bool()>& give_up = {},
+                                    const TrialAnswerer& answer = {});
 
 /// Runs `attempt` in a copy of this process, with any effects, and says whether the copy survived it.
 ///

@@ -195,6 +195,7 @@ struct SwapCode {
   std::string origin;           ///< The file that the plugin was copied from.
   Descriptor plugin;            ///< Its bytes: see orca/plugin/image.hpp.
   bool tried = false;           ///< Whether the plugin has been tried out.
+  bool fresh = false;           ///< The new object begins without the state of the old one.
 };
 /// An edge that is made or removed while its components run, at one process.
 struct EdgeChange {

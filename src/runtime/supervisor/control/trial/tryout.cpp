@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "control/tryout.hpp"
+#include "control/trial/tryout.hpp"
 
 #include <poll.h>
 #include <pthread.h>
@@ -62,12 +62,11 @@ class Listener {
 
 }  // namespace
 
-Tryout::Tryout(host::ShadowOrder order, plugin::PluginImage plugin, std::vector<WatchedPort> ports,
-               std::function<void()> done)
+Tryout::Tryout(host::ShadowOrder order, plugin::PluginImage plugin, Lines lines, std::function<void()> done)
     : order_(std::move(order)), plugin_(std::move(plugin)), tell_(std::move(done)) {
-  thread_ = std::thread([this, ports = std::move(ports)]() mutable {
+  thread_ = std::thread([this, lines = std::move(lines)]() mutable {
     pthread_setname_np(pthread_self(), "tryout");
-    work(std::move(ports));
+    work(std::move(lines));
   });
 }
 
@@ -76,10 +75,19 @@ Tryout::~Tryout() {
   thread_.join();
 }
 
-void Tryout::work(std::vector<WatchedPort> ports) {
-  std::vector<SeenObject> seen = watch(std::move(ports));
+void Tryout::work(Lines lines) {
+  std::vector<SeenObject> seen = watch(std::move(lines.ports));
   std::ranges::stable_sort(seen, {}, &SeenObject::time);
-  outcome_.emplace(host::run_in_shadow(order_, plugin_, seen, [this] { return given_up_.load(); }));
+  const auto give_up = [this] { return given_up_.load(); };
+  Questioner questioner(std::move(lines.servers), give_up);
+  order_.answer = [&](const graph::PortRef& server, ObjectLoan question) {
+    return questioner.ask(server, std::move(question));
+  };
+  outcome_.emplace(host::run_in_shadow(order_, plugin_, seen, give_up));
+  order_.answer = {};
+  // A failure without an answer says nothing about the code.
+  if (!*outcome_ && outcome_->error().code == Code::failed_precondition && !questioner.silence().empty())
+    outcome_.emplace(host::ShadowReport{questioner.silence() + "; then " + outcome_->error().text(), 0, 0});
   done_.store(true, std::memory_order_release);
   tell_();
 }

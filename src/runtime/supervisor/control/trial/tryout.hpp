@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "control/trial/questioner.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -25,15 +26,19 @@ struct WatchedPort {
 
 /// The trial of new code for a component before it is exchanged: for a while it watches what reaches the component, then it
 /// lets the new code work on that in a copy of the supervisor's process (host::run_in_shadow()). The component's own process
-/// only hands out what it would show to an operator as well.
+/// only hands out what it would show to an operator as well, and the servers that the new code asks answer as they would answer an
+/// operator.
 ///
 /// Thread contract: made, asked and destroyed by one thread. The trial has a thread of its own.
 class Tryout {
  public:
-  /// @param order   its graph outlives the object.
-  /// @param done    called once on the trial's thread when the outcome is there.
-  Tryout(host::ShadowOrder order, plugin::PluginImage plugin, std::vector<WatchedPort> ports,
-         std::function<void()> done);
+  /// What leads to the system's processes.
+  struct Lines {
+    std::vector<WatchedPort> ports;   ///< Of the component: all that it is to be tried with.
+    std::vector<ServerLine> servers;  ///< Of the component: those that can be asked.
+  };
+  /// @param done  called once on the trial's thread when the outcome is there.
+  Tryout(host::ShadowOrder order, plugin::PluginImage plugin, Lines lines, std::function<void()> done);
   /// Gives the trial up.
   ~Tryout();
   Tryout(const Tryout&) = delete;
@@ -47,10 +52,10 @@ class Tryout {
   [[nodiscard]] plugin::PluginImage take_plugin() { return std::move(plugin_); }
 
  private:
-  void work(std::vector<WatchedPort> ports);
+  void work(Lines lines);
   [[nodiscard]] std::vector<host::SeenObject> watch(std::vector<WatchedPort> ports) const;
 
-  const host::ShadowOrder order_;
+  host::ShadowOrder order_;
   plugin::PluginImage plugin_;
   const std::function<void()> tell_;
   std::optional<Result<host::ShadowReport>> outcome_;
