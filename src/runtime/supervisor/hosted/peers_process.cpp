@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "orca/base/own_library.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/supervisor/bulletin.hpp"
 #include "orca/supervisor/own_process.hpp"
 

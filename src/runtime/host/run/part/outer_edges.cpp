@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/network_address.hpp"
-#include "orca/base/own_library.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "run/component_making.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/base/own_library.hpp"
+#include "orca/base/files/own_library.hpp"
 
 #include <dlfcn.h>
 
