@@ -21,9 +21,20 @@ elseif(ORCA_SANITIZE MATCHES "address")
   set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0")
 endif()
 
-# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs four entries per processor (ORCA_SLOTS
-# in dev), and an entry that computes takes the slots of one processor, so that those that wait meanwhile are not delayed.
-set(ORCA_COMPUTES 4)
+# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs four entries per processor.
+cmake_host_system_information(RESULT ORCA_PROCESSORS QUERY NUMBER_OF_LOGICAL_CORES)
+
+# orca_computes(TEST) says that a ctest entry keeps a processor busy for most of its time: no more of them run at once than there
+# are processors. Not by PROCESSORS: an entry that needs several slots starts when all others have ended, because each slot that
+# becomes free is taken at once.
+function(orca_computes test)
+  get_property(count GLOBAL PROPERTY ORCA_COMPUTING_TESTS)
+  math(EXPR next "${count} + 1")
+  set_property(GLOBAL PROPERTY ORCA_COMPUTING_TESTS ${next})
+  math(EXPR processor "${next} % ${ORCA_PROCESSORS}")
+  set_tests_properties(${test} PROPERTIES RESOURCE_LOCK processor_${processor})
+endfunction()
+
 # All slots of any machine: ctest lets an entry that needs more than there are run alone.
 set(ORCA_ALONE 1024)
 
@@ -66,7 +77,7 @@ function(orca_add_test name)
     set_tests_properties(${name} PROPERTIES COST ${arg_COST})
   endif()
   if(arg_COMPUTES)
-    set_tests_properties(${name} PROPERTIES PROCESSORS ${ORCA_COMPUTES})
+    orca_computes(${name})
   endif()
 endfunction()
 
@@ -83,7 +94,7 @@ function(orca_add_optional_cases test tag)
     set(arg_LABELS unit)
   endif()
   string(REGEX REPLACE "_test$" "_${tag}_test" name ${test})
-  add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]")
+  add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]~[quiet]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: "
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()
@@ -103,5 +114,5 @@ function(orca_add_quiet_cases test)
   string(REGEX REPLACE "_test$" "_quiet_test" name ${test})
   add_test(NAME ${name} COMMAND ${test} --use-colour no "[quiet]~[.]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} RESOURCE_LOCK quiet
-                       PROCESSORS ${ORCA_ALONE} ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
+                       PROCESSORS ${ORCA_ALONE} SKIP_REGULAR_EXPRESSION "SKIPPED: " ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()

@@ -61,14 +61,19 @@ TEST_CASE("with too few descriptors the run is refused with exit status 3 and a 
 TEST_CASE("with too few threads the run is refused with exit status 3 and a sentence",
           "[system][exhaustion]") {
   if (kSanitized) return;
-  // The limit counts all processes of a user and does not hold for root.
-  const Words shell = geteuid() == 0
-                          ? Words{"/usr/bin/setpriv", "--reuid", "61234", "--clear-groups", "/bin/bash", "-c"}
-                          : Words{"/bin/bash", "-c"};
+  // The limit counts all processes of a user and does not hold for root. Another user has a runtime folder of their own.
+  constexpr uid_t kUser = 61234;
+  const TempFolder folder;
+  if (geteuid() == 0) REQUIRE(chown(folder.path().c_str(), kUser, kUser) == 0);
+  const Words shell = geteuid() == 0 ? Words{"/usr/bin/setpriv", "--reuid",   std::to_string(kUser),
+                                             "--clear-groups",   "/bin/bash", "-c"}
+                                     : Words{"/bin/bash", "-c"};
   int refused = 0;
   for (int threads = 1; threads <= 8; ++threads) {
     CAPTURE(threads);
-    const Run run = run_with("ulimit -u " + std::to_string(threads), short_run("thread"), shell);
+    const Run run = run_with(
+        "export XDG_RUNTIME_DIR=" + folder.path().string() + "; ulimit -u " + std::to_string(threads),
+        short_run("thread"), shell);
     if (run.exit_code() == 126 || run.exit_code() == 127) {
       WARN("this user cannot run the program");
       return;

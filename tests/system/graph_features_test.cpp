@@ -42,9 +42,9 @@ void check_arrives(const Run& run) {
 
 // Replacements that make the fuser's behaviours candidates instead of connections.
 const Replacements kLateBound{
-    {"<component name=\"fuser\" type=\"orca.MotionCommandFuser\"/>",
+    {"<component name=\"fuser\" type=\"orca.MotionCommandFuser\">",
      "<component name=\"fuser\" type=\"orca.MotionCommandFuser\"><port name=\"motion\" "
-     "candidates=\"goto avoid\"/></component>"},
+     "candidates=\"goto avoid\"/>"},
     {"<connect from=\"goto.MotionCmdPush\" to=\"fuser.motion\"/>", ""},
     {"<connect from=\"avoid.motion\" to=\"fuser.motion\"/>", ""}};
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <random>
+#include <regex>
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
@@ -141,9 +142,11 @@ void wear_out(const Growing& system, const std::string& process) {
   }
 }
 
-// What a program can see of the running system.
+// What a program can see of the running system, without what changes by itself.
 std::string all_that_is_seen() {
-  return run_orcactl({"graph", "--json"}).out + run_orcactl({"ps", "--json"}).out;
+  const std::regex figures(R"re("(memory_mb|log_per_s)": [^,}\n]*)re");
+  return run_orcactl({"graph", "--json"}).out +
+         std::regex_replace(run_orcactl({"ps", "--json"}).out, figures, "\"$1\"");
 }
 
 bool has_in_memory(pid_t process, const std::string& plugin) {

@@ -133,7 +133,7 @@ TEST_CASE("a machine whose deployer is started again is taken in", "[system][mac
 }
 
 TEST_CASE("only the process that speaks with other machines has the network, and it may die",
-          "[system][machines][tool]") {
+          "[system][machines][tool][quiet]") {
   if (is_skipped()) return;
   Pair pair;
   pair.start_both();

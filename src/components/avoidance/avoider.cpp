@@ -25,6 +25,9 @@ bool stands(const Twist2& twist) {
   return std::abs(twist.forward) < kSlow && std::abs(twist.turn_rate) < kSlowTurn;
 }
 
+// A robot that turns on the spot does not get on either.
+bool stays(const Twist2& twist) { return std::hypot(twist.forward, twist.left) < 0.005; }
+
 }  // namespace
 
 Avoider::Avoider(ComponentHost& host, const Manner& manner)
@@ -196,7 +199,7 @@ Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved
 
 void Avoider::advise() {
   const bool hears = heard_at_ && to_seconds(now() - *heard_at_) <= deaf_after() && hears_aside(deaf_after());
-  standing_.look(stands(twist_), [&] { return hears && !question_ ? what_holds() : why_deaf(); });
+  standing_.look(stays(twist_), [&] { return hears && !question_ ? what_holds() : why_deaf(); });
   if (question_ || !hears) {
     motion_.push(full_stop());
     return;

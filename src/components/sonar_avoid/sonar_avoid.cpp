@@ -54,8 +54,11 @@ class SonarAvoid final : public orca::avoid::Avoider {
     return !last || is_valid(readings, last_firing(age_of(*last)));
   }
 
+  // A driver that is not told which sonar has fired takes a range that stays the same for a round old.
   [[nodiscard]] orca::Status last_firing(double age) const {
-    if (age <= deaf_after()) return orca::check_age(age, deaf_after());
+    constexpr double kRound = 0.5;  // [s] in which the slowest known ring fires once
+    const double limit = deaf_after() + kRound;
+    if (age <= limit) return orca::check_age(age, limit);
     return orca::fail(orca::Code::invalid_argument,
                       "no sonar has fired for " + std::to_string(age) + " s; are the sonars off?");
   }

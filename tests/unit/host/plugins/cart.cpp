@@ -107,6 +107,8 @@ class Cart final : public orca::hw::HardwareContainer {
     odometry->steer_angle(std::remainder(yaw_, 2.0 * M_PI));
     odometry->translational_velocity(velocity_.forward);
     odometry->steering_velocity(velocity_.turn_rate);
+    odometry->covariance(
+        {1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 1e-4});  // a hundredth of a metre and of a radian
     odometry->stamp(orca::to_time_value(host().now()));
     odometry_.publish(std::move(odometry));
   }

@@ -73,9 +73,12 @@ class Shadow {
     reach(ComponentState::work);
     follow(executive_.now());
     const std::string well = std::to_string(given_) + " " + std::to_string(pushed());
-    obey("its suspend()", object_->order_suspend(), Refusal::is_none);
-    obey("its resume()", object_->order_resume(), Refusal::is_none);
-    obey("its save_state() or load_state()", object_->order_state_check(), Refusal::counts);
+    obey(
+        "its suspend()", [&] { return object_->order_suspend(); }, Refusal::is_none);
+    obey(
+        "its resume()", [&] { return object_->order_resume(); }, Refusal::is_none);
+    obey(
+        "its save_state() or load_state()", [&] { return object_->order_state_check(); }, Refusal::counts);
     line_.step("its end");
     end(catalogue);
     line_.find(marked(Mark::well, well));
@@ -115,9 +118,11 @@ class Shadow {
 
   enum class Refusal { is_none, counts };  // an order that does not suit the object's state is no fault of it
 
-  // Lets the object carry out an order, unless it is in a long lap.
-  void obey(const char* step, const std::shared_ptr<Order>& order, Refusal refusal) {
+  // Lets the object carry out an order, unless it is in a long lap. The step is named first: the object may crash at once.
+  template <class Give>
+  void obey(const char* step, Give give_order, Refusal refusal) {
     line_.step(step);
+    const std::shared_ptr<Order> order = give_order();
     wait_until_holds(executive_, *changed_, saturating_add(executive_.now(), kMostTime),
                      [&] { return order->done() || object_->has_failed(); });
     conclude_if_failed();
