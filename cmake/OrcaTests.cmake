@@ -21,7 +21,7 @@ elseif(ORCA_SANITIZE MATCHES "address")
   set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0")
 endif()
 
-# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs four entries per processor.
+# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs three entries per processor.
 cmake_host_system_information(RESULT ORCA_PROCESSORS QUERY NUMBER_OF_LOGICAL_CORES)
 
 # orca_computes(TEST) says that a ctest entry keeps a processor busy for most of its time: no more of them run at once than there

@@ -44,7 +44,7 @@ TEST_CASE("an RPLIDAR's turns arrive as scans with the ranges that it saw, and i
 }
 
 TEST_CASE("a scan has the time at which its turn began, and tells how long the turn took",
-          "[system][hardware]") {
+          "[system][hardware][quiet]") {
   const auto mode = GENERATE(as<std::string>{}, "standard", "express");
   const TempFolder folder;
   const std::string device = folder.file("lidar");

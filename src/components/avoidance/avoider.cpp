@@ -26,7 +26,7 @@ bool stands(const Twist2& twist) {
 }
 
 // A robot that turns on the spot does not get on either.
-bool stays(const Twist2& twist) { return std::hypot(twist.forward, twist.left) < 0.005; }
+bool stays(const Twist2& twist) { return std::abs(twist.forward) < 0.005 && std::abs(twist.left) < 0.005; }
 
 }  // namespace
 
