@@ -81,11 +81,9 @@ function(orca_add_test name)
   endif()
 endfunction()
 
-# orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds])
-#
-# Adds a ctest entry, NAME_TAG_test for NAME_test, that runs the cases of TEST with the tag [data] (public data, which is not
-# in the repository) or [tool] (a program that may not be installed). It is shown as skipped if a case prints "SKIPPED: ".
-function(orca_add_optional_cases test tag)
+# Adds a ctest entry, NAME_TAG_test for NAME_test, that runs the cases of a test whose tags match `cases`. Further arguments:
+# [LABELS ...] [TIMEOUT seconds]. It is shown as skipped if a case prints "SKIPPED: ".
+function(orca_add_tagged_cases test tag cases)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
@@ -94,25 +92,21 @@ function(orca_add_optional_cases test tag)
     set(arg_LABELS unit)
   endif()
   string(REGEX REPLACE "_test$" "_${tag}_test" name ${test})
-  add_test(NAME ${name} COMMAND ${test} --use-colour no "[${tag}]~[.]~[quiet]")
+  add_test(NAME ${name} COMMAND ${test} --use-colour no "${cases}")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: "
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
 endfunction()
 
-# orca_add_quiet_cases(TEST [LABELS ...] [TIMEOUT seconds])
-#
-# Adds a ctest entry, NAME_quiet_test for NAME_test, that runs the cases of TEST with the tag [quiet] while no other entry runs:
-# they measure a time that the work of others would change.
+# orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds]) adds an entry for the cases of TEST with the tag [data] (public
+# data, which is not in the repository) or [tool] (a program that may not be installed).
+function(orca_add_optional_cases test tag)
+  orca_add_tagged_cases(${test} ${tag} "[${tag}]~[.]~[quiet]" ${ARGN})
+endfunction()
+
+# orca_add_quiet_cases(TEST [LABELS ...] [TIMEOUT seconds]) adds an entry for the cases of TEST with the tag [quiet], which runs while
+# no other entry does: they measure a time that the work of others would change.
 function(orca_add_quiet_cases test)
-  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
-  if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
-  endif()
-  if(NOT arg_LABELS)
-    set(arg_LABELS unit)
-  endif()
+  orca_add_tagged_cases(${test} quiet "[quiet]~[.]" ${ARGN})
   string(REGEX REPLACE "_test$" "_quiet_test" name ${test})
-  add_test(NAME ${name} COMMAND ${test} --use-colour no "[quiet]~[.]")
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} RESOURCE_LOCK quiet
-                       PROCESSORS ${ORCA_ALONE} SKIP_REGULAR_EXPRESSION "SKIPPED: " ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
+  set_tests_properties(${name} PROPERTIES RESOURCE_LOCK quiet PROCESSORS ${ORCA_ALONE})
 endfunction()
