@@ -64,7 +64,8 @@ void load_and_describe(const std::string& path, const std::function<void(const s
     }
   }
   step("its static destruction");
-  dlclose(handle);
+  const LoadedPlugin extent(path, &manifest);
+  if (!threads_may_run_in(extent.start(), extent.end())) dlclose(handle);  // as unload() does
 }
 
 // The facts about a file that has passed its checks and its trial.
