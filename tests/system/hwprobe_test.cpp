@@ -110,7 +110,8 @@ TEST_CASE("hwprobe finds the devices of the graph that has nothing else", "[syst
 
 TEST_CASE("what is shown of an object has no more digits than people read, and of a scan its extremes",
           "[system][hardware]") {
-  std::string scan = R"(<LaserRangeReadings creation_time="0" origin="" seq="7" mission="0" ranges=")";
+  std::string scan =
+      R"(<LaserRangeReadings creation_time="0" origin="" origin_port="" seq="7" mission="0" ranges=")";
   for (int i = 0; i < 70; ++i) scan += i == 11 ? "-9.43000000001 " : i == 20 ? "inf " : "-8 ";
   scan += R"(" angle_start="-1.5707963"><pose/><part/><part/></LaserRangeReadings>)";
   CHECK(orca::hwprobe::summary(scan) ==

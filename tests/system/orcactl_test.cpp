@@ -367,6 +367,7 @@ TEST_CASE("an operator sends objects and asks questions", "[system][orcactl]") {
   INFO(query.err);
   CHECK(query.exit_code() == 0);
   CHECK_THAT(query.out, Contains("<Robot ") && Contains("Dewey"));
+  CHECK_THAT(query.out, Contains("mission=\"0\"") && Contains("<cause origin=\"orcactl\" port=\"\" seq="));
   const Run command = run_orcactl({"send", "base.MotionCommandSend", "<MotionCommand speed=\"0.1 m/s\"/>"});
   INFO(command.err);
   CHECK(command.exit_code() == 0);

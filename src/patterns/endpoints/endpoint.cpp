@@ -43,6 +43,7 @@ void Endpoint::stamp(ObjectLoan& loan, const Provenance* provenance) {
     __builtin_prefetch(reinterpret_cast<const char*>(&header) + line, 1);
   header.creation_time().ns(home_.strand.executive().now().time_since_epoch().count());
   header.origin() = home_.component;
+  header.origin_port() = contract_.name;
   header.seq(next_seq_++);
   home_.strand.note_activity();
   home_.strand.note_activity();

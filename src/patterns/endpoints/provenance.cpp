@@ -28,6 +28,7 @@ void Provenance::begin_mission(std::uint64_t mission) {
 void Provenance::note(const idl::OrcaObject& received) {
   if (const std::uint64_t mission = received.mission(); mission != 0 && !settled_) mission_ = mission;
   if (const std::string& origin = received.origin(); origin_ != origin) origin_ = origin;
+  if (const std::string& port = received.origin_port(); port_ != port) port_ = port;
   seq_ = received.seq();
 }
 
@@ -36,6 +37,7 @@ void Provenance::stamp(idl::OrcaObject& sent) const {
   if (seq_ == 0) return;  // nothing was received yet
   idl::Cause& cause = sent.cause();
   cause.origin() = origin_;
+  cause.port() = port_;
   cause.seq(seq_);
 }
 

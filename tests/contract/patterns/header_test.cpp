@@ -29,6 +29,21 @@ struct CommandSender : Peer {
   SendProxy<MotionCommand> out{*this, "out"};
 };
 
+// Pushes motion commands through two ports.
+struct TwoSources : Peer {
+  explicit TwoSources(Executive& executive) : Peer(executive, "source") {}
+  PushServer<MotionCommand> left{*this, "left"};
+  PushServer<MotionCommand> right{*this, "right"};
+};
+
+// Receives from both.
+struct TwoListeners : Peer {
+  explicit TwoListeners(Executive& executive) : Peer(executive, "relay") {}
+  PushProxy<MotionCommand> left{*this, "left"};
+  PushProxy<MotionCommand> right{*this, "right"};
+  PushServer<MotionCommand> out{*this, "out"};
+};
+
 // Subscribes the relay, and waits until the server knows: over bytes that takes a while.
 template <class Kit>
 void subscribe_relay(Kit& kit, Relay& relay, const Source& source) {
@@ -36,8 +51,8 @@ void subscribe_relay(Kit& kit, Relay& relay, const Source& source) {
   CHECK(eventually(kit.executive, [&] { return source.out.subscriber_count() == 1; }));
 }
 
-template <class Kit>
-void listen_to_relay(Kit& kit, Relay& relay, Listener& listener) {
+template <class Kit, class AnyRelay>
+void listen_to_relay(Kit& kit, AnyRelay& relay, Listener& listener) {
   kit.connect(relay.endpoint("out"), listener.endpoint("in"));
   listener.in.subscribe();
   CHECK(eventually(kit.executive, [&] { return relay.out.subscriber_count() == 1; }));
@@ -59,6 +74,7 @@ TEMPLATE_LIST_TEST_CASE("an object carries the name of its sender, its number an
       const auto got = listener.in.get_update_wait_max(5s);
       REQUIRE(got);
       CHECK(got->origin() == "Platforms/Dewey/base");
+      CHECK(got->origin_port() == "out");
       CHECK(got->seq() == seq);
       CHECK(got->creation_time().ns() >= before.time_since_epoch().count());
       CHECK(got->creation_time().ns() <= after.time_since_epoch().count());
@@ -87,6 +103,7 @@ TEMPLATE_LIST_TEST_CASE(
       REQUIRE(answer);
       CHECK(answer->mission() == mission);
       CHECK(answer->cause().origin() == "source");
+      CHECK(answer->cause().port() == "out");
       CHECK(answer->cause().seq() == (mission == 42U ? 2U : 1U));
       CHECK(answer->origin() == "relay");
     }
@@ -110,7 +127,32 @@ TEMPLATE_LIST_TEST_CASE("an object that a handler sends names the handled object
     CHECK(number_of(answer) == 101);
     CHECK(answer->mission() == 7);
     CHECK(answer->cause().origin() == "sender");
+    CHECK(answer->cause().port() == "out");
     CHECK(answer->cause().seq() == 1);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("causes of one number from two ports of a component are told apart by their ports",
+                        "[contract][header]", LinkKits) {
+  on_each_executive<TestType>([](TestType& kit) {
+    TwoSources source(kit.executive);
+    TwoListeners relay(kit.executive);
+    Listener listener(kit.executive);
+    listen_to_relay(kit, relay, listener);
+    const auto cause_of_answer_to = [&](PushServer<MotionCommand>& from, PushProxy<MotionCommand>& to) {
+      kit.connect(source.endpoint(to.name()), relay.endpoint(to.name()));
+      to.subscribe();
+      CHECK(eventually(kit.executive, [&] { return from.subscriber_count() == 1; }));
+      from.push(numbered(1));
+      REQUIRE(to.get_update_wait_max(5s));
+      relay.out.push(numbered(2));
+      const auto answer = listener.in.get_update_wait_max(5s);
+      REQUIRE(answer);
+      CHECK(answer->cause().seq() == 1);
+      return answer->cause().port();
+    };
+    CHECK(cause_of_answer_to(source.left, relay.left) == "left");
+    CHECK(cause_of_answer_to(source.right, relay.right) == "right");
   });
 }
 

@@ -89,7 +89,8 @@ TEST_CASE("the error names the field and what is wrong with it", "[idl][cdr]") {
 
 TEST_CASE("an enumerator or boolean that does not exist is refused", "[idl][cdr]") {
   Bytes bytes = serialized(orca::idl::MotionCommand());
-  bytes[48] = std::byte{3};  // After the header: creation_time 8, origin 8, seq 8, mission 8, cause 16.
+  // After the header: creation_time 8, origin 8, origin_port 8, seq 8, mission 8, cause 8 + 8 + 8.
+  bytes[64] = std::byte{3};
   orca::idl::MotionCommand command;
   CHECK(read(bytes, command).error().text() ==
         "MotionCommand.kind: found 3 for a MotionKind, expected 0 to 2");

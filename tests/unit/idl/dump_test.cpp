@@ -48,9 +48,11 @@ TEST_CASE("dump shows each field on a line with its unit, enums by name and time
   orca::idl::MotionCommand command;
   command.creation_time().ns(12'050'000'000);
   command.origin("goto");
+  command.origin_port("motion");
   command.seq(17);
   command.mission(3);
   command.cause().origin("sonar");
+  command.cause().port("ring");
   command.cause().seq(5);
   command.kind(orca::idl::FULLSTOP);
   command.steering(orca::idl::BY_TURN_RATE);
@@ -61,9 +63,10 @@ TEST_CASE("dump shows each field on a line with its unit, enums by name and time
         "MotionCommand\n"
         "  creation_time: 12.050000000 s\n"
         "  origin: \"goto\"\n"
+        "  origin_port: \"motion\"\n"
         "  seq: 17\n"
         "  mission: 3\n"
-        "  cause: {origin: \"sonar\", seq: 5}\n"
+        "  cause: {origin: \"sonar\", port: \"ring\", seq: 5}\n"
         "  kind: FULLSTOP\n"
         "  steering: BY_TURN_RATE\n"
         "  direction: 0 rad\n"

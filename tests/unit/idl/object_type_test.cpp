@@ -32,11 +32,11 @@ TEMPLATE_LIST_TEST_CASE(
   const ObjectType& type = object_type<TestType>();
   CHECK(&type == &object_type<orca::Travelling<TestType>>());
   CHECK(type.name == orca::Reflection<TestType>::name);
-  CHECK_THAT(
-      std::string(type.layout),
-      Catch::StartsWith(std::string(type.name)) &&
-          Catch::Contains("{creation_time:TimeValue{ns:int64 {ns}},origin:string,seq:uint64,mission:uint64,"
-                          "cause:Cause{origin:string,seq:uint64},"));
+  CHECK_THAT(std::string(type.layout),
+             Catch::StartsWith(std::string(type.name)) &&
+                 Catch::Contains("{creation_time:TimeValue{ns:int64 "
+                                 "{ns}},origin:string,origin_port:string,seq:uint64,mission:uint64,"
+                                 "cause:Cause{origin:string,port:string,seq:uint64},"));
 }
 
 TEST_CASE("a struct that travels and is a part of others has no header there", "[idl][type][travelling]") {
@@ -112,8 +112,9 @@ TEMPLATE_LIST_TEST_CASE("an object begins with the part that it inherits", "[idl
 // that is meant, write the new layout here.
 TEST_CASE("the layout of a MotionCommand is the one that other programs know", "[idl][type]") {
   CHECK(object_type<orca::idl::MotionCommand>().layout ==
-        "MotionCommand{creation_time:TimeValue{ns:int64 {ns}},origin:string,seq:uint64,mission:uint64,"
-        "cause:Cause{origin:string,seq:uint64},kind:MotionKind(NORMAL,DONTCARE,FULLSTOP),"
+        "MotionCommand{creation_time:TimeValue{ns:int64 "
+        "{ns}},origin:string,origin_port:string,seq:uint64,mission:uint64,"
+        "cause:Cause{origin:string,port:string,seq:uint64},kind:MotionKind(NORMAL,DONTCARE,FULLSTOP),"
         "steering:MotionSteering(BY_DIRECTION,BY_TURN_RATE),direction:double {rad},turn_rate:double {rad/s},"
         "speed:double {m/s},weight:double {1}}");
 }

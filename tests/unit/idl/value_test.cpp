@@ -44,7 +44,8 @@ class Fields final : public orca::FieldVisitor {
 TEST_CASE("an object shows its fields with their units, inherited ones first, and marks the header",
           "[idl][value]") {
   orca::idl::Arrived arrived;
-  CHECK(Fields(arrived).order == "creation_time* origin* seq* mission* cause* name x[m] y[m] stamp ");
+  CHECK(Fields(arrived).order ==
+        "creation_time* origin* origin_port* seq* mission* cause* name x[m] y[m] stamp ");
 }
 
 TEST_CASE("a value is a place in the object, to read and to write", "[idl][value]") {

@@ -55,11 +55,13 @@ TEST_CASE("where a type is expected, one that extends it is read as what it is",
 
 TEST_CASE("an unknown field is reported with the valid ones and the nearest", "[text][errors]") {
   CHECK(errors("<Ask abuot='x'/>") ==
-        "x:1:6: error T002: <Ask>: there is no \"abuot\"; there are: creation_time, origin, seq, mission, "
+        "x:1:6: error T002: <Ask>: there is no \"abuot\"; there are: creation_time, origin, origin_port, "
+        "seq, mission, "
         "about, "
         "cause; did you mean \"about\"?\n");
   CHECK(errors("<Ask><abuot/></Ask>") ==
-        "x:1:6: error T002: <Ask>: there is no \"abuot\"; there are: creation_time, origin, seq, mission, "
+        "x:1:6: error T002: <Ask>: there is no \"abuot\"; there are: creation_time, origin, origin_port, "
+        "seq, mission, "
         "about, "
         "cause; did you mean \"about\"?\n");
 }

@@ -20,7 +20,8 @@ using Catch::StartsWith;
 
 namespace {
 
-constexpr const char* kHeader = "stamp,port,creation_time,origin,seq,mission,cause.origin,cause.seq";
+constexpr const char* kHeader =
+    "stamp,port,creation_time,origin,origin_port,seq,mission,cause.origin,cause.port,cause.seq";
 
 template <class T>
 ObjectRef sealed(T value, std::int64_t creation_ns = 1'500'000'000) {

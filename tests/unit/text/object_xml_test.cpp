@@ -27,6 +27,7 @@ TEST_CASE("an object is written on one line, plain values as attributes", "[text
   idl::MotionCommand command;
   command.creation_time().ns(12'050'000'000);
   command.origin("goto");
+  command.origin_port("motion");
   command.seq(17);
   command.mission(3);
   command.kind(idl::FULLSTOP);
@@ -34,18 +35,20 @@ TEST_CASE("an object is written on one line, plain values as attributes", "[text
   command.turn_rate(-0.25);
   command.speed(1e-7);
   command.weight(2.0);
-  CHECK(written(command) ==
-        R"x(<MotionCommand creation_time="12.05" origin="goto" seq="17" mission="3" kind="FULLSTOP" )x"
-        R"x(steering="BY_TURN_RATE" direction="0" turn_rate="-0.25" speed="1e-07" weight="2"/>)x");
+  CHECK(
+      written(command) ==
+      R"x(<MotionCommand creation_time="12.05" origin="goto" origin_port="motion" seq="17" mission="3" )x"
+      R"x(kind="FULLSTOP" steering="BY_TURN_RATE" direction="0" turn_rate="-0.25" speed="1e-07" weight="2"/>)x");
 }
 
 TEST_CASE("structs are written as elements; one without content is left out", "[text][xml]") {
   idl::GoalPoint goal;
   goal.cause().origin("command");
+  goal.cause().port("goto");
   goal.cause().seq(4);
   goal.coordinate().uncertainty().y(0.1);
   const std::string text = written(goal);
-  CHECK_THAT(text, Catch::Contains(R"x(<cause origin="command" seq="4"/>)x"));
+  CHECK_THAT(text, Catch::Contains(R"x(<cause origin="command" port="goto" seq="4"/>)x"));
   CHECK_THAT(text, Catch::Contains(
                        R"x(<coordinate x="0" y="0" z="0"><uncertainty x="0" y="0.1" z="0"/></coordinate>)x"));
   CHECK_THAT(written(idl::GoalPoint()), !Catch::Contains("<cause") && !Catch::Contains("<coordinate"));
@@ -67,9 +70,10 @@ TEST_CASE("a struct that travels is written as it is within others, with the hea
   place.cause().seq(2);
   place.point().x(3.6);
   place.uncertainty().y(0.1);
-  CHECK(written(place) ==
-        R"x(<WorldCoordinate3D creation_time="0" origin="" seq="4" mission="0" x="3.6" y="0" z="0">)x"
-        R"x(<cause origin="" seq="2"/><uncertainty x="0" y="0.1" z="0"/></WorldCoordinate3D>)x");
+  CHECK(
+      written(place) ==
+      R"x(<WorldCoordinate3D creation_time="0" origin="" origin_port="" seq="4" mission="0" x="3.6" y="0" z="0">)x"
+      R"x(<cause origin="" port="" seq="2"/><uncertainty x="0" y="0.1" z="0"/></WorldCoordinate3D>)x");
   CHECK(read<Travelling<idl::WorldCoordinate3D>>(R"x(<WorldCoordinate3D x="3.6"/>)x").point().x() == 3.6);
   CHECK(read<Travelling<idl::Pose2D>>(R"x(<Pose2D x="1" orientation="90 deg"/>)x").orientation() ==
         std::numbers::pi / 2);

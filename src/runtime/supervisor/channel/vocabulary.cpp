@@ -65,7 +65,7 @@ void fields(auto& archive, Glance& m) { transfer_all(archive, m.unwell, m.goals)
 void fields(auto& archive, Prompting& m) { transfer(archive, m.begins); }
 
 void fields(auto& archive, MissionStep& m) {
-  transfer_all(archive, m.mission, m.time, m.port, m.type, m.seq, m.cause_origin, m.cause_seq);
+  transfer_all(archive, m.mission, m.time, m.port, m.type, m.seq, m.cause_origin, m.cause_port, m.cause_seq);
 }
 
 void fields(auto& archive, Orphaned& m) {

@@ -12,8 +12,9 @@ namespace {
 
 constexpr std::size_t kLongestText = 500;  // [bytes]
 
-std::string cause_text(const std::string& origin, std::uint64_t seq) {
-  return origin.empty() ? "" : origin + " " + std::to_string(seq);
+std::string cause_text(const std::string& origin, const std::string& port, std::uint64_t seq) {
+  if (origin.empty()) return "";
+  return origin + (port.empty() ? "" : "." + port) + " " + std::to_string(seq);
 }
 
 }  // namespace
@@ -36,13 +37,14 @@ void MissionBook::add(std::uint64_t mission, Event event) {
 
 void MissionBook::add(const idl::OrcaObject& object, TimePoint time, const std::string& who,
                       const std::string& what, const std::string& text) {
-  add(object.mission(), {time, who, what, text, cause_text(object.cause().origin(), object.cause().seq())});
+  const idl::Cause& cause = object.cause();
+  add(object.mission(), {time, who, what, text, cause_text(cause.origin(), cause.port(), cause.seq())});
 }
 
 void MissionBook::note(const MissionStep& step) {
-  add(step.mission,
-      {TimePoint(Duration(static_cast<Duration::rep>(step.time))), step.port, "sends",
-       step.type + " " + std::to_string(step.seq), cause_text(step.cause_origin, step.cause_seq)});
+  add(step.mission, {TimePoint(Duration(static_cast<Duration::rep>(step.time))), step.port, "sends",
+                     step.type + " " + std::to_string(step.seq),
+                     cause_text(step.cause_origin, step.cause_port, step.cause_seq)});
 }
 
 void MissionBook::note(const idl::Arrived& arrived) {

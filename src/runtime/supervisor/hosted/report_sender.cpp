@@ -92,9 +92,9 @@ void ReportSender::contact(const idl::Contact& contact) { send(ContactReport{byt
 
 void ReportSender::mission_step(const std::string& port, const ObjectRef& object) {
   const idl::OrcaObject& header = object.header();
+  const idl::Cause& cause = header.cause();
   send(MissionStep{header.mission(), static_cast<std::uint64_t>(header.creation_time().ns()), port,
-                   std::string(object.type().name), header.seq(), header.cause().origin(),
-                   header.cause().seq()});
+                   std::string(object.type().name), header.seq(), cause.origin(), cause.port(), cause.seq()});
 }
 
 void ReportSender::alarm(const idl::Alarm& alarm) { send(AlarmReport{bytes_of(alarm)}); }

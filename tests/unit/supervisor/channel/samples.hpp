@@ -107,7 +107,7 @@ inline std::vector<supervisor::Report> all_reports() {
       OutputFailed{fail(Code::unavailable, "no space", "run.csv")},
       Glance{{{"scout", "Fault"}}, {{"kitchen", {2'500}}}}, Prompting{false},
       Answer{ok(), {{{"name", "goto"}, {"restarts", 3}, {"active", true}}, {}}},
-      MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", 5},
+      MissionStep{7, 1'000'000, "command.goto", "GoalPoint", 2, "goto", "arrived", 5},
       Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}, {"main"}},
       ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
       Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},

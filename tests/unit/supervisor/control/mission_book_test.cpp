@@ -60,16 +60,17 @@ TEST_CASE("a mission is told in the order of its times, whoever has reported fir
   arrived.name("kitchen");
   arrived.creation_time(to_time_value(kStartOfRun + 9s));
   arrived.cause().origin("localizer");
+  arrived.cause().port("pose");
   arrived.cause().seq(17);
   book.note(arrived);
-  book.note(MissionStep{3, nanoseconds(kStartOfRun + 1s), "command.goto", "GoalPoint", 1, "", 0});
-  book.note(MissionStep{0, nanoseconds(kStartOfRun + 1s), "fuser.base", "MotionCommand", 1, "", 0});
+  book.note(MissionStep{3, nanoseconds(kStartOfRun + 1s), "command.goto", "GoalPoint", 1, "", "", 0});
+  book.note(MissionStep{0, nanoseconds(kStartOfRun + 1s), "fuser.base", "MotionCommand", 1, "", "", 0});
   Reader reader;
   CHECK(reader.lines([&](Reply& reply) { book.show(reply); }) ==
         std::vector<std::string>{"3|1.000|2|9.000|arrived kitchen|"});
   CHECK(reader.lines([&](Reply& reply) { CHECK(book.show(3, reply).ok()); }) ==
         std::vector<std::string>{"1.000|command.goto|sends|GoalPoint 1||",
-                                 "9.000|goto|arrived|kitchen|localizer 17|"});
+                                 "9.000|goto|arrived|kitchen|localizer.pose 17|"});
 }
 
 TEST_CASE("a mission that nobody knows is an error", "[supervisor][missions]") {
@@ -82,7 +83,8 @@ TEST_CASE("endless missions and endless events take no endless memory", "[superv
   MissionBook book(kStartOfRun);
   for (std::uint64_t mission = 1; mission <= MissionBook::kMostMissions + 5; ++mission)
     for (std::uint64_t i = 0; i < MissionBook::kMostEvents + 3; ++i)
-      book.note(MissionStep{mission, nanoseconds(kStartOfRun) + i, "command.goto", "GoalPoint", i, "", 0});
+      book.note(
+          MissionStep{mission, nanoseconds(kStartOfRun) + i, "command.goto", "GoalPoint", i, "", "", 0});
   Reader reader;
   const auto lines = reader.lines([&](Reply& reply) { book.show(reply); });
   CHECK(lines.size() == MissionBook::kMostMissions);

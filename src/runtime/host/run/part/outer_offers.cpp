@@ -83,13 +83,14 @@ Result<OuterOffers::Edge*> OuterOffers::edge_at(Endpoint& port) {
   return edges_.emplace(&port, std::move(made)).first->second.get();
 }
 
+// Only what is sent begins a mission: a question is nobody's task.
 // @pre  mutex_ is held.
-void OuterOffers::stamp(ObjectLoan& object) {
+void OuterOffers::stamp(ObjectLoan& object, Pattern pattern) {
   idl::OrcaObject& header = object.header();
   header.creation_time(to_time_value(executive_.now()));
   header.origin() = kOrigin;
   header.seq(++last_seq_);
-  if (missions_ != nullptr) header.mission(++*missions_);
+  if (missions_ != nullptr && pattern == Pattern::send) header.mission(++*missions_);
 }
 
 Status OuterOffers::offer(Endpoint& port, ObjectLoan object, Answered answered) {
@@ -103,7 +104,7 @@ Status OuterOffers::offer(Endpoint& port, ObjectLoan object, Answered answered) 
     const Result<Edge*> found = edge_at(port);
     if (!found) return found.error();
     edge = *found;
-    stamp(object);
+    stamp(object, port.contract().pattern);
   }
   edge->offer(std::move(object).seal(), std::move(answered));
   return ok();

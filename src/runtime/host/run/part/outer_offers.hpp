@@ -43,7 +43,7 @@ class OuterOffers {
   class EdgeOf;
 
   Result<Edge*> edge_at(Endpoint& port);
-  void stamp(ObjectLoan& object);
+  void stamp(ObjectLoan& object, Pattern pattern);
 
   const Executive& executive_;
   std::atomic<std::uint64_t>* const missions_;

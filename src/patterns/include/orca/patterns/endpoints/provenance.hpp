@@ -46,7 +46,8 @@ class Provenance {
   bool settled_ = false;       // whether objects that are taken leave the mission as it is
   std::uint64_t task_mission_ = 0;
   std::uint64_t mission_before_task_ = 0;
-  std::string origin_;
+  std::string origin_;  // these three: identity of the cause
+  std::string port_;
   std::uint64_t seq_ = 0;
 };
 

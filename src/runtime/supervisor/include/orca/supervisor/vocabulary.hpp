@@ -338,6 +338,7 @@ struct MissionStep {
   std::string type;        ///< Of the object, its IDL name.
   std::uint64_t seq = 0;
   std::string cause_origin;  ///< What the object answers; empty: nothing.
+  std::string cause_port;
   std::uint64_t cause_seq = 0;
 };
 /// Whether somebody in the process wants to hear what other processes write to the log, whenever it changes.
