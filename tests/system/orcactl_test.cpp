@@ -360,6 +360,28 @@ TEST_CASE("of a robot with two lasers each is described by its name", "[system][
   system.stop();
 }
 
+TEST_CASE("the time from a sensor to the wheels is measured along the causes of commands",
+          "[system][orcactl]") {
+  System system({kScout});
+  system.await_work();
+  const Run told = run_orcactl(
+      {"latency", "--from", "base.odometry", "--to", "wheels", "--for", "3 s", "--json"}, Seconds(20));
+  INFO(told.out << told.err);
+  CHECK(told.exit_code() == 0);
+  // The behaviours decide in the lap that the odometry begins, and a cause names the port that it came from.
+  const std::size_t at = told.out.find("\"way\": \"base.OdometryPush > ");
+  REQUIRE(at != std::string::npos);
+  const std::string line = told.out.substr(at, told.out.find('\n', at) - at);
+  CHECK_THAT(line, Contains(" > fuser.base\""));
+  const std::size_t median = line.find("\"median_ms\": ");
+  REQUIRE(median != std::string::npos);
+  CHECK(std::stod(line.substr(median + 13)) > 0.0);
+  CHECK(std::stod(line.substr(median + 13)) < 100.0 * kSlowdown);
+  CHECK(run_orcactl({"latency", "--from", "base.odometry"}).exit_code() == 2);
+  CHECK(run_orcactl({"latency", "--from", "base.odometri", "--to", "wheels"}).says("base.OdometryPush"));
+  system.stop();
+}
+
 TEST_CASE("an operator sends objects and asks questions", "[system][orcactl]") {
   System system({kScout});
   system.await_work();

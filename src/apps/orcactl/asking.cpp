@@ -129,17 +129,22 @@ Status ask_stubbornly(const Call& call, Client& client) {
   return outcome;
 }
 
-// Adds what a kind of names is called in the records of a command.
-void add_names(Client& client, const char* command, const std::string& cell, std::set<std::string>& names) {
+void add_names(Client& client, const char* command, const char* cell, std::set<std::string>& names) {
+  names.merge(names_of(client, command, cell));
+}
+
+}  // namespace
+
+std::set<std::string> names_of(Client& client, const char* command, const char* cell) {
+  std::set<std::string> names;
   const auto take = [&](supervisor::ControlAnswer& answer) {
     if (const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer))
       for (const supervisor::Cell& one : record->record)
         if (one.name == cell) names.insert(one.value);
   };
   (void)client.ask({command, {}, false}, take, kLimit);
+  return names;
 }
-
-}  // namespace
 
 ExitCode report(const Failure& failure) {
   std::fprintf(stderr, "orcactl: %s\n", failure.error.text().c_str());

@@ -2,7 +2,11 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "call.hpp"
+#include "client.hpp"
 #include "exit_code.hpp"
 
 namespace orca::orcactl {
@@ -12,6 +16,9 @@ namespace orca::orcactl {
 
 /// Prints names for completion, one per line. Without a system there are none.
 [[nodiscard]] ExitCode print_names(const Call& call);
+
+/// Returns the values of the cells of a name in the answer to a command; none if it fails.
+[[nodiscard]] std::set<std::string> names_of(Client& client, const char* command, const char* cell);
 
 /// Prints a failure to stderr.
 /// @return its exit status.

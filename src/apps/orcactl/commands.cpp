@@ -16,8 +16,18 @@ const OptionSpec kTimeout{"--timeout", "DURATION", "longest wait for the answer 
 
 constexpr std::string_view kSendDetails =
     "XML is the text form of the object, one element named after its type; what is not mentioned keeps its "
-    "default. With - it is read from stdin. The framework stamps the header, and gives the object a mission "
-    "of its own.";
+    "default. With - it is read from stdin. The framework stamps the header; an object "
+    "that is sent begins a mission of its own, a question does not.";
+
+constexpr std::string_view kLatencyDetails =
+    "The age counts from the moment at which the object was made, by the clock that all processes of the "
+    "machine share. With --from and --to instead of a port it counts from the moment at which data were "
+    "sensed that passed the one port until an object arrives at the other one that was sent because of them, "
+    "with a line for each way that such data have taken. A component names as the cause of what it sends the "
+    "object that it took last. A way that begins with ? goes back to an object that left before orcactl "
+    "looked; one without times begins elsewhere. \"--to wheels\" is the port MotionCommandSend, and names "
+    "may "
+    "lack their Push or Send: --from base.odometry.";
 
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
@@ -96,13 +106,13 @@ std::vector<Command> port_commands() {
        .text = "how often objects pass a port, each second"},
       {.name = "latency",
        .way = Way::tap,
-       .arguments = {kPort},
-       .options = {kFor},
+       .arguments = {{"PORT", Names::port, true}},
+       .options = {kFor,
+                   {"--from", "PORT", "where data begin: follow causes back to this port"},
+                   {"--to", "PORT", "where data arrive, or \"wheels\""}},
        .tells = true,
        .text = "how old objects are when they pass a port, each second",
-       .details = "The age counts from the moment at which the object was made, by the clock that all "
-                  "processes of the "
-                  "machine share."},
+       .details = kLatencyDetails},
       {.name = "send",
        .way = Way::offer,
        .arguments = {kPort, {"XML"}},

@@ -11,6 +11,7 @@
 #include "asking.hpp"
 #include "client.hpp"
 #include "figures.hpp"
+#include "following.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/object_type.hpp"
@@ -34,10 +35,8 @@ Result<std::optional<Tapped>> next(Channel& line, Duration limit) {
   Result<supervisor::Message> message = line.wait_for_message(limit);
   if (!message && message.error().code == Code::deadline_exceeded) return std::optional<Tapped>{};
   if (!message) return fail(Code::unavailable, "the process of the port has ended");
-  Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message).value());
-  if (!word) return word.error();
-  auto* const passed = std::get_if<Tapped>(&*word);
-  if (passed == nullptr) return fail(Code::data_loss, "the process has sent something else than an object");
+  Result<Tapped> passed = tapped(std::move(message).value());
+  if (!passed) return passed.error();
   return std::optional(std::move(*passed));
 }
 
@@ -56,14 +55,11 @@ Result<std::string> field_of(const ObjectType& type, const void* object, const s
 }
 
 Result<std::string> text_of(const Tapped& passed, const Call& call) {
-  const ObjectType* const type = find_object_type(passed.type);
-  if (type == nullptr)
-    return fail(Code::data_loss, "objects of the type " + passed.type + " are not known here");
-  ObjectLoan object = make_object(*type);
-  if (const Status read = type->deserialize(passed.object, object.get()); !read.ok()) return read.error();
+  const Result<ObjectRef> object = object_of(passed);
+  if (!object) return object.error();
   const std::optional<std::string> field = call.text("--field");
-  const Result<std::string> shown =
-      field ? field_of(*type, object.get(), *field) : Result<std::string>(to_xml(*type, object.get()));
+  const Result<std::string> shown = field ? field_of(object->type(), object->get(), *field)
+                                          : Result<std::string>(to_xml(object->type(), object->get()));
   if (!shown) return shown.error();
   if (!call.json) return *shown + "\n";
   constexpr double kNanoseconds = 1e9;
@@ -128,11 +124,45 @@ Status measure(Channel& line, const Call& call) {
   }
 }
 
+// latency looks at one port, or from one to another.
+Status names_ports(const Call& call) {
+  const std::string command(call.command->name);
+  if (call.has("--from") != call.has("--to"))
+    return fail(Code::invalid_argument, command + " needs --from PORT and --to PORT together");
+  if (call.words.empty() && !call.has("--from"))
+    return fail(Code::invalid_argument, command + " needs PORT, or --from PORT and --to PORT");
+  if (!call.words.empty() && call.has("--from"))
+    return fail(Code::invalid_argument, command + " takes PORT, or --from PORT and --to PORT, not both");
+  return ok();
+}
+
 }  // namespace
 
+Result<Tapped> tapped(supervisor::Message message) {
+  Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message));
+  if (!word) return word.error();
+  auto* const passed = std::get_if<Tapped>(&*word);
+  if (passed == nullptr) return fail(Code::data_loss, "the process has sent something else than an object");
+  return std::move(*passed);
+}
+
+Result<ObjectRef> object_of(const Tapped& passed) {
+  const ObjectType* const type = find_object_type(passed.type);
+  if (type == nullptr)
+    return fail(Code::data_loss, "objects of the type " + passed.type + " are not known here");
+  ObjectLoan object = make_object(*type);
+  if (const Status read = type->deserialize(passed.object, object.get()); !read.ok()) return read.error();
+  return std::move(object).seal();
+}
+
 ExitCode tap(const Call& call) {
+  if (const Status named = names_ports(call); !named.ok()) return report({named.error(), ExitCode::usage});
   std::variant<Client, Failure> connected = Client::connect(call.system);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  if (call.has("--from")) {
+    const Status done = follow(std::get<Client>(connected), call);
+    return done.ok() ? ExitCode::done : report({done.error()});
+  }
   const bool echoes = call.command->name == "echo";
   std::vector<std::string> options{"--tap"};
   if (echoes) options.emplace_back("--objects");
