@@ -102,11 +102,12 @@ class LogServer final : public orca::Component {
   void pass_on(const orca::ObjectPtr<LogRecord>& record, const std::string& wall_time) {
     const bool kept = write(*record, wall_time);
     if (!kept && !failing_)
-      log_warning("cannot write to " + *path_ + ": records are being lost, " + std::to_string(file_->lost()) +
-                  " so far");
+      raise_alarm("LOG_INCOMPLETE", orca::idl::ALARM_WARNING,
+                  "cannot write to " + *path_ + ": records are being lost, " + std::to_string(file_->lost()) +
+                      " so far; is the disk full?");
     if (kept && failing_)
-      log_info("writes to " + *path_ + " again; " + std::to_string(file_->lost()) +
-               " records were lost in total");
+      clear_alarm("LOG_INCOMPLETE", "writes to " + *path_ + " again; " + std::to_string(file_->lost()) +
+                                        " records were lost in total");
     failing_ = !kept;
     if (passed_on_.subscriber_count() == 0) return;
     auto copy = passed_on_.loan();

@@ -89,6 +89,13 @@ class ComponentDescriber final : public Describer<ComponentHost> {
   std::uint64_t begin_mission() override { refuse("began a mission"); }
   void end_mission() override { refuse("ended a mission"); }
   void note_cause(const idl::OrcaObject& /*object*/) override { refuse("named the cause of what it sends"); }
+  void raise_alarm(std::string_view /*kind*/, idl::AlarmSeverity /*severity*/,
+                   std::string_view /*text*/) override {
+    refuse("raised an alarm");
+  }
+  void clear_alarm(std::string_view /*kind*/, std::string_view /*text*/) override {
+    refuse("cleared an alarm");
+  }
   [[nodiscard]] Strand& strand() override { refuse("blocked"); }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/alarm.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -49,6 +50,24 @@ idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::s
   alarm.active(true);
   alarm.text() = text;
   return alarm;
+}
+
+idl::Alarm make_alarm(const std::string& kind, idl::AlarmSeverity severity, const std::string& component,
+                      const std::string& text) {
+  idl::Alarm alarm;
+  alarm.severity(severity);
+  alarm.kind() = kind;
+  alarm.source() = component;
+  alarm.active(true);
+  alarm.text() = text;
+  return alarm;
+}
+
+bool is_own_alarm_kind(std::string_view kind) {
+  const auto fits = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  return !kind.empty() && std::ranges::all_of(kind, fits) &&
+         std::ranges::find(kNames, kind, [](const char* name) { return std::string_view(name); }) ==
+             kNames.end();
 }
 
 std::string alarm_text(const idl::Alarm& alarm) {

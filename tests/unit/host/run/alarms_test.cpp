@@ -142,6 +142,25 @@ TEST_CASE("an alarm belongs to the mission that the component was working on, an
   }
 }
 
+TEST_CASE(
+    "a component raises and clears alarms of its own, with mission and cause, and none of the runtime's "
+    "kinds",
+    "[host][alarms]") {
+  const RecordedRun run = welcome("raise");
+  REQUIRE(run.alarms.size() == 2);
+  for (const idl::Alarm& alarm : run.alarms) {
+    CHECK(alarm.kind() == "HOUSE_FULL");
+    CHECK(alarm.source() == "host");
+    CHECK(alarm.severity() == idl::ALARM_WARNING);
+  }
+  CHECK(run.alarms[0].active());
+  CHECK(run.alarms[0].text() == "there is no chair left; bring one");
+  CHECK(run.alarms[0].mission() == 7);
+  CHECK(run.alarms[0].cause().origin() == "arriver");
+  CHECK_FALSE(run.alarms[1].active());
+  CHECK(run.alarms[1].text() == "a chair has come");
+}
+
 TEST_CASE("a component without fault raises no alarm", "[host][alarms]") {
   CHECK(act("work", "none").alarms.empty());
   CHECK(welcome("none").alarms.empty());

@@ -149,6 +149,17 @@ class Component : public PortOwner {
   /// with latest() or gets from a PushProxyArray does not.
   void note_cause(const idl::OrcaObject& object) { host_.note_cause(object); }
 
+  /// Raises an alarm of this component's own. It reaches the log, the operator (`orcactl alarms`), AlarmCentral and the result of
+  /// the run, and stays until it is cleared and an operator has acknowledged it. An alarm that is active already is not raised again.
+  /// @param kind  a word of capitals, digits and '_', "GRIPPER_WORN", and none of the runtime's own kinds: else an error is logged
+  ///              instead.
+  /// @param text  what is wrong and what to do, for people.
+  void raise_alarm(std::string_view kind, idl::AlarmSeverity severity, std::string_view text) {
+    host_.raise_alarm(kind, severity, text);
+  }
+  /// Says that what an alarm of this component is about is over. Without such an alarm it does nothing.
+  void clear_alarm(std::string_view kind, std::string_view text) { host_.clear_alarm(kind, text); }
+
   /// Returns the alarms of the whole system that were raised or cleared since the last call, whichever process raised
   /// them; the first call returns the latest of the run. For a component that passes them on.
   [[nodiscard]] std::vector<idl::Alarm> take_alarms() { return host_.take_alarms(); }

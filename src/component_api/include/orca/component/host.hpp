@@ -65,6 +65,10 @@ class ComponentHost : public PluginHost {
   /// Returns the strand on which the component runs.
   [[nodiscard]] virtual Strand& strand() = 0;
 
+  /// Raises or clears an alarm of this component; see Component.
+  virtual void raise_alarm(std::string_view /*kind*/, idl::AlarmSeverity /*severity*/,
+                           std::string_view /*text*/) {}
+  virtual void clear_alarm(std::string_view /*kind*/, std::string_view /*text*/) {}
   /// Returns the alarms of the whole system that were raised or cleared since the last call.
   [[nodiscard]] virtual std::vector<idl::Alarm> take_alarms() { return {}; }
   /// Returns the alarms of the whole system that nobody has acknowledged yet.

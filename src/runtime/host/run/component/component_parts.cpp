@@ -28,4 +28,23 @@ void ComponentParts::report_failure(Hook hook, const std::string& text, const ch
   run.reporter.note(std::move(alarm));
 }
 
+void ComponentParts::raise_alarm(const std::string& kind, idl::AlarmSeverity severity,
+                                 const std::string& text) {
+  const auto [own, is_new] = own_alarms.try_emplace(kind);
+  if (!is_new && own->second.active()) return;
+  own->second = make_alarm(kind, severity, settings.name, text);
+  idl::Alarm alarm = own->second;
+  home.provenance.stamp(alarm);
+  run.reporter.raise(std::move(alarm));
+}
+
+void ComponentParts::clear_alarm(const std::string& kind, const std::string& text) {
+  const auto own = own_alarms.find(kind);
+  if (own == own_alarms.end() || !own->second.active()) return;
+  own->second.active(false);
+  own->second.text(text);
+  write_log(log::Level::info, "alarm " + kind + " is over: " + text);
+  run.reporter.note(own->second);
+}
+
 }  // namespace orca::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,9 @@ struct ComponentParts {
   /// cause of what the component works on. To be called on its strand.
   /// @param port  port of a handler; "" for other hooks.
   void report_failure(Hook hook, const std::string& text, const char* port = "");
+  /// Raise or clear an alarm of the component's own; what changes nothing does nothing. To be called on its strand.
+  void raise_alarm(const std::string& kind, idl::AlarmSeverity severity, const std::string& text);
+  void clear_alarm(const std::string& kind, const std::string& text);
 
   RunContext& run;
   const ComponentSettings settings;
@@ -45,6 +49,7 @@ struct ComponentParts {
   FailureInjector injector;
   Parameters params;
   OrderQueue orders;
+  std::map<std::string, idl::Alarm> own_alarms;  // the last of each kind
 };
 
 }  // namespace orca::host

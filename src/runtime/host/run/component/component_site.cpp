@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include "orca/base/text.hpp"
+#include "orca/host/alarm.hpp"
+
 namespace orca::host {
 
 void ComponentSite::forget_code() {
@@ -36,6 +39,19 @@ std::uint64_t ComponentSite::begin_mission() {
   const std::uint64_t mission = ++parts_->run.missions;
   parts_->home.provenance.begin_mission(mission);
   return mission;
+}
+
+void ComponentSite::raise_alarm(std::string_view kind, idl::AlarmSeverity severity, std::string_view text) {
+  if (!is_own_alarm_kind(kind))
+    return write_log(log::Level::error,
+                     in_quotes(kind) +
+                         " is no kind of alarm that a component may raise: expected a word of "
+                         "capitals, digits and '_' that the runtime does not use itself");
+  parts_->raise_alarm(std::string(kind), severity, std::string(text));
+}
+
+void ComponentSite::clear_alarm(std::string_view kind, std::string_view text) {
+  parts_->clear_alarm(std::string(kind), std::string(text));
 }
 
 std::vector<idl::Alarm> ComponentSite::take_alarms() {

@@ -53,6 +53,8 @@ class ComponentSite final : public ComponentHost {
   std::uint64_t begin_mission() override;
   void end_mission() override { parts_->home.provenance.end_task(); }
   void note_cause(const idl::OrcaObject& object) override { parts_->home.provenance.note(object); }
+  void raise_alarm(std::string_view kind, idl::AlarmSeverity severity, std::string_view text) override;
+  void clear_alarm(std::string_view kind, std::string_view text) override;
   [[nodiscard]] std::vector<idl::Alarm> take_alarms() override;
   [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const override;
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "orca/base/hook.hpp"
 #include "orca/idl/system.hpp"
@@ -48,6 +49,12 @@ using AlarmSink = std::function<void(const idl::Alarm&)>;
 /// @param hook       as returned by to_string(Hook) or hook_text(); empty: outside any hook.
 [[nodiscard]] idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
                                     const std::string& text);
+
+/// Makes an alarm of a component's own, without times, mission and cause.
+[[nodiscard]] idl::Alarm make_alarm(const std::string& kind, idl::AlarmSeverity severity,
+                                    const std::string& component, const std::string& text);
+/// Returns whether a component may raise an alarm of that kind: a word of capitals, digits and '_' that is none of the runtime's.
+[[nodiscard]] bool is_own_alarm_kind(std::string_view kind);
 
 /// Returns an alarm for people: "avoid FAILED: work() threw 7".
 [[nodiscard]] std::string alarm_text(const idl::Alarm& alarm);
