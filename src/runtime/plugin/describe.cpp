@@ -52,6 +52,8 @@ class Describer : public Base {
   void declare_param(ParamDeclaration declaration) override {
     contract_.params.push_back(declaration.contract);
     setters_[declaration.contract.name] = std::move(declaration.set);
+    *declaration.locked = true;
+    locks_.push_back(declaration.locked);
   }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] TimePoint now() const override { refuse("asked for the time"); }
@@ -64,10 +66,16 @@ class Describer : public Base {
     throw std::logic_error("it " + what + ", but a constructor may only declare ports and parameters");
   }
 
+  // Lets parameters be read: the constructor is over.
+  void unlock_params() {
+    for (bool* const lock : locks_) *lock = false;
+  }
+
   Contract contract_;
   std::map<std::string, std::function<void(const ParamValue&)>> setters_;
 
  private:
+  std::vector<bool*> locks_;
   std::string name_;
 };
 
@@ -108,7 +116,9 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
       : Describer(PluginKind::hardware, type, library, name),
         destroy_(type.destroy),
         container_(static_cast<hw::HardwareContainer*>(type.create(*this))),
-        seat_(*container_) {}
+        seat_(*container_) {
+    unlock_params();
+  }
   ~HardwareDescriber() override {
     try {
       destroy_(container_);
@@ -166,7 +176,9 @@ Result<Contract> describe_component(const TypeEntry& type, const std::string& li
                                     hw::HardwareSeat* hardware) {
   return guarded(type.type, Hook::constructor, [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
-    type.destroy(type.create(describer));
+    void* const component = type.create(describer);
+    describer.unlock_params();
+    type.destroy(component);
     if (const Status sound = check_declared(describer.contract_); !sound.ok()) return sound.error();
     return describer.contract_;
   });

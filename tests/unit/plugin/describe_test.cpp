@@ -43,6 +43,12 @@ TEST_CASE("a constructor that asks for the time gets the error that it may only 
                                Contains("may only declare ports and parameters"));
 }
 
+TEST_CASE("a constructor that reads a parameter gets an error that names it", "[plugin][describe]") {
+  const Error error = describing_fails("test_reads_param");
+  CHECK_THAT(error.text(), Contains("test.ReadsParam") && Contains("it read its parameter \"reach\"") &&
+                               Contains("read it in configure() or later"));
+}
+
 TEST_CASE("a plugin may hold several types, each found by its kind and name", "[plugin][describe]") {
   const auto library = loaded(test_plugin("test_two"));
   CHECK(library->types().size() == 2);

@@ -23,6 +23,8 @@ struct ParamDeclaration {
   ParamContract contract;
   /// Stores a value that has been checked against the contract.
   std::function<void(const ParamValue&)> set;
+  /// True, written by the host, while the value must not be read: the graph's is not there yet.
+  bool* locked = nullptr;
 };
 
 /// The services that a process offers to the components and hardware containers that it hosts.

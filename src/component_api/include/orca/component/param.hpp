@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -53,13 +54,20 @@ class Param {
     contract.default_value = ParamValue(std::move(default_value));
     contract.text = std::move(options.text);
     owner.declare_param(
-        {std::move(contract), [this](const ParamValue& value) { value_ = std::get<T>(value); }});
+        {std::move(contract), [this](const ParamValue& value) { value_ = std::get<T>(value); }, &locked_});
   }
   Param(const Param&) = delete;
   Param& operator=(const Param&) = delete;
 
-  [[nodiscard]] const T& operator*() const { return value_; }
-  [[nodiscard]] const T* operator->() const { return &value_; }
+  /// Return the value.
+  /// @pre  the constructor of the owner is over: within it the graph's value is not there yet. When a type is described, such a
+  ///       read is an error that names the parameter.
+  [[nodiscard]] const T& operator*() const {
+    if (locked_) [[unlikely]]
+      read_too_early();
+    return value_;
+  }
+  [[nodiscard]] const T* operator->() const { return &**this; }
 
   /// Makes an error about this parameter's value, to return from configure() or params_changed(). It is reported
   /// at the place in the graph that sets the parameter.
@@ -74,6 +82,12 @@ class Param {
   }
 
  private:
+  [[noreturn]] void read_too_early() const {
+    throw std::logic_error(
+        "it read its parameter \"" + name_ +
+        "\", but in a constructor the graph's value is not there yet, only the default; read it in "
+        "configure() or later");
+  }
   static constexpr ParamType type() {
     if constexpr (std::is_same_v<T, bool>) return ParamType::boolean;
     if constexpr (std::is_same_v<T, std::int64_t>) return ParamType::integer;
@@ -84,6 +98,7 @@ class Param {
 
   const std::string name_;
   T value_;
+  bool locked_ = false;
 };
 
 }  // namespace orca
