@@ -16,9 +16,6 @@ constexpr double kWatchedPath = 2.0;    // [m] of the path that each scan is com
 constexpr double kBlockedReplan = 0.2;  // [s] between two plans while blocked
 constexpr double kBackTime = 1.8;       // [s] of backing off, times the number of recoveries in a row,
 constexpr int kMostRetreats = 5;        // up to this
-constexpr double kBehind = 0.2;         // [m] to the place of its trail that it backs to
-constexpr double kTrailStep = 0.05;     // [m] between two places of the trail
-constexpr std::size_t kTrail = 200;     // places in it
 constexpr double kRemembered = 1.5;     // [m] around the robot that recovery does not forget
 constexpr double kWay = 0.1;            // [m] or
 constexpr double kTurn = 0.3;           // [rad] that count as motion
@@ -31,7 +28,7 @@ constexpr double kAside = 0.5;          // [m] off the path: plan anew
 }  // namespace
 
 Navigator::Navigator(const Footprint& footprint, const NavigatorRules& rules)
-    : footprint_(footprint), rules_(rules), map_(rules.cell, rules.extent) {}
+    : footprint_(footprint), rules_(rules), retreat_(footprint), map_(rules.cell, rules.extent) {}
 
 void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
   const bool lost = !map_.lattice().holds(map_.lattice().cell_at(pose.position()));
@@ -58,6 +55,7 @@ void Navigator::drop_path() {
   planned_for_.reset();
   blocked_since_.reset();
   backs_off_since_.reset();
+  retreat_.reset();
   turning_ = false;
   recoveries_ = 0;
 }
@@ -85,7 +83,7 @@ Steer Navigator::steer(const Moment& moment, const Errand& errand) {
     backs_off_since_.reset();
     moved_at_ = moment.now;
   }
-  note_trail(moment.pose.position());
+  retreat_.note(moment.pose);
   keep_path(moment, errand);
   news_ = false;
   const bool passes = errand.passing && plan_.complete;
@@ -94,21 +92,11 @@ Steer Navigator::steer(const Moment& moment, const Errand& errand) {
   return watch(steer, moment);
 }
 
-// Backs off along the way that it has come, which was free then; if it is not any more, along any arc that is.
 Steer Navigator::retreat(const Moment& moment) {
-  while (!trail_.empty() && norm(trail_.back() - moment.pose.position()) < kBehind) trail_.pop_back();
-  const Scene now = scene(moment);
-  if (!trail_.empty()) {
-    const Steer back = back_to(seen_from(now.pose, trail_.back()), now, footprint_);
-    if (!back.blocked) return back;
-  }
-  return back_off(now, footprint_);
-}
-
-void Navigator::note_trail(Vec2 place) {
-  if (!trail_.empty() && norm(place - trail_.back()) < kTrailStep) return;
-  if (trail_.size() == kTrail) trail_.erase(trail_.begin());
-  trail_.push_back(place);
+  return retreat_.step(moment.now, scene(moment), [this](Vec2 point) {
+    const Cell cell = map_.lattice().cell_at(point);
+    return map_.lattice().holds(cell) && map_.free(cell);
+  });
 }
 
 void Navigator::keep_path(const Moment& moment, const Errand& errand) {
@@ -173,6 +161,7 @@ void Navigator::recover(const Moment& moment) {
   blocked_since_.reset();
   moved_at_ = moment.now;
   backs_off_since_ = moment.now;
+  retreat_.begin();
   plan_ = {};
   if (recoveries_ % 2 == 0) map_.forget_beyond(moment.pose.position(), kRemembered);
 }

@@ -21,9 +21,6 @@ constexpr double kSqueezeMargin = 0.005;  // [m] kept free where the margin find
 constexpr double kSqueezeSpeed = 0.5;     // at that share of the narrow speed
 constexpr double kCreep = 0.06;           // [m/s] Below this it counts as standing.
 constexpr double kAlmostThere = 0.05;     // [m] left of an arc that need not be free
-constexpr double kBackSpeed = 0.15;       // [m/s]
-constexpr double kTrailWay = 0.1;         // [m] of the way back that must be free
-constexpr double kBackWay = 0.25;         // [m]
 
 struct Choice {
   Arc arc;
@@ -86,14 +83,6 @@ bool may_turn(double angle, const Scene& scene, const Footprint& footprint) {
   return room_along(footprint, scene.pose, {0.0, 0.0, angle}, steps, scene.points, kTurnMargin).share >= 1.0;
 }
 
-// The longer way round is not tried: a rectangle that turns by more than half a circle sweeps all that its corners reach. Only the
-// steps at which a turn is looked at could make it seem free.
-Steer turn_on_the_spot(double angle, const Scene& scene, const Footprint& footprint, const Pursuit& pursuit) {
-  if (!may_turn(angle, scene, footprint)) return {.turning = true, .blocked = true};
-  const double rate = std::clamp(kTurnGain * std::fabs(angle), kLeastTurnRate, pursuit.turn_rate);
-  return {0.0, std::copysign(rate, angle), true, false};
-}
-
 }  // namespace
 
 Arc arc_to(Vec2 point) {
@@ -109,6 +98,14 @@ double speed_to_stop_within(double way, double deceleration, double delay) {
   if (way <= 0.0) return 0.0;
   const double lost = deceleration * delay;
   return std::sqrt(lost * lost + 2.0 * deceleration * way) - lost;
+}
+
+// The longer way round is not tried: a rectangle that turns by more than half a circle sweeps all that its corners reach. Only the
+// steps at which a turn is looked at could make it seem free.
+Steer turn_on_the_spot(double angle, const Scene& scene, const Footprint& footprint, const Pursuit& pursuit) {
+  if (!may_turn(angle, scene, footprint)) return {.turning = true, .blocked = true};
+  const double rate = std::clamp(kTurnGain * std::fabs(angle), kLeastTurnRate, pursuit.turn_rate);
+  return {0.0, std::copysign(rate, angle), true, false};
 }
 
 Steer follow(const Path& path, double along, const Scene& scene, const Footprint& footprint,
@@ -127,28 +124,6 @@ Steer follow(const Path& path, double along, const Scene& scene, const Footprint
             false};
   if (std::fabs(off) < 0.5 * pursuit.turned) return {.blocked = true};
   return turn_on_the_spot(off, scene, footprint, pursuit);
-}
-
-Steer back_to(Vec2 point, const Scene& scene, const Footprint& footprint) {
-  if (point.x >= -std::fabs(point.y)) return {.blocked = true};
-  const double curvature = arc_to(point).curvature;
-  const Travel2 travel{-kTrailWay, 0.0, -kTrailWay * curvature};
-  if (room_along(footprint, scene.pose, travel, 2, scene.points, kSqueezeMargin).share < 1.0)
-    return {.blocked = true};
-  return {-kBackSpeed, -kBackSpeed * curvature, false, false};
-}
-
-Steer back_off(const Scene& scene, const Footprint& footprint) {
-  Steer best{.blocked = true};
-  double least_effort = 0.25;  // of the way must be free at least
-  for (const double curvature : {0.0, 1.0, -1.0, 2.0, -2.0}) {
-    const Room room = room_along(footprint, scene.pose, {-kBackWay, 0.0, -kBackWay * curvature}, 5,
-                                 scene.points, kTurnMargin);
-    if (room.share <= least_effort) continue;
-    least_effort = room.share;
-    best = {-kBackSpeed, -kBackSpeed * curvature, false, false};
-  }
-  return best;
 }
 
 }  // namespace orca::nav

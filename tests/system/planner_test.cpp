@@ -56,6 +56,26 @@ TEST_CASE("without via points it finds its way through the doors of the office b
   CHECK(run.contacts().empty());
 }
 
+TEST_CASE("a planner that starts beside a wall does not back off into what it has never seen",
+          "[system][planner]") {
+  const TempFolder folder;
+  const std::string world = folder.write("beside.xml", R"(<world name="beside" version="1">
+  <room name="hall" from="0 0" to="10 8"/>
+  <place name="side" x="3" y="0.40" yaw="0"/>
+  <place name="nearer" x="3" y="0.32" yaw="0"/>
+</world>)");
+  for (const char* place : {"side", "nearer"})
+    for (const char* goal : {"goals=left: 3 6", "goals=behind: 0.6 4"}) {
+      const Run run =
+          office({"--set", "world=" + world, "--set", std::string("place=") + place, "--set", goal});
+      INFO(place << ", " << goal << "\n" << run.out << run.err);
+      CHECK(run.contacts().empty());
+      // From the nearer place it finds no room to turn round, drives along the wall, and may give a goal behind it up.
+      if (place == std::string("side") || goal == std::string("goals=left: 3 6"))
+        CHECK(run.arrivals().size() == 1);
+    }
+}
+
 TEST_CASE("a goal that no way leads to is given up, and the next one is reached", "[system][planner]") {
   const Run run = office({"--set", "goals=outside: 4.2 40; kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"});
   INFO(run.out << run.err);

@@ -148,35 +148,3 @@ TEST_CASE("to a path that begins behind it turns on the spot, the shorter way, i
     CHECK(shut.turn_rate == 0.0);
   }
 }
-
-TEST_CASE("it backs off along an arc with at least as much room as straight back, or not at all",
-          "[navigation]") {
-  const Steer open = back_off({}, kRobot);
-  CHECK(open.speed < 0.0);
-  CHECK(open.turn_rate == 0.0);
-  const std::array aside{Vec2{-0.42, 0.15}};
-  const Steer steer = back_off({.points = aside}, kRobot);
-  REQUIRE(steer.speed < 0.0);
-  const auto room = [&](double curvature) {
-    return room_along(kRobot, {}, {-0.25, 0.0, -0.25 * curvature}, 5, aside, 0.01).share;
-  };
-  CHECK(room(steer.turn_rate / steer.speed) >= room(0.0));
-  const std::array near{Vec2{-0.27, 0.15}, Vec2{-0.27, -0.15}, Vec2{-0.27, 0.0}};
-  CHECK(back_off({.points = near}, kRobot).blocked);
-}
-
-TEST_CASE(
-    "backwards it drives along the arc to a point behind, unless something is there or the point is not "
-    "behind",
-    "[navigation]") {
-  const Vec2 point{-0.3, 0.05};
-  const Steer steer = back_to(point, {}, kRobot);
-  REQUIRE(steer.speed < 0.0);
-  const double curvature = steer.turn_rate / steer.speed;
-  const Pose2 end =
-      orca::along_arc({}, {-arc_to({0.3, 0.05}).length, 0.0, -arc_to({0.3, 0.05}).length * curvature});
-  CHECK(norm(end.position() - point) < 1e-9);
-  CHECK(back_to({0.3, 0.05}, {}, kRobot).blocked);
-  const std::array behind{Vec2{-0.3, 0.0}};
-  CHECK(back_to(point, {.points = behind}, kRobot).blocked);
-}

@@ -10,6 +10,7 @@
 #include "orca/navigation/occupancy_map.hpp"
 #include "orca/navigation/path_planner.hpp"
 #include "orca/navigation/pure_pursuit.hpp"
+#include "orca/navigation/retreat.hpp"
 
 namespace orca::nav {
 
@@ -39,8 +40,8 @@ struct NavigatorRules {
 /// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
 /// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
 ///
-/// Recovery: after `patience` without any motion it backs off along the way that it has come, the farther the more often in a row, and plans anew. From the second time in a row on it also forgets
-/// what it has seen farther than 1.5 m away, for that may be old.
+/// Recovery: after `patience` without any motion it retreats (see Retreat), the farther the more often in a row, and plans anew.
+/// From the second time in a row on it also forgets what it has seen farther than 1.5 m away, for that may be old.
 ///
 /// Thread contract: one thread at a time.
 class Navigator {
@@ -72,14 +73,13 @@ class Navigator {
   [[nodiscard]] Steer watch(const Steer& steer, const Moment& moment);
   void recover(const Moment& moment);
   [[nodiscard]] Steer retreat(const Moment& moment);
-  void note_trail(Vec2 place);
 
   Footprint footprint_;
   NavigatorRules rules_;
+  Retreat retreat_;
   OccupancyMap map_;
   PathPlanner planner_;
   std::vector<Vec2> points_;  // of obstacles near the robot, map frame
-  std::vector<Vec2> trail_;   // where it has been, map frame, oldest first
   Plan plan_;
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};

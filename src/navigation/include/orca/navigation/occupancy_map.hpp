@@ -40,9 +40,11 @@ class OccupancyMap {
   void forget_beyond(Vec2 place, double distance);
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
-  /// @pre  lattice().holds(cell), also for known() and point().
+  /// @pre  lattice().holds(cell), also for free(), known() and point().
   [[nodiscard]] bool occupied(Cell cell) const { return cells_[lattice_.index(cell)].evidence > 0; }
   [[nodiscard]] bool occupied(std::size_t index) const { return cells_[index].evidence > 0; }
+  /// Returns whether a scan has seen that nothing is there, and no later one that something is.
+  [[nodiscard]] bool free(Cell cell) const { return cells_[lattice_.index(cell)].evidence < 0; }
   [[nodiscard]] bool known(std::size_t index) const { return cells_[index].evidence != 0; }
   /// Returns the mean of the latest echoes within an occupied cell, to within 1/32 of the cell.
   [[nodiscard]] Vec2 point(Cell cell) const;

@@ -63,6 +63,10 @@ struct Scene {
   bool turning = false;            ///< Steer::turning of the moment before.
 };
 
+/// Returns how to turn on the spot by an angle [rad]: the slower the less is left. It is blocked if the corners find no room.
+[[nodiscard]] Steer turn_on_the_spot(double angle, const Scene& scene, const Footprint& footprint,
+                                     const Pursuit& pursuit);
+
 /// Returns how to follow a path. It takes the longest look-ahead whose arc is free for the exact outline, and drives not
 /// faster than it can see, stop, and steer there. If the path begins aside or behind it turns on the spot, if its corners
 /// find room.
@@ -70,12 +74,5 @@ struct Scene {
 /// @param last_speed [m/s]  at the end of the path; 0: it stops there.
 [[nodiscard]] Steer follow(const Path& path, double along, const Scene& scene, const Footprint& footprint,
                            const Pursuit& pursuit, double last_speed);
-
-/// Returns how to drive backwards to a point given in the frame of the scene's pose: along the arc that leads there. It is blocked
-/// if that arc is not free, or the point does not lie behind.
-[[nodiscard]] Steer back_to(Vec2 point, const Scene& scene, const Footprint& footprint);
-
-/// Returns how to back off from where nothing leads on: along the freest of some arcs backwards.
-[[nodiscard]] Steer back_off(const Scene& scene, const Footprint& footprint);
 
 }  // namespace orca::nav
