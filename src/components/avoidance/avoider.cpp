@@ -282,7 +282,11 @@ std::optional<Rectangle> Avoider::described_body() const {
 }
 
 Limits Avoider::limits() const {
-  return {radius(), *margin_, 0.0, *safe_distance_, *stop_distance_, *max_speed_};
+  return {.robot_radius = radius(),
+          .margin = *margin_,
+          .safe_distance = *safe_distance_,
+          .stop_distance = *stop_distance_,
+          .max_speed = *max_speed_};
 }
 
 }  // namespace orca::avoid

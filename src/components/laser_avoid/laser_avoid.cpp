@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/avoidance/free_way.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -17,13 +16,11 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
     mine.turn_margin = kTurnMargin;
     mine = with_body(memory, situation, mine);
     mine.watches_goal = true;
-    return free_way_.advice(memory, situation, mine);
+    return avoid(memory.echoes(), situation, mine);
   }
 
   // [m] Less than others keep: it knows the shape of what is near.
   static constexpr double kTurnMargin = 0.02;
-
-  orca::avoid::FreeWay free_way_{*this};
 };
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "orca/avoidance/avoider.hpp"
-#include "orca/avoidance/free_way.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -83,10 +82,18 @@ class SonarAvoid final : public orca::avoid::Avoider {
 
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                              const orca::avoid::Limits& limits) override {
-    return free_way_.advice(memory, situation, limits);
+    orca::avoid::Limits mine = limits;
+    mine.side_distance = *side_distance_;
+    return avoid(memory.echoes(), situation, mine);
   }
 
-  orca::avoid::FreeWay free_way_{*this};
+  orca::Param<double> side_distance_{
+      *this,
+      "side_distance",
+      0.2,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "An echo nearer to the robot's circle than this counts as a wall across its beam."}};
   orca::PushProxy<orca::idl::SonarRangeReadings> sonar_{*this, "sonar", {.text = "Readings of the sonars."}};
   std::vector<std::optional<orca::TimePoint>> fired_;  // By sonar: the stamp of its last reading.
 };
