@@ -93,7 +93,7 @@ LAYERS = (
     Layer("plugin", (PLUGIN,), ("orca/plugin/",), ("plugin_inspection", *DEVICE), ("fmt",), module=PLUGIN),
     Layer("device", ("src/hw",), (), ("hw_link", "geometry_objects", *DEVICE), ("fmt",), siblings=False),
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
-          ("geometry_objects", "geometry", *COMPONENT)),
+          ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),

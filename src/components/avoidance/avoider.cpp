@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
@@ -103,11 +104,13 @@ Status Avoider::configure() {
 Status Avoider::start() {
   motion_.start(lap_period());
   memory_.clear();
+  floor_.clear();
   heard_at_.reset();
   moved_at_.reset();
   last_direction_ = 0.0;
   standing_.reset();
   body_.reset();
+  escape_.reset();
   return ask_robot();
 }
 
@@ -179,6 +182,7 @@ bool Avoider::follow(const idl::Odometry& odometry) {
   if (!is_valid(odometry)) return false;
   if (odometer_.begins_anew(odometry)) {  // what it remembers lies elsewhere now
     memory_.clear();
+    floor_.clear();
     moved_at_.reset();
   }
   const TimePoint stamp = to_time_point(odometry.stamp());
@@ -204,7 +208,12 @@ void Avoider::advise() {
     motion_.push(full_stop());
     return;
   }
-  const Advice advised = advice(memory_, situation(), limits());
+  const Situation here = situation();
+  if (const auto way_out = escape(here)) {
+    motion_.push(turn(way_out->turn_rate, way_out->speed, *weight_ * insistence(1.0, manner_.yields)));
+    return;
+  }
+  const Advice advised = advice(memory_, here, limits());
   last_direction_ = advised.direction;
   const double weight = *weight_ * insistence(advised.urgency, manner_.yields);
   if (!advised.needed) {
@@ -226,6 +235,45 @@ std::string Avoider::why_deaf() {
         "; " + std::to_string(unmatched) +
         " objects were dropped there because no other port had one of the same moment: stamps do not meet";
   return text;
+}
+
+// Returns how a robot gets free that stands although it has somewhere to go. What it has met without seeing it is remembered.
+std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
+  if (!remembers() || !moved_at_) return std::nullopt;
+  if (!escape_) escape_.emplace(outline());
+  const bool has_somewhere_to_go =
+      situation.goal && situation.goal_distance > situation.goal_reach && !are_motors_held();
+  const auto goal = has_somewhere_to_go ? situation.goal : std::nullopt;
+  const auto steer = escape_->step({now(), pose_, twist_, goal, memory_.echoes(), floor_});
+  if (steer && steer->speed < 0.0 && escape_->has_just_begun()) feel_ahead();
+  return steer;
+}
+
+// Notes that something is at the robot's nose.
+void Avoider::feel_ahead() {
+  constexpr std::uint32_t kTouch = std::numeric_limits<std::uint32_t>::max();  // No sensor has that number.
+  constexpr int kPoints = 5;
+  const nav::Footprint body = outline();
+  EchoMemory::Limits kept = keep();
+  kept.sensor = kTouch;
+  for (int i = 0; i < 2 * kPoints; ++i) {  // Twice, which confirms them.
+    const double aside = 0.5 * (i % kPoints) - 1.0;
+    memory_.hear(body.is_circle() ? body.radius * direction(0.5 * aside)
+                                  : Vec2{body.half_length, aside * body.half_width},
+                 kept);
+  }
+}
+
+bool Avoider::are_motors_held() const {
+  const std::vector<idl::Alarm> alarms = kept_alarms();
+  return std::ranges::any_of(
+      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == "ESTOP" && alarm.active(); });
+}
+
+nav::Footprint Avoider::outline() const {
+  const std::optional<Rectangle> body = described_body();
+  return body ? nav::Footprint{body->half_length, body->half_width, radius()}
+              : nav::Footprint{.radius = radius()};
 }
 
 std::optional<Pose2> Avoider::pose() {

@@ -136,6 +136,7 @@ bool LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& r
   const double yaw = mount.yaw - turned_since(age);
   const Scan scan{readings.ranges(),      readings.min_range(),       readings.max_range(),
                   readings.angle_start(), readings.angle_increment(), {place.x, place.y, yaw}};
+  note_floor(scan);
   EchoMemory::Limits kept = keep();
   kept.sensor = number;
   kept.hidden = remembers_.hidden;

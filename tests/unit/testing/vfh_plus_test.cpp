@@ -64,9 +64,11 @@ struct Pioneer final : Partner {
   }
 
   // Stands at the origin, turned by `yaw` [rad], and returns what is advised.
-  ObjectPtr<idl::MotionCommand> stand(double yaw = 0.0) {
+  // @param turn_rate  [rad/s] that its odometry reports: one that stands still for a second backs off.
+  ObjectPtr<idl::MotionCommand> stand(double yaw = 0.0, double turn_rate = 0.0) {
     auto here = odometry.loan();
     here->steer_angle(yaw);
+    here->steering_velocity(turn_rate);
     here->stamp(to_time_value(now()));
     odometry.push(std::move(here));
     return motion.get_update_wait();
@@ -142,7 +144,7 @@ TEST_CASE("VfhPlus keeps to the side that it has chosen, however its laser tremb
       test.scan(wall(0.75 + random.normal(0.0, 0.01), -0.3 + random.normal(0.0, 0.05),
                      0.3 + random.normal(0.0, 0.05)));
       test.drive_to(5.0, 0.0);
-      directions.push_back(test.stand()->direction());
+      directions.push_back(test.stand(0.0, 0.02)->direction());
       test.sleep(100ms);
     }
   });

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "orca/avoidance/advice.hpp"
+#include "orca/avoidance/escape.hpp"
+#include "orca/avoidance/seen_floor.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
@@ -29,6 +31,8 @@ namespace orca::avoid {
 /// the odometry.
 ///
 /// A reading that says nothing valid counts as none: the robot stands until a valid one of that sender comes.
+///
+/// With odometry and a goal it also gets a robot free that has met something unseen, see Escape.
 ///
 /// A base at its port `robot` is asked how large the robot is and how often its sensor measures. The answer is not
 /// waited for, but until it comes the robot stands.
@@ -98,6 +102,10 @@ class Avoider : public Component {
   /// Returns how far the robot has turned [rad] in the `age` [s] before that frame.
   [[nodiscard]] double turned_since(double age) const { return twist_.turn_rate * age; }
   [[nodiscard]] EchoMemory::Limits keep() const;
+  /// Notes the floor that a scan shows, if it remembers.
+  void note_floor(const Scan& scan) {
+    if (moved_at_) floor_.note(scan, pose_ * scan.X_RS);
+  }
   /// Returns the rectangle that holds the robot, if the base has described one.
   [[nodiscard]] std::optional<Rectangle> described_body() const;
   /// Returns the time [s] without readings after which the robot stops, which is also the largest age of a reading.
@@ -130,6 +138,10 @@ class Avoider : public Component {
   Status learn_robot();
   bool follow(const idl::Odometry& odometry);
   void advise();
+  [[nodiscard]] std::optional<nav::Steer> escape(const Situation& situation);
+  void feel_ahead();
+  [[nodiscard]] bool are_motors_held() const;
+  [[nodiscard]] nav::Footprint outline() const;
   [[nodiscard]] Limits limits() const;
   [[nodiscard]] std::string why_deaf();
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
@@ -175,6 +187,8 @@ class Avoider : public Component {
   std::optional<TimePoint> heard_at_;
   double last_direction_ = 0.0;
   StandingWatch standing_{host()};
+  std::optional<Escape> escape_;
+  SeenFloor floor_;  // In the frame of the odometry.
 };
 
 }  // namespace orca::avoid
