@@ -234,3 +234,27 @@ TEST_CASE("the same run with Dwa, NdPlus or PotentialField has the same trace, w
     if (!kThreadSanitizer) CHECK(first == hash_on("fiber"));  // which it does not support
   }
 }
+
+TEST_CASE("the Pioneer's graph drives a robot with a laser at any rate of its odometry and its scans",
+          "[system][laser]") {
+  const std::string odometry = GENERATE(as<std::string>{}, "10 ms", "50 ms", "100 ms");
+  const std::string scan = GENERATE(as<std::string>{}, "30 ms", "181.8 ms", "1 s");
+  const TempFolder folder;
+  std::string robot = read_text(source_file("sim/robots/create2.urdf"));
+  for (const auto& [old, changed] :
+       {std::pair<std::string, std::string>{"<odometry period=\"30 ms\"",
+                                            "<odometry period=\"" + odometry + "\""},
+        {"period=\"181.8 ms\" sweep=\"181.3 ms\"", "period=\"" + scan + "\" sweep=\"" + scan + "\""}}) {
+    const std::size_t place = robot.find(old);
+    REQUIRE(place != std::string::npos);
+    robot.replace(place, old.size(), changed);
+  }
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--set",
+                                     "robot=" + folder.write("robot.urdf", robot), "--set",
+                                     "world=" + source_file("sim/worlds/hall.xml"), "--set", "place=west",
+                                     "--set", "goals=middle: 6 4.5", "--until", "60 s"} +
+                               virtual_clock());
+  INFO("odometry every " << odometry << ", scans every " << scan << "\n" << run.err);
+  CHECK(run.arrivals().size() == 1);
+  CHECK(run.contacts().empty());
+}
