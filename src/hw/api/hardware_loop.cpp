@@ -13,6 +13,7 @@ namespace orca::hw {
 namespace {
 
 constexpr Duration kExpiryReportPeriod = 10s;
+constexpr Duration kLate = 20ms;  // that a command may come late before it is reported that the base stands
 constexpr Duration kFirstPause =
     500ms;  // before a device that has failed is opened again; then twice as long each time
 constexpr Duration kLongestPause = 5s;
@@ -136,12 +137,17 @@ void HardwareLoop::apply_motion() {
   MotionHW& motion = *container_.motion();
   const std::uint64_t expired = motion.expired_count();
   life_.drive(motion.due(host_.now()));
-  if (motion.expired_count() != expired) report_expiry(motion);
+  if (motion.expired_count() != expired) expired_at_ = host_.now();
+  if (expired_at_) report_expiry(motion);
 }
 
-// Reports that the commands have ceased, now and then while that goes on happening.
+// Reports that the commands have ceased, now and then while that goes on happening. A command that comes as the last one grows too old, because
+// that is how often they come, has not ceased.
 void HardwareLoop::report_expiry(const MotionHW& motion) {
-  if (host_.now() < next_expiry_report_) return;
+  const bool goes_on = motion.expiry() != kForever;
+  if (!goes_on && host_.now() < *expired_at_ + kLate) return;
+  expired_at_.reset();
+  if (goes_on || host_.now() < next_expiry_report_) return;
   next_expiry_report_ = host_.now() + kExpiryReportPeriod;
   const auto age = std::chrono::duration_cast<std::chrono::milliseconds>(motion.max_command_age());
   host_.write_log(log::Level::warning,
@@ -175,7 +181,9 @@ TimePoint HardwareLoop::next_turn() const {
   if (!works()) return std::max(next, host_.now() + kInputPeriod);  // input wakes it before
   next = std::min(next, silence_ends());
   const bool moves = life_.state() == HardwareState::active && container_.motion() != nullptr;
-  return moves ? std::min(next, container_.motion()->expiry()) : next;
+  if (!moves) return next;
+  if (expired_at_) next = std::min(next, *expired_at_ + kLate);
+  return std::min(next, container_.motion()->expiry());
 }
 
 }  // namespace orca::hw

@@ -70,6 +70,7 @@ class HardwareLoop {
   std::optional<TimePoint> retry_at_;
   TimePoint next_expiry_report_{};
   std::optional<std::string> told_hold_;  // as it was reported
+  std::optional<TimePoint> expired_at_;   // a command, and none has come since
   std::atomic<int> users_{0};
   std::atomic<bool> shutting_down_{false};
 };
