@@ -8,6 +8,7 @@
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using Catch::Contains;
 
 namespace {
 
@@ -252,4 +253,59 @@ TEST_CASE(
   const std::string said = line_with("the static initialisation smokes", run);
   CHECK(said.find("one_component.xml:8:") != std::string::npos);
   CHECK(said.find("test_static_thrower.so") != std::string::npos);
+}
+
+namespace {
+
+// Checks or runs a graph of twenty components of a plugin that does not go well for ever.
+Run with_twenty(const std::string& plugin, const std::string& params, const Words& words) {
+  const TempFolder folder;
+  std::string graph = "<graph name=\"tired\" version=\"1\" plugins=\"" ORCA_BINARY_DIR
+                      "/tests/tired_plugins/" +
+                      plugin + "\">\n";
+  for (int i = 0; i < 20; ++i)
+    graph += "<component name=\"c" + std::to_string(i) + "\" type=\"test.Tired\" autonomous=\"true\">" +
+             params + "</component>\n";
+  return run_deployer(Words{folder.write("tired.xml", graph + "</graph>\n")} + words, Seconds(30));
+}
+
+}  // namespace
+
+TEST_CASE("a destructor that crashes the second time is an error of its plugin, and not the end of the check",
+          "[system][plugins]") {
+  const Run run = with_twenty("test_tired_soon", "", {"--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK_THAT(run.err, Contains("test_tired_soon.so") &&
+                          Contains("the constructor or destructor of test.Tired ended the process with"));
+}
+
+TEST_CASE("a destructor that crashes later ends the check with the names of its type and its plugin",
+          "[system][plugins]") {
+  const Run run = with_twenty("test_tired_later", "", {"--check"});
+  INFO(run.err);
+  CHECK_THAT(run.err, Contains("test.Tired: its destructor ended the process with the signal SIGSEGV") &&
+                          Contains("the plugin is ") && Contains("test_tired_later.so"));
+}
+
+TEST_CASE("a constructor that hangs while a graph is checked ends the check with its name after 10 s",
+          "[system][plugins]") {
+  const Run run = with_twenty("test_tired_late", "", {"--check"});
+  INFO(run.err);
+  CHECK(run.ended);
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(run.err, Contains("test.Tired: its constructor has not returned within 10 s") &&
+                          Contains("test_tired_late.so"));
+}
+
+TEST_CASE("a destructor that hangs at the end of a run ends the run with its name after 10 s",
+          "[system][plugins]") {
+  for (const Words& way : {virtual_clock(), Words{}}) {
+    const Run run =
+        with_twenty("test_tired", "<param name=\"rests\" value=\"true\"/>", way + Words{"--until", "1s"});
+    INFO(run.err);
+    CHECK(run.ended);
+    CHECK(run.exit_code() == 1);
+    CHECK_THAT(run.err, Contains("its destructor has not returned within 10 s") && Contains("test_tired.so"));
+  }
 }

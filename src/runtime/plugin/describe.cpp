@@ -13,6 +13,7 @@
 #include "orca/component/component.hpp"
 #include "orca/hw/container.hpp"
 #include "orca/hw/seat.hpp"
+#include "orca/plugin/code_limit.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -22,9 +23,11 @@ Error cannot_describe(const std::string& type, const std::string& what) {
 }
 
 // Runs a plugin's code. An exception becomes an error, with its text copied before the plugin is unloaded.
+// @param code  an address in the plugin.
 template <class Run>
-auto guarded(const std::string& type, Hook hook, Run&& run) -> decltype(run()) {
-  const Activity activity(type.c_str(), hook, nullptr);
+auto guarded(const std::string& type, Hook hook, const void* code, Run&& run) -> decltype(run()) {
+  const CodeLimit limit;
+  const Activity activity(type.c_str(), hook, code);
   try {
     return run();
   } catch (...) {
@@ -114,14 +117,16 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
  public:
   HardwareDescriber(const TypeEntry& type, const std::string& library, const std::string& name)
       : Describer(PluginKind::hardware, type, library, name),
-        destroy_(type.destroy),
+        entry_(type),
         container_(static_cast<hw::HardwareContainer*>(type.create(*this))),
         seat_(*container_) {
     unlock_params();
   }
   ~HardwareDescriber() override {
+    const CodeLimit limit;
+    const Activity activity(contract_.type.c_str(), Hook::destructor, &entry_);
     try {
-      destroy_(container_);
+      entry_.destroy(container_);
     } catch (...) {
       write_log(log::Level::error, "its destructor " + describe_current_exception());
     }
@@ -151,11 +156,11 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
   // Calls the driver. What it throws becomes a fault.
   Faults faults_of(const std::function<Faults()>& ask) const {
     const Result<Faults> faults =
-        guarded(contract_.type, Hook::prepare, [&]() -> Result<Faults> { return ask(); });
+        guarded(contract_.type, Hook::prepare, &entry_, [&]() -> Result<Faults> { return ask(); });
     return faults ? *faults : Faults{{"", faults.error().text()}};
   }
 
-  void (*destroy_)(void*);
+  const TypeEntry& entry_;
   hw::HardwareContainer* container_;
   hw::HardwareSeat seat_;
 };
@@ -165,7 +170,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
 Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& type,
                                                              const std::string& library,
                                                              const std::string& name) {
-  return guarded(type.type, Hook::constructor, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
+  return guarded(type.type, Hook::constructor, &type, [&]() -> Result<std::unique_ptr<DescribedHardware>> {
     std::unique_ptr<DescribedHardware> described = std::make_unique<HardwareDescriber>(type, library, name);
     if (const Status sound = check_declared(described->contract()); !sound.ok()) return sound.error();
     return described;
@@ -174,11 +179,14 @@ Result<std::unique_ptr<DescribedHardware>> describe_hardware(const TypeEntry& ty
 
 Result<Contract> describe_component(const TypeEntry& type, const std::string& library,
                                     hw::HardwareSeat* hardware) {
-  return guarded(type.type, Hook::constructor, [&]() -> Result<Contract> {
+  return guarded(type.type, Hook::constructor, &type, [&]() -> Result<Contract> {
     ComponentDescriber describer(type, library, hardware);
     void* const component = type.create(describer);
     describer.unlock_params();
-    type.destroy(component);
+    {
+      const Activity activity(type.type, Hook::destructor, &type);
+      type.destroy(component);
+    }
     if (const Status sound = check_declared(describer.contract_); !sound.ok()) return sound.error();
     return describer.contract_;
   });

@@ -22,6 +22,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
+#include "orca/plugin/code_limit.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/trial.hpp"
 #include "shared_settings.hpp"
@@ -32,6 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Duration kTrialLimit = 5s;
+constexpr int kTrialRounds = 3;  // what goes well once need not go well again
 
 Error refuse(const std::string& path, const std::string& what) {
   return fail(Code::invalid_argument, what, path);
@@ -55,7 +57,9 @@ void load_and_describe(const std::string& path, const std::function<void(const s
   void* const handle = try_open(path.c_str());
   if (handle == nullptr) return;
   const Manifest& manifest = *manifest_of(handle);
-  for (const TypeEntry* const* type = manifest.first_type; type != manifest.end_of_types; ++type) {
+  const std::size_t count = static_cast<std::size_t>(manifest.end_of_types - manifest.first_type);
+  for (std::size_t i = 0; i < kTrialRounds * count; ++i) {
+    const TypeEntry* const* const type = manifest.first_type + i % count;
     step("the constructor or destructor of " + std::string((*type)->type));
     if ((*type)->kind == PluginKind::component) {
       (void)describe_component(**type, path, nullptr);
@@ -159,6 +163,7 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image, Tr
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source) {
   const SharedSettings settings;
+  const CodeLimit limit;
   errno = 0;
   void* const handle = dlopen(source.file.c_str(), RTLD_NOW | RTLD_LOCAL);
   const int reason = errno;
@@ -207,7 +212,8 @@ std::string PluginLibrary::unload() {
            "threads when it is destroyed";
   entry_.reset();
   {
-    const Activity activity(path_.c_str(), Hook::unload, nullptr);
+    const CodeLimit limit;
+    const Activity activity(path_.c_str(), Hook::unload, manifest_);
     dlclose(handle_);
   }
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;

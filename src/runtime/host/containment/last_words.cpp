@@ -28,6 +28,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/plugin/code_limit.hpp"
 #include "orca/plugin/loaded_plugins.hpp"
 
 namespace orca::host {
@@ -36,6 +37,7 @@ namespace {
 constexpr std::array kSignals{SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
 constexpr std::uintptr_t kNearStack = 64 * 1024;
 constexpr long kHungLimitNs = 200'000'000;
+constexpr Duration kCodeLimit = 10s;
 
 std::atomic<bool> g_armed{false};
 std::atomic<bool> g_said{false};
@@ -168,8 +170,8 @@ void on_signal(int signal, siginfo_t* info, void* context) {
   if (info->si_code <= 0) raise(signal);
 }
 
-// What end_hung() says. Only its own signal reads it.
-const char* g_hung_said = "";
+// What is said of a thread that hangs: at the limit of a plugin::CodeLimit, or by end_hung(). Only its own signal reads it.
+const char* g_hung_said = "has not returned within 10 s; the process is ended without it";
 int g_hung_status = EXIT_FAILURE;
 
 // Runs on the thread that hangs, because only that thread knows what it is doing.
@@ -238,6 +240,13 @@ void after_fork_in_copy() {
     _exit(1);  // otherwise it is a copy made by Orca itself
 }
 
+void handle_hung() {
+  struct sigaction action {};
+  action.sa_sigaction = on_hung;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
+  sigaction(SIGRTMAX, &action, nullptr);
+}
+
 void register_once() {
   static const bool registered = [] {
     LastWords::catch_exit();
@@ -291,6 +300,9 @@ LastWords::LastWords(int exit_status, int exhausted_status) {
   action.sa_sigaction = on_signal;
   action.sa_flags = SA_SIGINFO | SA_ONSTACK;
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &action, &g_before[i]);
+  handle_hung();
+  g_hung_status = exit_status;
+  plugin::CodeLimit::enforce(SIGRTMAX, kCodeLimit);
   g_terminate_before = std::set_terminate(on_terminate);
   g_armed.store(true);
 }
@@ -331,10 +343,7 @@ void LastWords::say_and_end(const std::string& line) {
 void LastWords::end_hung(pthread_t thread, const char* said, int exit_status) {
   g_hung_said = said;
   g_hung_status = exit_status;
-  struct sigaction action {};
-  action.sa_sigaction = on_hung;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK;
-  sigaction(SIGRTMAX, &action, nullptr);
+  handle_hung();
   pthread_kill(thread, SIGRTMAX);
   const timespec moment{0, kHungLimitNs};
   nanosleep(&moment, nullptr);

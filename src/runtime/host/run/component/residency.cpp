@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "orca/plugin/code_limit.hpp"
+
 namespace orca::host {
 
 Residency::Residency(ComponentParts& parts, Loader loader, Unloader unloader)
@@ -59,6 +61,7 @@ void Residency::unload() {
 }
 
 void Residency::destroy() {
+  const plugin::CodeLimit limit;
   stop_left_over();
   parts_.ports.unbind();  // handlers are the component's code
   const TypeEntry* const entry = resident_.type.entry;

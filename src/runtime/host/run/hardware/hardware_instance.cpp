@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/plugin/code_limit.hpp"
 
 namespace orca::host {
 
@@ -11,6 +12,7 @@ HardwareInstance::HardwareInstance(RunContext& run, std::string name, LoadedType
     : run_(run), name_(std::move(name)), type_(std::move(type)) {}
 
 HardwareInstance::~HardwareInstance() {
+  const plugin::CodeLimit limit;
   if (const auto fault = guarded_call({name_.c_str(), Hook::destructor, type_.entry},
                                       [this] { type_.entry->destroy(container_); })) {
     const std::string text = to_string(Hook::destructor) + (" " + fault->text);

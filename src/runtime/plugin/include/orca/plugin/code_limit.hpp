@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <ctime>
+#include <optional>
+
+#include "orca/base/time.hpp"
+
+namespace orca::plugin {
+
+/// A limit on the time for which a plugin's code may keep the main thread of the program where nothing else can end it: while a
+/// graph is checked, and when all is destroyed. At the limit the thread gets a signal, whose handler is to say what
+/// hangs and to end the program.
+///
+/// Thread contract: made and destroyed by one thread. On other threads than the main one, in copies of the process and before
+/// enforce() it does nothing.
+class CodeLimit {
+ public:
+  CodeLimit();
+  ~CodeLimit();
+  CodeLimit(const CodeLimit&) = delete;
+  CodeLimit& operator=(const CodeLimit&) = delete;
+
+  /// Lets all later objects send the signal after the limit [s].
+  /// @thread  the main one.
+  static void enforce(int signal, Duration limit);
+
+ private:
+  std::optional<timer_t> timer_;
+};
+
+}  // namespace orca::plugin
