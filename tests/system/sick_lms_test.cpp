@@ -272,6 +272,26 @@ TEST_CASE("a laser that is unplugged while it scans comes back", "[system][hardw
   CHECK_FALSE(sends(laser));
 }
 
+TEST_CASE("a byte log of a laser whose rate was changed is played back", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("lms");
+  const std::string log = folder.file("bytes");
+  {
+    Laser laser(device, at_once());
+    show_place(laser);
+    const Run run =
+        run_deployer(listen(device, {"--until", "6 s", "--set", "lms.byte_log=" + log}), Seconds(60));
+    INFO(run.err);
+    CHECK(run.says("at 500000 baud"));
+  }
+  const Run run = run_deployer(listen("replay:" + log, recorded(folder, {"--until", "5 s"})), Seconds(60));
+  INFO(run.err);
+  CHECK(run.says("connected to \"LMS200;30106;V02.30\" at 500000 baud"));
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 5);
+  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
+}
+
 TEST_CASE("a laser whose power was interrupted while it scans is found again and set again",
           "[system][hardware]") {
   const TempFolder folder;

@@ -74,9 +74,10 @@ void LoggedLink::discard_output() {
 }
 
 Status LoggedLink::set_line(const Line& line) {
-  log_->remark("line: " + std::to_string(line.baud) +
+  Status set = link_->set_line(line);
+  log_->remark((set.ok() ? "line: " : "no line: ") + std::to_string(line.baud) +
                (line.parity == Parity::even ? " baud 8E1" : " baud 8N1"));
-  return link_->set_line(line);
+  return set;
 }
 
 Status LoggedLink::set_dtr(bool raised) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdio>
 
 #include "orca/base/input_file.hpp"
@@ -40,6 +41,7 @@ Result<Opening> ReplayLink::open() {
   start_ = options_.now();
   read_ = 0;
   written_.clear();
+  agrees_ = true;
   return Opening::done;
 }
 
@@ -60,15 +62,41 @@ Status ReplayLink::load() {
     session.length = record.time - begin;
     if (record.kind == ByteRecord::Kind::in) {
       session.in.insert(session.in.end(), record.bytes.begin(), record.bytes.end());
-      session.pieces.push_back({session.length, session.in.size()});
+      session.pieces.push_back({session.length, session.in.size(), session.out.size()});
     } else if (record.kind == ByteRecord::Kind::out) {
       session.out.insert(session.out.end(), record.bytes.begin(), record.bytes.end());
     } else if (record.kind == ByteRecord::Kind::gone) {
       session.ending = record.text;
     }
   }
+  find_rates(*text);
   loaded_ = true;
   return ok();
+}
+
+// A logged link remarks each rate that its line was set to.
+void ReplayLink::find_rates(std::string_view text) {
+  constexpr std::string_view kRemark = "\n# line: ";
+  for (std::size_t at = text.find(kRemark); at != std::string_view::npos; at = text.find(kRemark, at)) {
+    at += kRemark.size();
+    std::uint32_t baud = 0;
+    if (std::from_chars(text.data() + at, text.data() + text.size(), baud).ec == std::errc())
+      rates_.insert(baud);
+  }
+  rates_.erase(0);
+}
+
+Status ReplayLink::set_line(const Line& line) {
+  if (!rates_.empty() && !rates_.contains(line.baud))
+    return fail(Code::invalid_argument,
+                "the recorded line was not set to " + std::to_string(line.baud) + " baud", name());
+  line_ = line;
+  return ok();
+}
+
+double ReplayLink::byte_time() const {
+  const double bits = line_.parity == Parity::none ? 10.0 : 11.0;
+  return rates_.empty() ? 0.0 : bits / line_.baud;
 }
 
 void ReplayLink::close() { open_ = false; }
@@ -86,10 +114,19 @@ Result<std::size_t> ReplayLink::read(std::span<std::uint8_t> into) {
 
 // Returns where in the session's input what has come by now ends.
 std::size_t ReplayLink::due() const {
-  const Duration age = options_.now() - start_;
   const auto& pieces = session().pieces;
-  const auto later = std::ranges::upper_bound(pieces, age, {}, &Piece::time);
-  return later == pieces.begin() ? 0 : std::prev(later)->end;
+  const auto first = std::ranges::lower_bound(pieces, read_ + 1, {}, &Piece::end);
+  const auto later =
+      std::find_if_not(first, pieces.end(), [this](const Piece& piece) { return is_due(piece); });
+  return later == first ? read_ : std::prev(later)->end;
+}
+
+// A driver that writes something else, or nothing, is not waited for.
+bool ReplayLink::is_due(const Piece& piece) const {
+  const Duration late = options_.now() - start_ - piece.time;
+  if (late < Duration{0}) return false;
+  const bool follows = !written_.empty() && agrees_;
+  return !follows || written_.size() >= piece.behind || late > kMostLag;
 }
 
 Status ReplayLink::check_open() const {
@@ -102,6 +139,10 @@ Status ReplayLink::write(std::span<const std::uint8_t> bytes) {
   if (Status open = check_open(); !open.ok()) return open;
   if (Status fits = check_size(*this, bytes.size()); !fits.ok()) return fits;
   if (written_.size() + bytes.size() > kMostWritten) return takes_no_more(*this, written_.size());
+  const auto& recorded = session().out;
+  const std::size_t at = written_.size();
+  agrees_ = agrees_ && at + bytes.size() <= recorded.size() &&
+            std::equal(bytes.begin(), bytes.end(), recorded.begin() + static_cast<std::ptrdiff_t>(at));
   written_.insert(written_.end(), bytes.begin(), bytes.end());
   return ok();
 }

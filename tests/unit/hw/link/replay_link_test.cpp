@@ -87,6 +87,51 @@ TEST_CASE("a recording ends as the device did, and the next opening plays the ne
   CHECK_THAT(third.error().message, Contains("2 sessions"));
 }
 
+TEST_CASE("a recording of a line that had rates has those, and no others", "[hw][link][replay]") {
+  Replay with(
+      "# orca byte log 1\n"
+      "5.000000 open\n"
+      "# line: 9600 baud 8N1\n"
+      "# no line: 500000 baud 8N1\n"
+      "5.100000 in   0a\n"
+      "# line: 38400 baud 8N1\n"
+      "6.000000 close\n");
+  must_open(with.link);
+  CHECK(with.link.set_line({.baud = 9600}).ok());
+  CHECK(with.link.byte_time() == Approx(10.0 / 9600));
+  CHECK(with.link.set_line({.baud = 500000}).error().code == Code::invalid_argument);
+  CHECK(with.link.set_line({.baud = 38400}).ok());
+  CHECK(with.link.byte_time() == Approx(10.0 / 38400));
+  Replay without(kTwoSessions);
+  must_open(without.link);
+  CHECK(without.link.set_line({.baud = 500000}).ok());
+  CHECK(without.link.byte_time() == 0.0);
+}
+
+TEST_CASE("an answer of a recording does not come before its request, if that is a little late",
+          "[hw][link][replay]") {
+  Replay replay(
+      "# orca byte log 1\n"
+      "5.000000 open\n"
+      "5.010000 out  01\n"
+      "5.020000 in   0a\n"
+      "5.030000 out  02\n"
+      "5.040000 in   0b\n"
+      "9.000000 close\n");
+  must_open(replay.link);
+  replay.time += 10ms;
+  must_write(replay.link, {1});
+  replay.time += 10ms;
+  CHECK(read_some(replay.link) == Bytes{0x0a});
+  replay.time += 100ms;
+  CHECK(read_some(replay.link).empty());
+  const bool asks = GENERATE(true, false);
+  if (asks) must_write(replay.link, {2});
+  CHECK(read_some(replay.link).empty() != asks);
+  replay.time += ReplayLink::kMostLag;
+  CHECK(read_some(replay.link).empty() == asks);
+}
+
 TEST_CASE("what is written to a recording is compared with what was recorded", "[hw][link][replay]") {
   Replay replay(kTwoSessions);
   CHECK(replay.link.comparison().recorded == 0);

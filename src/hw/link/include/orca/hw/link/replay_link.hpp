@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/hw/link/byte_link.hpp"
@@ -26,15 +28,17 @@ struct ReplayComparison {
   [[nodiscard]] bool agrees() const { return equal == written; }
 };
 
-/// A recording that plays the device: what it sent then comes again, at the same times after open(). What is written has
-/// no effect on it and is compared.
+/// A recording that plays the device: what it sent then comes again, at the same times after open(). What is written is compared. As
+/// long as it is what was recorded, an answer does not come before its request, which may be up to kMostLag late.
 ///
 /// Each open() plays the next session of the recording. When a session is over, read() and write() give unavailable with
-/// the recorded reason, if there is one.
+/// the recorded reason, if there is one. A recording of a line that had rates has those, and no others.
 ///
 /// Thread contract: one strand.
 class ReplayLink final : public ByteLink {
  public:
+  static constexpr Duration kMostLag = 500ms;  ///< [s] of a request behind the recorded one.
+
   explicit ReplayLink(ReplayOptions options);
   ~ReplayLink() override;
 
@@ -50,6 +54,9 @@ class ReplayLink final : public ByteLink {
   void discard_output() override {}
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] std::string name() const override { return "replay:" + options_.file; }
+  /// @errors  invalid_argument for a rate that the recorded line did not have.
+  [[nodiscard]] Status set_line(const Line& line) override;
+  [[nodiscard]] double byte_time() const override;
 
   /// Compares what has been written since open() with the recording, also after close().
   [[nodiscard]] ReplayComparison comparison() const;
@@ -58,8 +65,9 @@ class ReplayLink final : public ByteLink {
 
  private:
   struct Piece {
-    Duration time{};      // after open()
-    std::size_t end = 0;  // in Session::in
+    Duration time{};         // after open()
+    std::size_t end = 0;     // in Session::in
+    std::size_t behind = 0;  // [bytes] that had been written before
   };
   struct Session {
     std::vector<Piece> pieces;
@@ -70,18 +78,23 @@ class ReplayLink final : public ByteLink {
   };
 
   [[nodiscard]] Status load();
+  void find_rates(std::string_view text);
   [[nodiscard]] const Session& session() const { return sessions_[played_ - 1]; }
   [[nodiscard]] std::size_t due() const;
+  [[nodiscard]] bool is_due(const Piece& piece) const;
   [[nodiscard]] Status check_open() const;
 
   const ReplayOptions options_;
   std::vector<Session> sessions_;
+  std::set<std::uint32_t> rates_;  // [baud] that were set; empty: it was no line with a rate
+  Line line_;
   bool loaded_ = false;
   std::size_t played_ = 0;  // sessions, with the one that is played now
   bool open_ = false;
   TimePoint start_;
   std::size_t read_ = 0;  // [bytes] of this session
   std::vector<std::uint8_t> written_;
+  bool agrees_ = true;  // what was written, with the recording
 };
 
 }  // namespace orca::hw::link
