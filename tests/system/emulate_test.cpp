@@ -70,6 +70,14 @@ AtRest compared(const std::string& file) {
           std::abs(std::remainder(number(odometry.back(), "steer_angle") - yaw, 2.0 * std::numbers::pi))};
 }
 
+// Each device says who made it, which driver of which plugin drives it, and where it is connected.
+void check_description(const Run& asked) {
+  CHECK(asked.exit_code() == 0);
+  CHECK_THAT(asked.out, Catch::Contains("<drives"));
+  for (const char* const nothing : {"library=\"\"", "driver=\"\"", "port=\"\"", "vendor=\"\"", "model=\"\""})
+    CHECK_THAT(asked.out, !Catch::Contains(nothing));
+}
+
 // Returns the last scan of a robot that stands at its start in an ideal world.
 RecordTable::Row scan_at_start(const std::string& graph, const Words& more, const TempFolder& folder) {
   const std::string file = folder.file("scans.csv");
@@ -238,6 +246,7 @@ TEST_CASE("odometry that went over the line is that of the world, as finely as t
     std::this_thread::sleep_for(7s);
     CHECK(run_orcactl({"estop"}).exit_code() == 0);
     std::this_thread::sleep_for(2s);
+    check_description(run_orcactl({"query", "base.RobotQuery", "<Ask/>"}));
     program.send(SIGINT);
     const Run run = finish(program, Seconds(20));
     INFO(run.err);

@@ -53,7 +53,32 @@ Error not_there(const idl::Robot& robot, const std::string& about) {
                   listed(names));
 }
 
+// Returns the text, or another one if it is empty.
+const std::string& either(const std::string& text, const std::string& otherwise) {
+  return text.empty() ? otherwise : text;
+}
+
+template <class Device>
+void complete_all(std::vector<Device>& devices, const idl::Robot& robot, const DriverOrigin& origin) {
+  for (Device& device : devices) {
+    device.library(either(device.library(), origin.library));
+    device.driver(either(device.driver(), origin.driver));
+    device.port(either(device.port(), origin.line));
+    device.vendor(either(device.vendor(), robot.vendor()));
+    device.model(either(device.model(), robot.model()));
+  }
+}
+
 }  // namespace
+
+void complete(idl::Robot& robot, const DriverOrigin& origin) {
+  robot.library(either(robot.library(), origin.library));
+  complete_all(robot.drives(), robot, origin);
+  complete_all(robot.actuators(), robot, origin);
+  complete_all(robot.sonar_rings(), robot, origin);
+  complete_all(robot.laser_sensors(), robot, origin);
+  complete_all(robot.sensors(), robot, origin);
+}
 
 Result<Loan<idl::Robot>> part_of(const idl::Robot& robot, const std::string& about) {
   Loan<idl::Robot> part = make_object<idl::Robot>(robot);

@@ -92,3 +92,21 @@ TEST_CASE("a device that the robot does not have is refused with those that it h
   CHECK_THAT(part.error().message,
              Contains("\"lasre\"") && Contains("drive, gripper, sonar, front, back, bumper"));
 }
+
+TEST_CASE("what a driver leaves empty in its description is filled in with where it comes from", "[hw]") {
+  idl::Robot robot = pioneer();
+  robot.vendor("ActivMedia");
+  robot.model("Pioneer 2-DX");
+  robot.laser_sensors()[0].vendor("SICK");
+  robot.laser_sensors()[0].port("/dev/ttyS1");
+  orca::hw::complete(robot, {"p2os.so", "orca.hw.P2os", "/dev/ttyUSB0"});
+  CHECK(robot.library() == "p2os.so");
+  CHECK(robot.drives()[0].library() == "p2os.so");
+  CHECK(robot.drives()[0].driver() == "orca.hw.P2os");
+  CHECK(robot.actuators()[0].port() == "/dev/ttyUSB0");
+  CHECK(robot.sonar_rings()[0].vendor() == "ActivMedia");
+  CHECK(robot.sensors()[0].model() == "Pioneer 2-DX");
+  CHECK(robot.laser_sensors()[0].vendor() == "SICK");
+  CHECK(robot.laser_sensors()[0].port() == "/dev/ttyS1");
+  CHECK(robot.laser_sensors()[1].driver() == "orca.hw.P2os");
+}

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hardware_instance.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/hw/description.hpp"
 #include "orca/plugin/code_limit.hpp"
 
 namespace orca::host {
@@ -37,6 +39,8 @@ Status HardwareInstance::construct(const std::map<std::string, ParamValue>& para
     }
     if (!errors.empty()) return;
     description_ = container_->description();
+    hw::complete(description_, {std::filesystem::path(type_.file()).filename(), type_.entry->type,
+                                container_->line_name()});
     robot_ = find_robot();
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, name_);
