@@ -59,6 +59,7 @@ Result<SharedMemory> SharedMemory::map(int descriptor) {
   void* const place = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   if (place == MAP_FAILED)
     return system_error(Code::unavailable, "cannot map " + std::to_string(size) + " bytes of shared memory");
+  madvise(place, size, MADV_DONTFORK);  // what a copy of the process tries out must not reach other processes
   return SharedMemory({static_cast<std::byte*>(place), size});
 }
 

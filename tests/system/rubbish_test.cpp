@@ -193,6 +193,17 @@ void bombard(int rounds, int packets) {
   if (!outages.empty()) print("packets to objects again", outages);
 }
 
+// A flow beside which a component in a process of its own writes into the memory that all share, all the time.
+std::string flow_beside_scribbler() {
+  std::string text = read_text(system_graph("flow.xml"));
+  text.insert(text.find("<component"), "<process name=\"bad\"/>");
+  const std::string bad =
+      "<component name=\"bad\" type=\"test.Hooligan\" process=\"bad\" autonomous=\"true\">"
+      "<param name=\"where\" value=\"work\"/><param name=\"deed\" value=\"scribble\"/></component>";
+  text.insert(text.rfind("<connect from=\"source"), bad);
+  return text;
+}
+
 }  // namespace
 
 TEST_CASE("bad packets for one process of DDS harm no other", "[system][dds]") { bombard(3, 300); }
@@ -220,6 +231,31 @@ TEST_CASE(
   const Run run = stop(system);
   CHECK_FALSE(run.says("SIGSEGV"));
   CHECK_FALSE(run.says("GAVE_UP"));
+}
+
+TEST_CASE(
+    "a component that writes into the memory that processes share hides no hang of another one, and can be "
+    "started again",
+    "[system]") {
+  const TempFolder folder;
+  System system(Words{folder.write("flow.xml", flow_beside_scribbler())} + with_test_plugins());
+  system.when("flow ", 0, Seconds(10));
+  for (const std::string lost : {"sink", "relay"}) {
+    const pid_t process = system.process(lost);
+    const std::size_t mark = system.mark();
+    REQUIRE(kill(process, SIGSTOP) == 0);
+    system.when("process " + lost + " hung and was killed", mark);
+    system.flows_without(process, mark);
+  }
+  const pid_t bad = system.process("bad");
+  const std::size_t mark = system.mark();
+  CHECK(run_orcactl({"restart", "bad"}, Seconds(10)).exit_code() == 0);
+  CHECK(system.process("bad", bad) != bad);
+  CHECK(run_orcactl({"echo", "sink.in", "--count", "100"}, Seconds(5)).exit_code() == 0);
+  const Run run = stop(system);
+  CHECK(run.err.find("hung and was killed", mark) == std::string::npos);
+  CHECK_FALSE(run.says("GAVE_UP"));
+  CHECK_FALSE(run.says("SIGSEGV"));
 }
 
 TEST_CASE("a system does not give up because its network code is made to crash again and again",

@@ -17,9 +17,11 @@ namespace orca::detail {
 namespace {
 
 // Only the waiter sets kAsleep, and only the waiter leaves it at a timeout. Any other way out is a notification,
-// so none is lost. Whatever else another process may write counts as a notification, too; it wakes nobody, and may take the place
-// of one. So a word of several processes counts as rung after kLongestTrust.
-enum State : std::uint32_t { kIdle, kNotified, kAsleep };
+// so none is lost. Another process may write anything else into the word by mistake. That counts as a notification as well, and who
+// rings next finds a word that may have been kAsleep, and wakes. So a sleeper misses a ring only if what was written happens to be
+// kIdle or kNotified, which is why these are numbers that nobody writes by chance; zero is the word of nobody yet. Against the worst
+// case a word of several processes counts as rung after kLongestTrust.
+enum State : std::uint32_t { kIdle = 0x9c3b71d5, kNotified = 0x5ae40e8b, kAsleep = 0xc6d1a93e };
 
 constexpr int kChecksPerClockReading = 32;
 constexpr int kAllProcesses = 0;
@@ -40,8 +42,8 @@ void futex(DoorbellWord& word, int operation, std::uint32_t value, const timespe
 // The waiter may destroy the event, and with it a word of its own, as soon as it sees the flag. The wake-up then
 // goes to an address where no thread sleeps, or where a later sleeper checks its own word again.
 void notify_word(DoorbellWord& word, int scope) {
-  if (word.exchange(kNotified, std::memory_order_acq_rel) == kAsleep)
-    futex(word, FUTEX_WAKE | scope, 1, nullptr);
+  const std::uint32_t before = word.exchange(kNotified, std::memory_order_acq_rel);
+  if (before != kIdle && before != kNotified) futex(word, FUTEX_WAKE | scope, 1, nullptr);
 }
 
 timespec to_timespec(TimePoint time) {
@@ -61,7 +63,8 @@ void sleep_once(DoorbellWord& word, int scope, TimePoint deadline) {
 }  // namespace
 
 FutexEvent::FutexEvent(Duration spin_limit, DoorbellWord* doorbell)
-    : state_(doorbell != nullptr ? *doorbell : own_),
+    : own_(kIdle),
+      state_(doorbell != nullptr ? *doorbell : own_),
       scope_(doorbell != nullptr ? kAllProcesses : FUTEX_PRIVATE_FLAG),
       spin_limit_(spin_limit),
       spin_(spin_limit) {}

@@ -34,7 +34,7 @@ class FutexEvent final : public Event {
   bool spin(TimePoint until);
   bool sleep(TimePoint deadline);
 
-  DoorbellWord own_{0};
+  DoorbellWord own_;
   DoorbellWord& state_;
   const int scope_;  // of the futex: this process, or all
   const Duration spin_limit_;

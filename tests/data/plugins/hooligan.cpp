@@ -6,14 +6,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <clocale>
 #include <cstddef>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -103,6 +108,22 @@ void take_memory() {
   taken.push_back(std::make_unique<char[]>(1 << 20));
 }
 
+// Writes another byte each time into all memory that the processes of the system share and that this process may write.
+void scribble() {
+  static std::vector<std::span<char>> places;
+  static char byte = 0;
+  std::ifstream maps("/proc/self/maps");
+  for (std::string line; places.empty() && std::getline(maps, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    char rights[8] = {};
+    if (line.find("/memfd:orca-run") == std::string::npos) continue;
+    if (std::sscanf(line.c_str(), "%lx-%lx %7s", &begin, &end, rights) == 3 && rights[1] == 'w')
+      places.emplace_back(reinterpret_cast<char*>(begin), end - begin);
+  }
+  --byte;
+  for (const std::span<char> place : places) std::ranges::fill(place, byte);
+}
+
 using Deeds = std::map<std::string, std::function<void()>>;
 
 const Deeds& deeds() {
@@ -133,6 +154,7 @@ const Deeds& deeds() {
       {"quick_exit", [] { std::quick_exit(0); }},
       {"rounding", [] { std::fesetround(FE_UPWARD); }},
       {"redirect", steal_output},
+      {"scribble", scribble},
       {"segfault", [] { *g_nowhere = 1; }},
       {"sleep", [] { ::sleep(10); }},
       {"stack", [] { g_zero = use_stack(1'200'000); }},

@@ -2,7 +2,9 @@
 #include "orca/base/shared_memory.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -76,4 +78,22 @@ TEST_CASE("what could shrink is not mapped", "[base][shared_memory]") {
   close(ends[1]);
   CHECK(refused(ends[0]));
   CHECK(refused(-1));
+}
+
+TEST_CASE("a copy of the process, in which code is tried out, cannot reach shared memory",
+          "[base][shared_memory]") {
+  const auto file = MemoryFile::create("test", 4096);
+  REQUIRE(file);
+  const auto memory = SharedMemory::map(file->descriptor());
+  REQUIRE(memory);
+  const pid_t copy = fork();
+  if (copy == 0) {
+    signal(SIGSEGV, SIG_DFL);
+    *static_cast<volatile std::byte*>(memory->bytes().data()) = std::byte{1};
+    _exit(0);
+  }
+  int status = 0;
+  REQUIRE(waitpid(copy, &status, 0) == copy);
+  CHECK_FALSE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+  CHECK(memory->bytes()[0] == std::byte{0});
 }

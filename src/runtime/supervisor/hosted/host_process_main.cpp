@@ -135,6 +135,7 @@ class Life {
     if (place == setup.processes.end())
       return fail(Code::data_loss, "the run page has no place for process " + setup.process);
     place_ = static_cast<std::size_t>(place - setup.processes.begin());
+    if (Status own = page_->belong_to(place_); !own.ok()) return own;
     doorbells_.emplace(*whole_, processes_, wishes->executor,
                        Doorbells::Words{std::move(setup.doorbells), std::move(setup.processes)}, *page_);
     shows_ = wishes->outputs.looks_on;

@@ -2,8 +2,12 @@
 #include "orca/supervisor/run_page.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 
@@ -12,8 +16,8 @@
 namespace orca::supervisor {
 namespace {
 
-// The page is a row of lines: the head, a heartbeat for each process, a doorbell for each component, a doorbell for each
-// process.
+// First come lines that every process writes: the head, a doorbell for each process, a doorbell for each component. Then comes a
+// page of the processor's for each process, which begins with its heartbeat: only whole pages can be protected.
 constexpr std::size_t kLine = 64;  // [bytes] of a cache line
 
 struct alignas(kLine) PageHead {
@@ -23,11 +27,25 @@ struct alignas(kLine) PageHead {
 static_assert(sizeof(PageHead) == kLine && std::atomic<std::uint64_t>::is_always_lock_free,
               "processes cannot share locks");
 
+std::size_t page_size() {
+  static const auto kSize = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  return kSize;
+}
+
+std::size_t whole_pages(std::size_t size) { return (size + page_size() - 1) / page_size() * page_size(); }
+
 std::size_t size_of(std::size_t processes, std::size_t components) {
-  return kLine * (1 + processes + components + processes);
+  return whole_pages(kLine * (1 + processes + components)) + processes * page_size();
 }
 
 PageHead& head_of(const SharedMemory& memory) { return *reinterpret_cast<PageHead*>(memory.bytes().data()); }
+
+// Opens the same memory once more, with another right to write than the descriptor has.
+Descriptor opened_again(int descriptor, int mode) {
+  Descriptor again(open(("/proc/self/fd/" + std::to_string(descriptor)).c_str(), mode | O_CLOEXEC));
+  if (!again) throw_if_exhausted(errno);
+  return again;
+}
 
 Descriptor copy_of(int descriptor) {
   Descriptor copy(fcntl(descriptor, F_DUPFD_CLOEXEC, 0));
@@ -45,38 +63,49 @@ std::size_t checked(std::size_t index, std::size_t count) {
 }  // namespace
 
 Result<RunPage> RunPage::create(std::size_t processes, std::size_t components) {
-  auto file = MemoryFile::create("orca-run", size_of(processes, components));
+  const auto file = MemoryFile::create("orca-run", size_of(processes, components));
   if (!file) return file.error();
-  auto memory = SharedMemory::map(file->descriptor());
-  if (!memory) return memory.error();
-  return RunPage(copy_of(file->descriptor()), std::move(*memory), processes, components);
+  return map(copy_of(file->descriptor()), processes, components);
 }
 
 Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t components) {
-  auto memory = SharedMemory::map(file.number());
+  auto memory = SharedMemory::map(opened_again(file.number(), O_RDWR).number());
   if (!memory) return fail(Code::data_loss, "the run page: " + memory.error().message);
   const std::size_t size = memory->bytes().size();
-  if (size < size_of(processes, components) || size % kLine != 0)  // the size that nobody can change
+  if (size < size_of(processes, components) || size % page_size() != 0)  // the size that nobody can change
     return fail(Code::data_loss, "the run page is for another graph, or of another version of the deployer");
-  return RunPage(std::move(file), std::move(*memory), processes, (size - size_of(processes, 0)) / kLine);
+  const std::size_t lines = (size - processes * page_size()) / kLine;
+  return RunPage(opened_again(file.number(), O_RDONLY), std::move(*memory), processes, lines - 1 - processes);
+}
+
+Status RunPage::belong_to(std::size_t process) {
+  const std::span<std::byte> all = memory_.bytes();
+  const std::size_t own = all.size() - (processes_ - checked(process, processes_)) * page_size();
+  const std::size_t begin = all.size() - processes_ * page_size();
+  const std::size_t end = own + page_size();
+  if (mprotect(all.data() + begin, own - begin, PROT_READ) == 0 &&
+      mprotect(all.data() + end, all.size() - end, PROT_READ) == 0)
+    return ok();
+  throw_if_exhausted(errno);
+  return fail(Code::unavailable, std::string("the run page cannot be protected: ") + std::strerror(errno));
 }
 
 std::atomic<std::uint64_t>& RunPage::missions() const { return head_of(memory_).missions; }
 
 std::atomic<std::uint32_t>& RunPage::heartbeat(std::size_t process) const {
-  return word(1 + checked(process, processes_));
+  return word(memory_.bytes().size() - (processes_ - checked(process, processes_)) * page_size());
 }
 
 DoorbellWord& RunPage::doorbell(std::size_t component) const {
-  return word(1 + processes_ + checked(component, components_));
+  return word(kLine * (1 + processes_ + checked(component, components_)));
 }
 
 DoorbellWord& RunPage::process_doorbell(std::size_t process) const {
-  return word(1 + processes_ + components_ + checked(process, processes_));
+  return word(kLine * (1 + checked(process, processes_)));
 }
 
-std::atomic<std::uint32_t>& RunPage::word(std::size_t line) const {
-  return *reinterpret_cast<std::atomic<std::uint32_t>*>(memory_.bytes().data() + line * kLine);
+std::atomic<std::uint32_t>& RunPage::word(std::size_t place) const {
+  return *reinterpret_cast<std::atomic<std::uint32_t>*>(memory_.bytes().data() + place);
 }
 
 Descriptor RunPage::descriptor() const { return copy_of(file_.number()); }

@@ -21,6 +21,19 @@ Descriptor memory_of(std::size_t size, int seals) {
   return file;
 }
 
+// Writes all ones into each word of a page.
+void scribble(const RunPage& page) {
+  page.missions() = ~std::uint64_t{0};
+  for (std::size_t i = 0; i < page.processes(); ++i) page.heartbeat(i) = page.process_doorbell(i) = ~0U;
+  for (std::size_t i = 0; i < page.components(); ++i) page.doorbell(i) = ~0U;
+}
+
+// Returns whether this process may write a word: the kernel may, on its behalf, if it may itself.
+bool is_writable(std::atomic<std::uint32_t>& word) {
+  const Descriptor zero(open("/dev/zero", O_RDONLY | O_CLOEXEC));
+  return read(zero.number(), &word, sizeof word) == sizeof word;
+}
+
 }  // namespace
 
 TEST_CASE("All who map a run page see the same words", "[supervisor][run_page]") {
@@ -57,7 +70,7 @@ TEST_CASE("A word that is not there is refused", "[supervisor][run_page]") {
   const auto page = RunPage::create(2, 3);
   REQUIRE(page);
   CHECK_THROWS_AS(page->heartbeat(2), std::out_of_range);
-  CHECK_THROWS_AS(page->doorbell(3), std::out_of_range);
+  CHECK_THROWS_AS(page->doorbell(page->components()), std::out_of_range);
   CHECK_THROWS_AS(page->process_doorbell(2), std::out_of_range);
 }
 
@@ -66,9 +79,12 @@ TEST_CASE("Memory that is no run page of this graph is refused", "[supervisor][r
   const std::size_t before = test::open_descriptors();
   const auto made = RunPage::create(2, 3);
   REQUIRE(made);
-  CHECK(RunPage::map(made->descriptor(), 2, 4).error().code == Code::data_loss);
-  CHECK(RunPage::map(memory_of(64 * 8 + 1, kSeals), 2, 3).error().code == Code::data_loss);
-  CHECK(RunPage::map(memory_of(64 * 8, 0), 2, 3).error().code == Code::data_loss);
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  CHECK(RunPage::map(memory_of(3 * page, kSeals), 2, 3).has_value());
+  CHECK(RunPage::map(made->descriptor(), 2, 1000).error().code == Code::data_loss);
+  CHECK(RunPage::map(made->descriptor(), 3, 3).error().code == Code::data_loss);
+  CHECK(RunPage::map(memory_of(3 * page + 1, kSeals), 2, 3).error().code == Code::data_loss);
+  CHECK(RunPage::map(memory_of(3 * page, 0), 2, 3).error().code == Code::data_loss);
   CHECK(RunPage::map(Descriptor(open("/dev/null", O_RDWR)), 2, 3).error().code == Code::data_loss);
   CHECK(test::open_descriptors() == before + 1);
 }
@@ -76,15 +92,45 @@ TEST_CASE("Memory that is no run page of this graph is refused", "[supervisor][r
 TEST_CASE("A run page can be mapped whatever was written into it", "[supervisor][run_page]") {
   const auto made = RunPage::create(2, 3);
   REQUIRE(made);
-  const auto memory = SharedMemory::map(made->descriptor().number());
-  REQUIRE(memory);
-  std::ranges::fill(memory->bytes(), std::byte{0xff});
+  scribble(*made);
   const auto mapped = RunPage::map(made->descriptor(), 2, 3);
   REQUIRE(mapped);
   CHECK(mapped->processes() == 2);
   CHECK(mapped->components() == made->components());
   CHECK(&mapped->process_doorbell(1) - &mapped->doorbell(0) ==
         &made->process_doorbell(1) - &made->doorbell(0));
+}
+
+TEST_CASE("A process can write its own heartbeat and no other one, whatever its place",
+          "[supervisor][run_page]") {
+  const std::size_t place = GENERATE(0U, 1U, 2U);
+  const auto made = RunPage::create(3, 3);
+  REQUIRE(made);
+  auto mapped = RunPage::map(made->descriptor(), 3, 3);
+  REQUIRE(mapped);
+  REQUIRE(mapped->belong_to(place).ok());
+  ++mapped->doorbell(0);
+  ++mapped->process_doorbell(1);
+  ++mapped->missions();
+  for (std::size_t process = 0; process < 3; ++process) {
+    CAPTURE(place, process);
+    CHECK(is_writable(mapped->heartbeat(process)) == (process == place));
+    made->heartbeat(process) = 7;
+    CHECK(mapped->heartbeat(process) == 7);
+  }
+}
+
+TEST_CASE("Nothing can be written through the descriptor that is handed on, but who gets it can map the page",
+          "[supervisor][run_page]") {
+  const auto made = RunPage::create(2, 3);
+  REQUIRE(made);
+  const auto mapped = RunPage::map(made->descriptor(), 2, 3);
+  REQUIRE(mapped);
+  for (const auto* page : {&*made, &*mapped}) CHECK(write(page->descriptor().number(), "stray", 5) == -1);
+  const auto next = RunPage::map(mapped->descriptor(), 2, 3);
+  REQUIRE(next);
+  next->missions() = 3;
+  CHECK(made->missions() == 3);
 }
 
 TEST_CASE("Nobody can take a run page away from those who have mapped it", "[supervisor][run_page]") {

@@ -33,7 +33,8 @@ class MemoryFile {
   int descriptor_;  // -1: none
 };
 
-/// The contents of a MemoryFile, mapped into this process, to be read and written.
+/// The contents of a MemoryFile, mapped into this process, to be read and written. A copy of the process, made by fork(), does not
+/// have them.
 ///
 /// Thread contract: as plain memory. Other processes may write it at any time.
 class SharedMemory {

@@ -17,20 +17,27 @@ namespace orca::supervisor {
 /// process, and doorbells. Processes are counted in the order of the graph, components as the supervisor says: some may come
 /// later. Each word has a cache line of its own.
 ///
-/// Any of the processes may write anything into it, so a reader must cope with every value of every word. No size and no
-/// place is read from what is written in it.
+/// A host process can write its own heartbeat, the doorbells and the count, and only read the heartbeats of others
+/// (belong_to()). By mistake it may write anything into them, so a reader must cope with every value of every word. No size and
+/// no place is read from what is written there.
 ///
 /// Thread contract: any thread.
 class RunPage {
  public:
   /// Makes the page of a machine, with all words 0.
-  /// @param components  those that there may ever be.
+  /// @param components  those that there may ever be. Some more may find room.
   /// @errors  as MemoryFile::create().
   [[nodiscard]] static Result<RunPage> create(std::size_t processes, std::size_t components);
   /// Maps the page that the supervisor has made for the same graph.
+  /// @param file        may be open for reading only.
   /// @param components  those that there are at least.
   /// @errors  data_loss if the memory is no page for so many processes and components.
   [[nodiscard]] static Result<RunPage> map(Descriptor file, std::size_t processes, std::size_t components);
+
+  /// Lets this process write no heartbeat but that of one process: itself. A stray write into another one then ends this process.
+  /// @pre     process < processes(); called once.
+  /// @errors  unavailable if the system refuses it.
+  [[nodiscard]] Status belong_to(std::size_t process);
 
   /// Returns the number of missions that have begun. Adding to it begins one.
   [[nodiscard]] std::atomic<std::uint64_t>& missions() const;
@@ -47,14 +54,14 @@ class RunPage {
   [[nodiscard]] std::size_t processes() const { return processes_; }
   [[nodiscard]] std::size_t components() const { return components_; }
 
-  /// Returns a new descriptor of the page, to give to another process.
+  /// Returns a new descriptor of the page, to give to another process. Nothing can be written through it.
   /// @errors  throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
   [[nodiscard]] Descriptor descriptor() const;
 
  private:
   RunPage(Descriptor file, SharedMemory memory, std::size_t processes, std::size_t components)
       : file_(std::move(file)), memory_(std::move(memory)), processes_(processes), components_(components) {}
-  [[nodiscard]] std::atomic<std::uint32_t>& word(std::size_t line) const;
+  [[nodiscard]] std::atomic<std::uint32_t>& word(std::size_t place) const;
 
   Descriptor file_;
   SharedMemory memory_;
