@@ -280,22 +280,31 @@ TEST_CASE("a destructor that crashes the second time is an error of its plugin, 
                           Contains("the constructor or destructor of test.Tired ended the process with"));
 }
 
-TEST_CASE("a destructor that crashes later ends the check with the names of its type and its plugin",
+TEST_CASE("a destructor that crashes later ends the run with a name and its plugin", "[system][plugins]") {
+  for (const Words& way : {virtual_clock(), Words{}}) {
+    const Run run = with_twenty("test_tired_later", "", way + Words{"--until", "1s"});
+    INFO(run.err);
+    CHECK_THAT(run.err, Contains(": its destructor ended the process with the signal SIGSEGV") &&
+                            Contains("the plugin is ") && Contains("test_tired_later.so"));
+  }
+}
+
+TEST_CASE("a check makes no second object of a type without hardware in its own process",
           "[system][plugins]") {
   const Run run = with_twenty("test_tired_later", "", {"--check"});
   INFO(run.err);
-  CHECK_THAT(run.err, Contains("test.Tired: its destructor ended the process with the signal SIGSEGV") &&
-                          Contains("the plugin is ") && Contains("test_tired_later.so"));
+  CHECK(run.exit_code() == 0);
 }
 
-TEST_CASE("a constructor that hangs while a graph is checked ends the check with its name after 10 s",
+TEST_CASE("a constructor that hangs while a graph is checked is an error of its component after 10 s",
           "[system][plugins]") {
   const Run run = with_twenty("test_tired_late", "", {"--check"});
   INFO(run.err);
-  CHECK(run.ended);
-  CHECK(run.exit_code() == 1);
-  CHECK_THAT(run.err, Contains("test.Tired: its constructor has not returned within 10 s") &&
-                          Contains("test_tired_late.so"));
+  CHECK(run.exit_code() == 2);
+  CHECK(run.ending.wall < Seconds(15));
+  CHECK_THAT(
+      run.err,
+      Contains("tired.xml:12:1: error G062: component \"c10\": its constructor did not return within 10 s"));
 }
 
 TEST_CASE("a destructor that hangs at the end of a run ends the run with its name after 10 s",

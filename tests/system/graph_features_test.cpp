@@ -169,12 +169,6 @@ TEST_CASE("--check --json reports errors on stdout and nothing else", "[system][
   CHECK(run.out.find("\"line\": 1") != std::string::npos);
 }
 
-TEST_CASE("the shipped graphs raise no warning", "[system][graph]") {
-  const Run run = run_deployer({source_file("graphs/scout_goto.xml"), "--check", "--strict"});
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-}
-
 TEST_CASE("each way to look at a graph prints it and starts nothing", "[system][graph]") {
   for (const auto& [option, start] : {std::pair<std::string, std::string>{"--dot", "digraph"},
                                       {"--mermaid", "---\ntitle: scout_goto, profile sim"},

@@ -49,6 +49,43 @@ std::string row(int components) {
   return text + "</graph>";
 }
 
+// Thousands of avoiders, each with a Goto and a localizer, for one robot: as many components, twice as many connections.
+std::string crowd(int components) {
+  std::string text =
+      "<graph name=\"crowd\" version=\"1\"><hardware name=\"scout\" type=\"orca.hw.Sim\"><param "
+      "name=\"world\" "
+      "value=\"" +
+      source_file("sim/worlds/office.xml") + "\"/><param name=\"robot\" value=\"" +
+      source_file("sim/robots/nomad_scout.urdf") +
+      "\"/><param name=\"place\" value=\"start\"/></hardware>"
+      "<component name=\"base\" type=\"orca.RobotBaseServer\" hardware=\"scout\"/>";
+  std::string edges;
+  for (int i = 0; i < components / 3; ++i) {
+    const std::string number = std::to_string(i);
+    const auto connect = [&](const std::string& from, const std::string& to) {
+      edges += "<connect from=\"" + from + "\" to=\"" + to + "\"/>";
+    };
+    text += "<component name=\"localizer" + number +
+            "\" type=\"orca.OdometryLocalizer\"/><component name=\"goto" + number +
+            "\" type=\"orca.Goto\"/><component name=\"avoid" + number +
+            "\" type=\"orca.SonarAvoid\" autonomous=\"true\"/>";
+    connect("base.OdometryPush", "localizer" + number + ".odometry");
+    connect("base.OdometryPush", "avoid" + number + ".odometry");
+    connect("base.SonarRangeReadingsPush", "avoid" + number + ".sonar");
+    connect("localizer" + number + ".RobotPosePush", "goto" + number + ".localizer");
+    connect("localizer" + number + ".RobotPosePush", "avoid" + number + ".localizer");
+    connect("goto" + number + ".GoalPush", "avoid" + number + ".goal");
+  }
+  return text + edges + "</graph>";
+}
+
+// The most memory that a program had which this one has started, or one of that program's own [MB].
+double most_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
 double seconds_for(const std::string& text, const Words& options) {
   const TempFolder folder;
   const double before = used_seconds();
@@ -70,4 +107,12 @@ TEST_CASE("four times as many components take at most eight times as much proces
           "[system][growth]") {
   CHECK(seconds_for(pairs(kTimes * kFew), {"--check"}) < kMost * seconds_for(pairs(kFew), {"--check"}));
   CHECK(seconds_for(row(kTimes * kFew), {"--check"}) < kMost * seconds_for(row(kFew), {"--check"}));
+}
+
+TEST_CASE(
+    "ten thousand shipped components with twenty thousand connections are checked with less than 500 MB",
+    "[system][growth]") {
+  const double seconds = seconds_for(crowd(10'000), {"--check", "--strict"});
+  WARN("checked in " << seconds << " s of processor time, with " << most_memory() << " MB at most");
+  if (!kSanitized) CHECK(most_memory() < 500.0);
 }

@@ -53,14 +53,14 @@ class ComponentReader {
     if (names_hardware() && (hardware == nullptr || !hardware->sound)) {
       checked_.contract = types_.component_without_hardware(node_);
       check_hardware_wanted();
-      checked_.ports_known = checked_.contract.has_value() && !checked_.contract->needs_hardware;
+      checked_.ports_known = checked_.contract != nullptr && !checked_.contract->needs_hardware;
       return;
     }
     if (hardware != nullptr) {
       const HardwareUse use{hardware->value.name, hardware->value.type, hardware->value.params};
       checked_.contract = types_.component(node_, &use);
       check_hardware_wanted();
-      checked_.ports_known = checked_.contract.has_value();
+      checked_.ports_known = checked_.contract != nullptr;
       return;
     }
     checked_.contract = types_.component(node_, nullptr);

@@ -89,13 +89,14 @@ void take_parts(Model&& model, Graph& graph) {
   for (CheckedComponent& component : model.components) graph.components.push_back(std::move(component.value));
 }
 
-Graph check(const Assembly& assembly, const LoadOptions& options, Catalogue& catalogue, Report& report) {
+Graph check(Assembly assembly, const LoadOptions& options, Catalogue& catalogue, Report& report) {
   const Node& root = assembly.graph;
   Graph graph = read_root(root, report);
   graph.plugin_dirs = assembly.plugin_folders;
   catalogue.add_folders(graph.plugin_dirs);
   Parts parts = merge_profiles(assembly, options.profiles, report);
   set_parameters(assembly, parts, report);
+  assembly.graph.children.clear();  // the parts are copies
   Model model = check_parts(assembly, parts, catalogue, report);
   model.any_link = options.any_link;
   graph.ends = read_ends(root, model, report);
@@ -125,17 +126,18 @@ bool is_expanded(const xml::Document& document) {
   return expanded != nullptr && expanded->value == "true";
 }
 
-std::optional<Graph> load(const std::optional<xml::Document>& document, LoadOptions options,
-                          Catalogue& catalogue, xml::Diagnostics& diagnostics, const FileReader& read) {
+std::optional<Graph> load(std::optional<xml::Document> document, LoadOptions options, Catalogue& catalogue,
+                          xml::Diagnostics& diagnostics, const FileReader& read) {
   if (!document) return std::nullopt;
   if (options.of_run && is_expanded(*document)) {
     options.profiles.clear();
     options.settings.clear();
   }
   Report report(diagnostics, options.strict);
-  const auto assembly = assemble(*document, options, read, report, diagnostics);
+  std::optional<Assembly> assembly = assemble(*document, options, read, report, diagnostics);
   if (!assembly) return std::nullopt;
-  Graph graph = check(*assembly, options, catalogue, report);
+  document.reset();  // of a large graph it is a large part of the memory
+  Graph graph = check(std::move(*assembly), options, catalogue, report);
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(graph));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -48,8 +49,8 @@ struct Renaming {
 // A component of the graph, and what the checks know about it.
 struct CheckedComponent {
   ComponentNode value;
-  std::optional<Contract> contract;  // nothing if the type is missing or unknown
-  bool ports_known = false;          // false: its ports cannot be checked, for a reason reported already
+  std::shared_ptr<const Contract> contract;  // null if the type is missing or unknown
+  bool ports_known = false;  // false: its ports cannot be checked, for a reason reported already
   bool duplicate = false;
   bool process_known = true;                      // as for hardware
   bool sound = false;                             // whether its own values are all known

@@ -2,6 +2,7 @@
 #include "ports.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
@@ -22,7 +23,7 @@ class PortReader {
     const Text* name = node.known("name");
     if (name == nullptr) return;
     if (node.duplicate) return note_refused(node, name->value);
-    PortContract* port = find(node, *name);
+    const PortContract* port = find(node, *name);
     if (port == nullptr) return;
     title_ = component_.title() + ": port " + in_quotes(name->value);
     PortSetting setting;
@@ -40,9 +41,11 @@ class PortReader {
     if (setting.disabled || !setting.alias.empty()) checked_.value.ports[port->name] = setting;
   }
 
-  // Applies the changes at the end, so that every <port> sees the author's names.
+  // Applies the changes at the end, so that every <port> sees the author's names. Other components of the type keep theirs.
   void apply() {
-    Contract& contract = *checked_.contract;
+    if (disabled_.empty() && checked_.renamed.empty() && wrongly_disabled_.empty()) return;
+    const auto changed = std::make_shared<Contract>(*checked_.contract);
+    Contract& contract = *changed;
     std::erase_if(contract.ports, [&](const PortContract& port) {
       return std::ranges::find(disabled_, port.name) != disabled_.end();
     });
@@ -56,6 +59,7 @@ class PortReader {
     for (auto& [name, port] : checked_.refused_names)
       if (const auto renaming = checked_.renamed.find(port); renaming != checked_.renamed.end())
         port = renaming->second.name;
+    checked_.contract = changed;
   }
 
  private:
@@ -64,8 +68,8 @@ class PortReader {
     if (const Text* alias = node.known("as")) checked_.refused_names.emplace(alias->value, port);
   }
 
-  PortContract* find(const Node& node, const Text& name) {
-    Contract& contract = *checked_.contract;
+  const PortContract* find(const Node& node, const Text& name) {
+    const Contract& contract = *checked_.contract;
     const auto found = std::ranges::find(contract.ports, name.value, &PortContract::name);
     if (found != contract.ports.end()) return &*found;
     std::vector<std::string> names;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "types.hpp"
 
+#include <utility>
+
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 
@@ -25,24 +27,34 @@ std::optional<Contract> Types::hardware(const Node& node) {
   return std::nullopt;
 }
 
-std::optional<Contract> Types::component(const Node& node, const HardwareUse* use) {
+Result<std::shared_ptr<const Contract>> Types::ask(const std::string& type, const HardwareUse* use) {
+  const auto known = without_hardware_.find(type);
+  if (use == nullptr && known != without_hardware_.end()) return known->second;
+  Result<Contract> contract = catalogue_.component(type, use);
+  if (!contract) return contract.error();
+  auto shared = std::make_shared<const Contract>(*std::move(contract));
+  if (use == nullptr) without_hardware_.emplace(type, shared);
+  return Result<std::shared_ptr<const Contract>>(std::move(shared));
+}
+
+std::shared_ptr<const Contract> Types::component(const Node& node, const HardwareUse* use) {
   const Text* type = type_of(node);
-  if (type == nullptr) return std::nullopt;
-  Result<Contract> contract = catalogue_.component(type->value, use);
+  if (type == nullptr) return nullptr;
+  Result<std::shared_ptr<const Contract>> contract = ask(type->value, use);
   if (contract) report_unfit(node, type->value, PluginKind::component);
   if (contract) return *std::move(contract);
   report_failure(node, contract.error(), PluginKind::component);
-  return std::nullopt;
+  return nullptr;
 }
 
-std::optional<Contract> Types::component_without_hardware(const Node& node) {
+std::shared_ptr<const Contract> Types::component_without_hardware(const Node& node) {
   const Text* type = type_of(node);
-  if (type == nullptr) return std::nullopt;
-  Result<Contract> contract = catalogue_.component(type->value, nullptr);
+  if (type == nullptr) return nullptr;
+  Result<std::shared_ptr<const Contract>> contract = ask(type->value, nullptr);
   if (contract) report_unfit(node, type->value, PluginKind::component);
   if (contract) return *std::move(contract);
   if (contract.error().code == Code::not_found) report_failure(node, contract.error(), PluginKind::component);
-  return std::nullopt;
+  return nullptr;
 }
 
 void Types::report_failure(const Node& node, const Error& error, PluginKind kind) {
