@@ -2,7 +2,10 @@
 // Whole systems with robots of other kinds than the Scout.
 #include <catch2/catch.hpp>
 
+#include <regex>
+
 #include "deployer.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -12,7 +15,37 @@ std::string robot_arg(const std::string& robot) {
   return "robot=" + source_file("sim/robots/" + robot + ".urdf");
 }
 
+// The shipped robot, without what its file says of how it is steered and how wrong its wheels are.
+std::string without_figures(const std::string& robot) {
+  const std::string text = read_text(source_file("sim/robots/" + robot + ".urdf"));
+  return std::regex_replace(text, std::regex("steer_gain=\"[^\"]*\"|<wheel_errors[^>]*>"), "");
+}
+
 }  // namespace
+
+TEST_CASE(
+    "a robot whose file does not say how to steer it and how wrong its wheels are is as quick, and hears "
+    "once what is taken",
+    "[system][robots]") {
+  // It drives by odometry, and must be sure that it is there.
+  const Words graph =
+      Words{source_file("graphs/scout_goto_two_localizers.xml")} + virtual_clock() + Words{"--set"};
+  const Run shipped = run_deployer(graph + Words{robot_arg("nomad_scout")});
+  const TempFolder folder;
+  const Run run =
+      run_deployer(graph + Words{"robot=" + folder.write("r.urdf", without_figures("nomad_scout"))});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 1);
+  REQUIRE(shipped.arrivals().size() == 1);
+  CHECK(run.arrivals()[0].t == Approx(shipped.arrivals()[0].t).margin(0.1));
+  CHECK(
+      run.says("the file says no steer_gain and wheel_errors of this robot; the usual ones are "
+               "taken: <drive ... steer_gain=\"2\"> and in <odometry> <wheel_errors "
+               "wheel_diameter=\"0.204 %\" track=\"0.58 %\" slip=\"3 mm\" turn_slip=\"3 mm\"/>"));
+  CHECK(run.err.find("G057") == run.err.rfind("G057"));
+  CHECK_FALSE(shipped.says("G057"));
+}
 
 TEST_CASE("a synchro base with a turret and a holonomic base drive the run of the thesis",
           "[system][robots]") {

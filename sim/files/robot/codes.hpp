@@ -30,5 +30,6 @@ inline constexpr const char* kXacro = "R025";
 inline constexpr const char* kDoubtfulInertia = "R026";
 inline constexpr const char* kBelowFloor = "R027";
 inline constexpr const char* kOtherMesh = "R028";
+inline constexpr const char* kUsualFigures = "R029";
 
 }  // namespace orca::sim::detail::robot_codes

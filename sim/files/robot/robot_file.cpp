@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/robot_file.hpp"
 
+#include <algorithm>
+
 #include "codes.hpp"
 #include "mounts.hpp"
+#include "orca/geometry/usual_figures.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/extras.hpp"
@@ -58,6 +61,18 @@ void check_floor(const RobotModel& model, const xml::Element& root, xml::Reporte
           depth + "\"");
 }
 
+// Says what the readers of <orca> have taken because the file does not say it.
+void report_usual_figures(const xml::Element& orca, xml::Reporter& reporter) {
+  const xml::Element* const drive = detail::only_child(orca, "drive");
+  const xml::Element* const odometry = detail::only_child(orca, "odometry");
+  const std::string text = usual_figures_text(
+      drive != nullptr && drive->attribute("steer_gain") == nullptr,
+      odometry != nullptr && std::ranges::none_of(odometry->children(), [](const xml::Element& child) {
+        return child.name() == "wheel_errors";
+      }));
+  if (!text.empty()) reporter.diagnostics().warning(robot_codes::kUsualFigures, orca.position(), text);
+}
+
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
 void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
                RobotModel& model, xml::Reporter& reporter) {
@@ -100,6 +115,7 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text, 
   detail::check_mounts(root, *orca, reporter);
   if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
   if (diagnostics.error_count() != before) return std::nullopt;
+  report_usual_figures(*orca, reporter);
   return model;
 }
 

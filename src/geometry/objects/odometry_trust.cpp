@@ -4,16 +4,16 @@
 #include <algorithm>
 
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/usual_figures.hpp"
 
 namespace orca {
 namespace {
 
-constexpr WheelErrorGuess kUnknown{.diameter = 0.02, .track = 0.058, .slip = 0.03, .turn_slip = 0.03};
 constexpr double kTrack = 0.35;  // [m] It matters for slip only.
 
 }  // namespace
 
-OdometryTrust::OdometryTrust() : guess_(idl::DIFFERENTIAL, kTrack, kUnknown) {}
+OdometryTrust::OdometryTrust() : guess_(idl::DIFFERENTIAL, kTrack, kUsualWheelErrors) {}
 
 std::array<double, 9> OdometryTrust::covariance_of(const idl::Odometry& odometry) {
   guess_.move_to(plane_pose(odometry));

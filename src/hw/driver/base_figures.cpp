@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "orca/base/text.hpp"
+#include "orca/geometry/usual_figures.hpp"
 #include "orca/hw/description.hpp"
 #include "orca/xml/number.hpp"
 
@@ -38,6 +39,8 @@ std::vector<HardwareFault> BaseFigures::read(const Expected& expected) {
                               " has one of about " + xml::number_text(rounded(expected.track)) +
                               " m; is it the file of another robot?",
                       .only_warns = true});
+  if (const std::string text = usual_figures_text(false, !figures_->says_wheel_errors); !text.empty())
+    faults.push_back({.param = "robot", .text = in_quotes(*file_) + ": " + text, .only_warns = true});
   return faults;
 }
 

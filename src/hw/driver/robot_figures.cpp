@@ -8,6 +8,7 @@
 #include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/geometry/angle.hpp"
+#include "orca/geometry/usual_figures.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/extras.hpp"
 #include "orca/xml/number.hpp"
@@ -46,6 +47,8 @@ class FiguresReader {
       figures.gripper = text_of(*gripper, "link");
     figures.size = plan_size(robot_, tree_);
     for (const Element& e : orca->children()) read_sensor(e, figures);
+    figures.says_wheel_errors = figures.wheel_errors.is_known();
+    if (!figures.says_wheel_errors) figures.wheel_errors = kUsualWheelErrors;
     return figures;
   }
 

@@ -176,6 +176,24 @@ TEST_CASE("a base is steered as its file says, and tells how large it is and how
   CHECK(base.traits().sonars == RangeErrorGuess{0.01, 0.01});
 }
 
+TEST_CASE("a file that does not say how wrong the wheels are is a warning, and the usual errors are taken",
+          "[hw][robot_file]") {
+  const TempFolder folder;
+  Owner owner;
+  hw::BaseFigures base(owner);
+  owner.set("robot", folder.write("r.urdf",
+                                  "<robot name='r'>\n<orca radius='0.2 m'><drive type='differential' "
+                                  "max_speed='1 m/s' max_steer_speed='1 rad/s' max_acceleration='1 m/s2' "
+                                  "track='0.357 m'/></orca></robot>"));
+  const auto faults = base.read(kPioneer);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].only_warns);
+  CHECK_THAT(faults[0].text,
+             Contains("the file says no wheel_errors of this robot; the usual ones are taken"));
+  CHECK(base.traits().odometry);
+  CHECK(base.within(hw::DriveLimits{}).steer_gain == 2.0);
+}
+
 TEST_CASE("the file of quite another robot is a warning", "[hw][robot_file]") {
   Owner owner;
   hw::BaseFigures base(owner);

@@ -15,7 +15,7 @@ namespace {
 
 const std::string kDriveOfForeign =
     R"x(<orca radius="0.3 m"><drive type="differential" max_speed="1 m/s" max_steer_speed="2 rad/s"
-max_acceleration="1 m/s2" max_steer_acceleration="4 rad/s2" track="0.3 m" wheel_diameter="0.15 m"/></orca>)x";
+max_acceleration="1 m/s2" max_steer_acceleration="4 rad/s2" track="0.3 m" wheel_diameter="0.15 m" steer_gain="2"/></orca>)x";
 
 const std::string kChassis =
     R"x(<link name="base_link"><inertial><origin xyz="0 0 0.1"/><mass value="9"/>
@@ -278,6 +278,26 @@ TEST_CASE("a point of mass may have an inertia of zero, but not the whole robot"
   urdf.replace(at, urdf.find("/>", at) + 2 - at, nothing);
   CHECK_THAT(Workspace().read(urdf).said,
              Catch::Contains("error R019") && Catch::Contains("without an inertia about it"));
+}
+
+TEST_CASE(
+    "where a robot's file does not say how to steer it, or how wrong its wheels are, the usual figures are "
+    "taken with one warning",
+    "[sim][foreign]") {
+  std::string urdf = urdf_of(on_footprint(kChassis));
+  urdf.replace(urdf.find(" steer_gain=\"2\"/>"), 17, "/><odometry period=\"50 ms\"/>");
+  const Reading reading = Workspace().read(urdf);
+  INFO(reading.said);
+  REQUIRE(reading.robot);
+  CHECK(reading.robot->drive.steer_gain == 2.0);
+  CHECK(reading.robot->odometer->errors.at(orca::sim::Realism::nominal) == orca::kUsualWheelErrors);
+  CHECK(reading.robot->odometer->errors.at(orca::sim::Realism::harsh) == orca::kUsualHarshWheelErrors);
+  CHECK_THAT(reading.said, Catch::Contains("warning R029: the file says no steer_gain and wheel_errors"));
+  CHECK(reading.said.find("R029") == reading.said.rfind("R029"));
+  urdf.replace(urdf.find("track=\"0.3 m\""), 0, "steer_gain=\"1\" ");
+  const Reading half = Workspace().read(urdf);
+  CHECK_THAT(half.said, Catch::Contains("the file says no wheel_errors of this robot"));
+  CHECK(half.robot->drive.steer_gain == 1.0);
 }
 
 TEST_CASE("a robot whose root is at the axle of its wheels hears how much too low it stands",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -24,6 +25,10 @@ class Guesses {
     return true;
   }
 
+  /// Returns whether there is any guess.
+  [[nodiscard]] bool is_known() const {
+    return general_ || std::ranges::any_of(by_level_, [](const auto& guess) { return guess.has_value(); });
+  }
   [[nodiscard]] Guess at(Realism level) const {
     return by_level_[static_cast<std::size_t>(level)].value_or(general_.value_or(Guess{}));
   }

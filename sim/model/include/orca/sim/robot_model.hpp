@@ -10,6 +10,7 @@
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/geometry/usual_figures.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/sim/sensors.hpp"
 
@@ -63,7 +64,7 @@ struct Drive {
   Duration lag{0};                     ///< Time constant of the first-order answer to a command.
   Duration dead_time{0};               ///< Time from a command to its first effect.
   // Parameters for steering the base (thesis 8.4.1); the simulation itself does not use these.
-  double steer_gain = 1.0;                         ///< [1/s] Turn rate per heading error.
+  double steer_gain = kUsualSteerGain;             ///< [1/s] Turn rate per heading error.
   double speed_step = 0.0;                         ///< [m/s] Smallest change of speed worth a command.
   double big_turn_angle = 0.5 * std::numbers::pi;  ///< [rad] The base slows down for larger heading errors.
   double big_turn_speed = 0.0;                     ///< [m/s] Largest speed in such a turn.

@@ -12,6 +12,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/geometry/usual_figures.hpp"
 #include "orca/hw/obstruction.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
@@ -85,9 +86,9 @@ class SensorHW final : public SensorEndpoint {
 
 /// The limits of a base (thesis appendix A, <drive>).
 struct DriveLimits {
-  double max_speed = 0.0;      ///< [m/s]
-  double max_turn_rate = 0.0;  ///< [rad/s]
-  double steer_gain = 0.5;     ///< [1/s] turn rate per radian of direction asked for.
+  double max_speed = 0.0;               ///< [m/s]
+  double max_turn_rate = 0.0;           ///< [rad/s]
+  double steer_gain = kUsualSteerGain;  ///< [1/s] turn rate per radian of direction asked for.
   double big_turn_angle =
       0.0;  ///< [rad] at larger directions the base drives at most `big_turn_speed`; 0: no such limit.
   double big_turn_speed = 0.0;              ///< [m/s]

@@ -37,7 +37,8 @@ struct RobotFigures {
   double bumper_radius = 0.0;  ///< [m] Of the parts that touch first.
   std::optional<Vec2> size{};  ///< [m] Length and width of its plan; 0: it is round; nothing: not known.
   std::optional<Wheels> wheels{};
-  WheelErrorGuess wheel_errors{};
+  WheelErrorGuess wheel_errors{};  ///< The usual ones if the file does not say them.
+  bool says_wheel_errors = false;
   RangeErrorGuess sonar_errors{};
   std::vector<double> bumpers{};  ///< [rad] Directions in which those of all rings face.
   std::vector<Laser> lasers{};

@@ -9,8 +9,7 @@
 namespace orca {
 
 /// How far the poses of some odometry can be trusted, for those who drive by them. Odometry with a covariance is taken at its word.
-/// What comes without is not exact, but unknown: it counts as ten times as wrong as the robots in sim/robots guess of theirs at
-/// nominal realism.
+/// What comes without is not exact, but unknown: it counts as wrong as is usual (usual_figures.hpp).
 ///
 /// Thread contract: not synchronised; one strand.
 class OdometryTrust {
