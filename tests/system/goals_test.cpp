@@ -2,9 +2,11 @@
 // Goals that cannot be reached: who says so, why, and what happens next.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <regex>
 #include <string>
 
 #include "deployer.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
@@ -34,7 +36,61 @@ std::string kinds(const Run& run) {
   return kinds.substr(0, kinds.find("trace-hash"));
 }
 
+// The shipped Scout with these goals, as a file.
+std::string scout_with(const TempFolder& folder, const std::string& name, const std::string& goals) {
+  std::string graph = read_text(source_file("graphs/scout_goto.xml"));
+  graph = std::regex_replace(graph, std::regex("\\.\\./sim/"), source_file("sim/"));
+  return folder.write(name, std::regex_replace(graph, std::regex("name=\"goals\" default=\"[^\"]*\""),
+                                               "name=\"goals\" default=\"" + goals + "\""));
+}
+
 }  // namespace
+
+TEST_CASE("the goals are driven to in as many rounds as the graph says, and without end if it says 0",
+          "[system][goals]") {
+  const auto rounds = [](const std::string& number) {
+    return run_deployer(Words{source_file("graphs/scout_goto.xml"), "--set", "goals=near: 1.5 6; far: 2.5 6",
+                              "--set", "rounds=" + number, "--until", "60s"} +
+                        virtual_clock());
+  };
+  const Run twice = rounds("2");
+  INFO(twice.err);
+  CHECK(twice.exit_code() == 0);
+  CHECK(kinds(twice) == "arrived near; arrived far; arrived near; arrived far; ");
+  const Run endless = rounds("0");
+  CHECK(endless.arrivals().size() > 6);
+  CHECK(endless.arrivals().back().t > 50.0);
+}
+
+TEST_CASE("other goals that are set on the way take the place of all, and the one on the way is cancelled",
+          "[system][goals]") {
+  const TempFolder folder;
+  const std::string far = scout_with(folder, "far.xml", "kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8; office_2: 9 2");
+  const std::string near = scout_with(folder, "near.xml", "near: 1.5 6; door: 3 6");
+  const Run run = run_deployer(Words{far, "--change", near + "@4s"} + virtual_clock());
+  INFO(run.out << run.err);
+  CHECK(kinds(run) == "failed kitchen; arrived near; arrived door; ");
+  REQUIRE(run.failures().size() == 1);
+  CHECK(run.failures()[0].starts_with("failed kitchen cancelled: there are other goals"));
+  CHECK(run.says("command: work() failed: not reached: kitchen (1 of 3 goals)"));
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a robot whose goals are all taken away stands until it gets others", "[system][goals]") {
+  const TempFolder folder;
+  const std::string far = scout_with(folder, "far.xml", "kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8");
+  const std::string none = scout_with(folder, "none.xml", "");
+  const Run held = run_deployer(Words{far, "--change", none + "@4s", "--until", "40s"} + virtual_clock());
+  INFO(held.out << held.err);
+  CHECK(held.exit_code() == 0);
+  CHECK(kinds(held) == "failed kitchen; ");
+  const std::string near = scout_with(folder, "near.xml", "near: 1.5 6");
+  const Run on =
+      run_deployer(Words{far, "--change", none + "@4s", "--change", near + "@30s"} + virtual_clock());
+  INFO(on.out << on.err);
+  CHECK(kinds(on) == "failed kitchen; arrived near; ");
+  CHECK(on.arrivals().back().t > 30.0);
+}
 
 TEST_CASE("the shipped rounds: the walled-in goal is reported as blocked, and the next one is reached",
           "[system][goals]") {

@@ -182,3 +182,42 @@ TEST_CASE("a component that is too long in a lap keeps its values, and so do the
   CHECK(value_of("command.goal_timeout") == timeout);
   stop(program);
 }
+
+TEST_CASE(
+    "an operator cancels a goal of Command, sets others on the way, lets it repeat them, and takes all away",
+    "[system][groups]") {
+  Subprocess program(deployer({kScout, "--set", "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8; office: 9 6"}));
+  REQUIRE(comes_true(
+      [] {
+        return are_all({"command", "goto", "avoid", "fuser", "base"}, "WORK");
+      },
+      Seconds(20)));
+  const auto told = [&](const std::string& text) {
+    return program.wait_for_output(text, Seconds(15) * kSlowdown);
+  };
+  const auto times = [&](const std::string& text) {
+    const std::string out = program.out();
+    int count = 0;
+    for (std::size_t at = 0; (at = out.find(text, at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const auto order = [](const Words& words) {
+    const Run run = run_orcactl(words);
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+  };
+  order({"send", "goto.CancelSend", "<GoalFailed name=\"kitchen\" reason=\"supper\"/>"});
+  CHECK(told("failed kitchen cancelled: by \"orcactl\", supper"));
+  order({"set", "command.rounds", "0", "command.goals", "near: 1.5 6; far: 2.5 6"});
+  CHECK(told("failed office cancelled: there are other goals"));
+  CHECK(comes_true([&] { return times("arrived near") >= 2; }, Seconds(30)));
+  const Run wrong = run_orcactl({"set", "command.goals", "near 1 2"});
+  CHECK(wrong.exit_code() == 1);
+  CHECK(wrong.says("a goal looks like"));
+  order({"set", "command.goals", ""});
+  CHECK(comes_true([&] { return times("cancelled: there are other goals") == 2; }, Seconds(5)));
+  const std::string before = program.out();
+  std::this_thread::sleep_for(Seconds(2));
+  CHECK(program.out() == before);
+  stop(program);
+}

@@ -91,7 +91,7 @@ TEST_CASE("with restore=last a Command that is killed goes on with the goal that
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "door"});
-  CHECK(run.says("goes on from the state orca.Command/1"));
+  CHECK(run.says("goes on from the state orca.Command/2"));
 }
 
 TEST_CASE("without restore a Command that is killed begins its list again", "[system][resume]") {

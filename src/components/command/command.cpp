@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <poll.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
-#include <deque>
 #include <optional>
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "agenda.hpp"
+#include "goal_file.hpp"
 #include "goal_list.hpp"
-#include "orca/base/input_file.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
@@ -22,22 +19,33 @@
 #include "orca/idl/time.hpp"
 #include "orca/patterns/synchronizer.hpp"
 #include "outbox.hpp"
+#include "points.hpp"
+#include "prompt.hpp"
 
 namespace {
 
+using orca::command::Agenda;
 using orca::command::Outbox;
 using orca::command::Route;
 
-constexpr std::size_t kMaxBytes = 1'000'000;                            // of a file of goals
 constexpr orca::Duration kRoomLimit = std::chrono::seconds(5);          // for Goto to take a point
 constexpr orca::Duration kGrace = std::chrono::seconds(2);              // for Goto to say that the time is up
 constexpr orca::Duration kRetryAfter = std::chrono::milliseconds(200);  // for receivers that come up
+constexpr orca::Duration kRest = std::chrono::seconds(1);  // in rounds, after a goal that was not reached
+
+// A goal that the robot is on its way to.
+struct Drive {
+  Route route;
+  Outbox outbox;
+  std::uint64_t mission;
+  orca::TimePoint limit;  // for Goto to reach it
+};
 
 /// A component that sends the robot to one goal after the other, taken from a parameter, a file or a prompt
 /// (thesis 11.1). For each goal it begins a mission, subscribes to its results, sends the coordinates to Goto
 /// and the list of behaviours to the fuser, and waits. After the result it unsubscribes and clears the list.
 /// If Goto or the fuser is in another process that is started again meanwhile, it gets what it needs once more.
-/// When there are no more goals it is done, or has failed if one was not reached.
+/// While the robot drives, other goals may be set. When there are no more goals it is done, or has failed if one was not reached.
 class Command final : public orca::Component {
  public:
   explicit Command(orca::ComponentHost& host) : Component(host) {}
@@ -48,10 +56,14 @@ class Command final : public orca::Component {
     results_.add(arrived_);
     results_.add(failed_);
     results_.add(path_);
+    std::vector<Route> routes;
     for (const std::string& text : *goals_)
-      if (const orca::Status added = add(text); !added.ok()) return goals_.refuse(added.error());
+      if (const orca::Status added = add(text, routes); !added.ok()) return goals_.refuse(added.error());
     if (!goals_file_->empty())
-      if (const orca::Status read = read_file(); !read.ok()) return goals_file_.refuse(read.error());
+      if (const orca::Status read = read_file(routes); !read.ok()) return goals_file_.refuse(read.error());
+    listed_ = *goals_;
+    asks_ = listed_.empty() && goals_file_->empty();
+    agenda_.set(std::move(routes));
     return check_behaviours();
   }
 
@@ -68,36 +80,78 @@ class Command final : public orca::Component {
                           "; let it come up after the fuser, with start_after");
   }
 
+  // A lap begins a goal, or waits for something to happen to it. While it waits, orders and objects that are sent are taken.
   orca::Outcome work() override {
-    const std::optional<Route> route = next();
-    if (!route) return conclude();
-    const std::uint64_t mission = begin_mission();
-    drive(*route, mission);
-    if (const orca::Status sent = send_clients({}); !sent.ok())
-      log_warning("the robot may drive on: " + sent.error().text());
-    end_mission();
+    if (drive_) {
+      await();
+      return orca::again();
+    }
+    while (agenda_.next(rounds()) == nullptr) {
+      if (!asks_) return conclude();
+      if (!ask()) return conclude();
+    }
+    if (std::exchange(rests_, false)) sleep(kRest);
+    begin(*agenda_.next(rounds()));
     return orca::again();
   }
 
-  orca::Outcome conclude() const {
-    if (unreached_.empty()) return orca::done();
-    return orca::failed("not reached: " + orca::listed(unreached_) + " (" +
-                        std::to_string(unreached_.size()) + " of " + std::to_string(tried_) + " goals)");
+  [[nodiscard]] std::size_t rounds() const { return static_cast<std::size_t>(*rounds_); }
+
+  orca::Outcome conclude() {
+    if (emptied_) wait_until([] { return false; }, std::chrono::hours(1));  // an order ends the lap
+    if (emptied_) return orca::again();
+    if (missed_ == 0) return orca::done();
+    return orca::failed("not reached: " + orca::listed(unreached_) + " (" + std::to_string(missed_) + " of " +
+                        std::to_string(tried_) + " goals)");
   }
 
-  void drive(const Route& route, std::uint64_t mission) {
+  // Sends the robot to a goal.
+  void begin(const Route& route) {
+    agenda_.begin();
     ++tried_;
+    const std::uint64_t mission = begin_mission();
+    drive_.emplace(
+        Drive{route, Outbox(route.via.size() + 1), mission, now() + orca::from_seconds(*goal_timeout_)});
     arrived_.subscribe();
     failed_.subscribe();
     if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
-    Outbox outbox(route.via.size() + 1);
-    const orca::Status sent = send_due(outbox, route, *goal_timeout_);
-    const bool refused = !sent.ok() && !may_come_back();
-    if (refused) give_up(route, orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
-    if (refused || !wait_for_result(outbox, route, mission)) unreached_.push_back(route.name);
+    const orca::Status sent = send_due(*drive_, *goal_timeout_);
+    if (sent.ok() || may_come_back()) return;
+    give_up(route, orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
+    end(false);
+  }
+
+  // Waits until something has happened to the goal, and ends the drive if that was its result.
+  void await() {
+    const orca::TimePoint end_of_wait = drive_->limit + grace();
+    if (const orca::PushSubject* const port = next_result(drive_->outbox, end_of_wait)) {
+      if (const auto reached = take_result(*port, *drive_)) end(*reached);
+    } else if (now() < end_of_wait) {
+      send_again(*drive_, orca::to_seconds(drive_->limit - now()));
+    } else {
+      char text[32];
+      std::snprintf(text, sizeof text, "%g s", *goal_timeout_);
+      give_up(drive_->route, orca::idl::GOAL_UNANSWERED,
+              std::string("unanswered: no arrival within ") + text);
+      end(false);
+    }
+  }
+
+  // Ends the drive: the robot stands.
+  void end(bool reached) {
+    if (!reached) {
+      ++missed_;
+      rests_ = *rounds_ != 1;
+      if (std::ranges::find(unreached_, drive_->route.name) == unreached_.end())
+        unreached_.push_back(drive_->route.name);
+    }
+    drive_.reset();
     arrived_.unsubscribe();
     failed_.unsubscribe();
     path_.unsubscribe();
+    if (const orca::Status sent = send_clients({}); !sent.ok())
+      log_warning("the robot may drive on: " + sent.error().text());
+    end_mission();
   }
 
   // Returns whether Goto or the fuser is in a process that may be started again.
@@ -107,12 +161,17 @@ class Command final : public orca::Component {
 
   // Sends what Goto and the fuser need and do not have.
   // @param time_limit  [s] for Goto to reach the goal.
-  orca::Status send_due(Outbox& outbox, const Route& route, double time_limit) {
+  orca::Status send_due(Drive& drive, double time_limit) {
+    const Route& route = drive.route;
+    Outbox& outbox = drive.outbox;
     outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
     while (const std::optional<std::size_t> next = outbox.next_point()) {
       const bool via = *next < route.via.size();
       const orca::command::Place& place = via ? route.via[*next] : route.goal;
-      if (orca::Status sent = send_point(route, place, via, time_limit); !sent.ok()) return sent;
+      const orca::command::Demands demands{via ? *via_radius_ : *reach_radius_, *reach_angle_, time_limit,
+                                           via};
+      if (orca::Status sent = goto_.send_wait_max(point_of(route, place, demands), kRoomLimit); !sent.ok())
+        return sent;
       outbox.point_sent();
       outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
     }
@@ -122,38 +181,18 @@ class Command final : public orca::Component {
     return orca::ok();
   }
 
-  // Returns whether the goal was reached.
-  bool wait_for_result(Outbox& outbox, const Route& route, std::uint64_t mission) {
-    const orca::TimePoint limit = now() + orca::from_seconds(*goal_timeout_);
-    const orca::TimePoint end = limit + grace();
-    for (;;) {
-      if (const orca::PushSubject* const port = next_result(outbox, end)) {
-        if (const auto reached = take_result(*port, outbox, route, mission)) return *reached;
-      } else if (now() < end) {
-        send_again(outbox, route, orca::to_seconds(limit - now()));
-      } else {
-        break;
-      }
-    }
-    char text[32];
-    std::snprintf(text, sizeof text, "%g s", *goal_timeout_);
-    give_up(route, orca::idl::GOAL_UNANSWERED, std::string("unanswered: no arrival within ") + text);
-    return false;
-  }
-
   // Returns whether the goal was reached; nothing if that is still open. Objects of other missions are late: their
   // goals have been given up.
-  std::optional<bool> take_result(const orca::PushSubject& port, Outbox& outbox, const Route& route,
-                                  std::uint64_t mission) {
+  std::optional<bool> take_result(const orca::PushSubject& port, Drive& drive) {
     if (&port == &arrived_) {
-      if (is_of(*arrived_.get_update(), mission)) return true;
+      if (is_of(*arrived_.get_update(), drive.mission)) return true;
     } else if (&port == &failed_) {
       const auto failed = failed_.get_update();
-      if (!is_of(*failed, mission)) return std::nullopt;
-      log_failure(route, failed->reason());
+      if (!is_of(*failed, drive.mission)) return std::nullopt;
+      log_failure(drive.route, failed->reason());
       return false;
-    } else if (const auto path = path_.get_update(); is_of(*path, mission)) {
-      note_way(outbox, route, *path);
+    } else if (const auto path = path_.get_update(); is_of(*path, drive.mission)) {
+      note_way(drive.outbox, drive.route, *path);
     }
     return std::nullopt;
   }
@@ -174,12 +213,12 @@ class Command final : public orca::Component {
     if (last.x() == route.goal.x && last.y() == route.goal.y) outbox.note_left(path.poses().size() - 1);
   }
 
-  void send_again(Outbox& outbox, const Route& route, double time_left) {
-    const orca::Status sent = send_due(outbox, route, std::max(time_left, 0.1));
+  void send_again(Drive& drive, double time_left) {
+    const orca::Status sent = send_due(drive, std::max(time_left, 0.1));
     if (sent.ok()) {
-      log_info("Goto or the fuser was started again, and has been sent what it needs for \"" + route.name +
-               "\": " + std::to_string(outbox.points_left()) + " of " + std::to_string(route.via.size() + 1) +
-               " points are left");
+      log_info("Goto or the fuser was started again, and has been sent what it needs for \"" +
+               drive.route.name + "\": " + std::to_string(drive.outbox.points_left()) + " of " +
+               std::to_string(drive.route.via.size() + 1) + " points are left");
     } else {
       log_debug("cannot send again yet: " + sent.error().text());
     }
@@ -207,44 +246,55 @@ class Command final : public orca::Component {
     given_up_.push(std::move(failed));
   }
 
-  void stop() override {
-    if (const orca::Status sent = send_clients({}); !sent.ok()) log_debug(sent.error().text());
-  }
-
-  // Between two laps no goal is under way: one at which the robot was driven when the process was lost is driven to again.
-  void save_state(orca::StateWriter& state) const override { state.write(tried_, unreached_); }
-
-  orca::Status load_state(orca::StateReader& state) override {
-    if (orca::Status read = state.read(tried_, unreached_); !read.ok()) return read;
-    for (std::size_t i = 0; i < tried_ && !waiting_.empty(); ++i) waiting_.pop_front();
+  // Another list takes the place of the one that is driven; the goal on the way is given up.
+  orca::Status params_changed() override {
+    if (*goals_ == listed_) return orca::ok();
+    std::vector<Route> routes;
+    for (const std::string& text : *goals_)
+      if (const orca::Status added = add(text, routes); !added.ok()) return added;
+    if (drive_) {
+      give_up(drive_->route, orca::idl::GOAL_UNANSWERED, "cancelled: there are other goals");
+      end(false);
+    }
+    rests_ = false;
+    listed_ = *goals_;
+    emptied_ = routes.empty() && !asks_;
+    agenda_.set(std::move(routes));
     return orca::ok();
   }
 
-  orca::Status send_point(const Route& route, const orca::command::Place& place, bool via,
-                          double time_limit) {
-    orca::Loan<orca::idl::GoalPoint> point = point_at(place);
-    point->name() = route.name;
-    point->coordinate().point().x(place.x);
-    point->coordinate().point().y(place.y);
-    point->coordinate().point().z(place.z);
-    point->via(via);
-    point->reach_radius().distance(via ? *via_radius_ : *reach_radius_);
-    point->use_orientation(!via && route.use_orientation);
-    if (!place.door) point->orientation().orientation().yaw(route.orientation);
-    point->reach_angle(*reach_angle_);
-    point->time_limit(time_limit);
-    return goto_.send_wait_max(std::move(point), kRoomLimit);
+  void stop() override {
+    drive_.reset();
+    if (const orca::Status sent = send_clients({}); !sent.ok()) log_debug(sent.error().text());
   }
 
-  // Returns a GoalPoint, or a Door, which is one too. Who sends a robot through a door says that it is passable.
-  static orca::Loan<orca::idl::GoalPoint> point_at(const orca::command::Place& place) {
-    if (!place.door) return orca::make_object<orca::idl::GoalPoint>();
-    auto door = orca::make_object<orca::idl::Door>();
-    door->orientation().orientation().yaw(place.door->direction);
-    door->door_width().distance(place.door->width);
-    door->passable(true);
-    return door;
+  // A goal that the robot is on its way to is driven to again.
+  void save_state(orca::StateWriter& state) const override {
+    const std::size_t on_the_way = drive_ ? 1 : 0;
+    state.write(tried_ - on_the_way, unreached_, missed_, agenda_.begun() - on_the_way, listed_, emptied_);
   }
+
+  orca::Status load_state(orca::StateReader& state) override {
+    if (state.tag().version == 1) {
+      if (orca::Status read = state.read(tried_, unreached_); !read.ok()) return read;
+      missed_ = unreached_.size();
+      agenda_.go_on_after(tried_);
+      return orca::ok();
+    }
+    std::size_t begun = 0;
+    std::vector<std::string> listed;
+    bool emptied = false;
+    if (orca::Status read = state.read(tried_, unreached_, missed_, begun, listed, emptied); !read.ok())
+      return read;
+    if (listed != listed_) return orca::ok();  // that was another list
+    agenda_.go_on_after(begun);
+    emptied_ = emptied;
+    asks_ = asks_ && !emptied;
+    return orca::ok();
+  }
+
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Command", 1}}; }
 
   orca::Status send_clients(const std::vector<std::string>& names) {
     auto list = clients_.loan();
@@ -252,73 +302,35 @@ class Command final : public orca::Component {
     return clients_.send(std::move(list));
   }
 
-  std::optional<Route> next() {
-    while (waiting_.empty() && asks())
-      if (!ask()) return std::nullopt;
-    if (waiting_.empty()) return std::nullopt;
-    Route route = std::move(waiting_.front());
-    waiting_.pop_front();
-    return route;
-  }
-
-  // Returns whether to ask the user: there are goals from nowhere else.
-  [[nodiscard]] bool asks() const { return goals_->empty() && goals_file_->empty(); }
-
-  // Asks the user for one goal; false when there will be no more.
+  // Asks the user for one goal; false when there will be no more. What is typed so far stays when the lap is given up for an order.
   bool ask() {
-    constexpr std::string_view kPrompt = "goal (name: x y > x y, empty line to end)? ";
     const orca::LiveLine::Pause room;  // the user sees what he types
-    if (write(STDERR_FILENO, kPrompt.data(), kPrompt.size()) < 0) return false;
-    std::string line;
-    if (!read_line(line) || line.empty()) return false;
-    if (const orca::Status added = add(line); !added.ok()) log_error(added.error().text());
+    if (!prompt_.show()) return false;
+    while (!prompt_.read()) sleep(std::chrono::milliseconds(50));
+    const std::string line = prompt_.take_line();
+    if (line.empty()) return false;
+    std::vector<Route> routes;
+    if (const orca::Status added = add(line, routes); !added.ok()) log_error(added.error().text());
+    agenda_.set(std::move(routes));
     return true;
   }
 
-  // Reads a line from stdin without blocking the strand in the system, so that the component can be stopped
-  // meanwhile.
-  bool read_line(std::string& line) {
-    for (;;) {
-      pollfd input{STDIN_FILENO, POLLIN, 0};
-      if (poll(&input, 1, 0) == 0) {
-        sleep(std::chrono::milliseconds(50));
-        continue;
-      }
-      char c = 0;
-      if (read(STDIN_FILENO, &c, 1) != 1) return !line.empty();
-      if (c == '\n') return true;
-      line += c;
-    }
-  }
-
-  orca::Status read_file() {
-    const orca::Result<std::string> text = orca::read_input_file(*goals_file_, kMaxBytes);
-    if (!text)
-      return orca::fail(text.error().code, "cannot read the file of goals: " + text.error().message,
-                        *goals_file_);
-    if (text->size() == kMaxBytes)
-      return orca::fail(orca::Code::invalid_argument,
-                        "the file of goals has more than 1 MB, which is the limit", *goals_file_);
-    std::istringstream file(*text);
-    int number = 0;
-    for (std::string line; std::getline(file, line);) {
-      ++number;
-      if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-      const orca::Status added = add(line);
-      if (!added.ok())
-        return orca::fail(added.error().code, added.error().message,
-                          *goals_file_ + ":" + std::to_string(number) + ":1");
-    }
+  orca::Status read_file(std::vector<Route>& routes) {
+    const auto lines = orca::command::read_goal_file(*goals_file_);
+    if (!lines) return lines.error();
+    for (const orca::command::GoalLine& line : *lines)
+      if (const orca::Status added = add(line.text, routes); !added.ok())
+        return orca::fail(added.error().code, added.error().message, line.place);
     return orca::ok();
   }
 
-  orca::Status add(const std::string& text) {
+  orca::Status add(const std::string& text, std::vector<Route>& routes) {
     orca::Result<Route> route = orca::command::parse_route(text);
     if (!route) return route.error();
     for (orca::command::Place& via : route->via)
       if (orca::Status found = find_place(via); !found.ok()) return found;
     if (orca::Status found = find_place(route->goal); !found.ok()) return found;
-    waiting_.push_back(std::move(route).value());
+    routes.push_back(std::move(route).value());
     return orca::ok();
   }
 
@@ -382,14 +394,20 @@ class Command final : public orca::Component {
       *this,
       "goals",
       {},
-      {.fixed = true,
-       .text = "Goals, each \"name: x y > door x y degrees width > x y\" in metres: any via points, then the "
-               "goal; or \"hall > kitchen\": places by name."}};
+      {.text = "Goals, each \"name: x y > door x y degrees width > x y\" in metres: any via points, then the "
+               "goal; or \"hall > kitchen\": places by name. Other goals take the place of all."}};
   orca::Param<std::string> goals_file_{
       *this,
       "goals_file",
       "",
       {.file = true, .fixed = true, .text = "File of goals, one per line; # starts a comment line."}};
+  orca::Param<std::int64_t> rounds_{
+      *this,
+      "rounds",
+      1,
+      {.min = 0,
+       .max = 1e6,
+       .text = "How often the goals are driven to, one after the other; 0: without end."}};
   orca::Param<std::vector<std::string>> behaviours_{
       *this, "behaviours", {"goto", "avoid"}, {.text = "Behaviours that the fuser uses on the way."}};
   orca::Param<double> reach_radius_{
@@ -414,9 +432,16 @@ class Command final : public orca::Component {
       {.unit = "s", .min = 1.0, .text = "Longest time for one goal; after it the goal has failed."}};
 
   orca::Synchronizer results_;
-  std::deque<Route> waiting_;
+  Agenda agenda_;
+  std::vector<std::string> listed_;  // the parameter goals, as it was taken
+  bool asks_ = false;                // Whether goals come from the prompt.
+  bool emptied_ = false;             // Whether all goals were taken away while it runs.
+  orca::command::Prompt prompt_;
+  std::optional<Drive> drive_;
+  bool rests_ = false;  // Whether the goal before was not reached, and others are driven to in rounds.
   std::size_t tried_ = 0;
-  std::vector<std::string> unreached_;
+  std::size_t missed_ = 0;
+  std::vector<std::string> unreached_;  // each once
 };
 
 }  // namespace

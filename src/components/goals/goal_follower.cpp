@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/goals/goal_follower.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -25,11 +26,13 @@ GoalFollower::GoalFollower(ComponentHost& host, double blocked_after)
     : Component(host),
       goal_(*this, "GotoCoordinateSend", &GoalFollower::on_goal,
             {.text = "Via points and goals to drive to."}),
+      cancel_(*this, "CancelSend", &GoalFollower::on_cancel,
+              {.text = "The goal to give up, by its name; without a name whatever it drives to."}),
       motion_(*this, "MotionCmdPush",
               {.text = "One command per lap: a wish, full stop on arrival, no opinion without a goal."}),
       arrived_(*this, "ArrivedPush", {.text = "One object per goal reached; none for via points."}),
       failed_(*this, "GoalFailedPush",
-              {.text = "One object per goal given up: refused, blocked or timed out."}),
+              {.text = "One object per goal given up: refused, blocked, timed out, lost or cancelled."}),
       goal_push_(*this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}),
       path_(
           *this, "PathPush",
@@ -90,6 +93,18 @@ Status GoalFollower::on_goal(const ObjectPtr<idl::GoalPoint>& goal) {
   doubts_ = false;
   before_.near = false;
   patience_.begin();
+  return ok();
+}
+
+// The order has a mission of its own; the result belongs to that of the goal.
+Status GoalFollower::on_cancel(const ObjectPtr<idl::GoalFailed>& order) {
+  if (route_.empty()) return fail(Code::failed_precondition, "there is no goal to cancel");
+  const auto is_meant = [&](const Route::Point& point) { return point->name() == order->name(); };
+  if (!order->name().empty() && std::ranges::none_of(route_.points(), is_meant))
+    return fail(Code::not_found, "cannot cancel the goal \"" + order->name() + "\": the robot drives to \"" +
+                                     route_.next().name() + "\"");
+  end_route(idl::GOAL_UNANSWERED, "cancelled: by \"" + order->origin() + "\"" +
+                                      (order->reason().empty() ? "" : ", " + order->reason()));
   return ok();
 }
 
@@ -231,6 +246,7 @@ void GoalFollower::end_route(idl::GoalFailure kind, const std::string& reason) {
 
 void GoalFollower::announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason) {
   auto failed = failed_.loan();
+  failed->mission(goal.mission());
   failed->name() = goal.name();
   failed->kind(kind);
   failed->reason() = reason;

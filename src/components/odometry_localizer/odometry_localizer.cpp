@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <optional>
 #include <utility>
 
 #include "orca/component.hpp"
@@ -15,7 +16,8 @@ using orca::idl::Odometry;
 using orca::idl::RobotPose;
 
 /// A localizer by dead reckoning: the odometry, seen from the frame of the world, in which the robot's start is known. It
-/// remembers nothing, so one that is started on the way knows as much as one that was there from the start. After the base has begun
+/// remembers nothing but a pose that somebody has sent, so one that is started on the way knows as much as one that was there from the
+/// start. After the base has begun
 /// anew it does not know where the robot is, and says so with each pose, until somebody sets its start.
 class OdometryLocalizer final : public orca::Component {
  public:
@@ -40,25 +42,47 @@ class OdometryLocalizer final : public orca::Component {
   void lose(const std::string& base) {
     lost_ = true;
     log_warning("it is not known any more where the robot is: \"" + base +
-                "\" has begun anew, and counts its odometry from another place; set start_x, start_y and "
-                "start_yaw to "
-                "where that is");
+                "\" has begun anew, and counts its odometry from another place; send where the robot is to "
+                "RobotPoseSend, or set start_x, start_y and start_yaw to where its odometry begins");
   }
 
   // Whoever sets the start knows where the odometry begins.
   orca::Status params_changed() override {
     lost_ = false;
+    start_.reset();
     return orca::ok();
   }
 
-  void save_state(orca::StateWriter& state) const override { state.write(base_, lost_); }
-  orca::Status load_state(orca::StateReader& state) override { return state.read(base_, lost_); }
+  // Somebody knows where the robot is now, so it is known where the odometry begins.
+  orca::Status on_pose(const orca::ObjectPtr<RobotPose>& pose) {
+    if (orca::Status valid = orca::check_reading(*pose); !valid.ok()) return valid;
+    const auto odometry = odometry_.latest();
+    if (!odometry || !orca::check_reading(*odometry).ok())
+      return orca::fail(
+          orca::Code::failed_precondition,
+          "no odometry has come that says anything valid, so it is not known where that begins");
+    start_ = orca::plane_pose(*pose) * inverse(orca::plane_pose(*odometry));
+    lost_ = false;
+    log_info("the robot is where \"" + pose->origin() + "\" says");
+    return orca::ok();
+  }
+
+  void save_state(orca::StateWriter& state) const override { state.write(base_, lost_, start_); }
+  orca::Status load_state(orca::StateReader& state) override {
+    if (state.tag().version == 1) return state.read(base_, lost_);
+    return state.read(base_, lost_, start_);
+  }
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
+    return {{"orca.OdometryLocalizer", 1}};
+  }
 
   void fill(const Odometry& odometry, RobotPose& pose) {
+    const orca::Pose2 start = start_.value_or(orca::Pose2{*start_x_, *start_y_, *start_yaw_});
     orca::idl::Pose2D X_WO;
-    X_WO.x(*start_x_);
-    X_WO.y(*start_y_);
-    X_WO.orientation(*start_yaw_);
+    X_WO.x(start.x);
+    X_WO.y(start.y);
+    X_WO.orientation(start.yaw);
     orca::idl::Pose2D X_OR;
     X_OR.x(odometry.x());
     X_OR.y(odometry.y());
@@ -79,6 +103,12 @@ class OdometryLocalizer final : public orca::Component {
   orca::OdometryTrust trust_;
   orca::SenderLife base_;
   bool lost_ = false;
+  std::optional<orca::Pose2> start_;  // as somebody has said since; nothing: as the parameters say
+  orca::SendServer<RobotPose> where_{
+      *this,
+      "RobotPoseSend",
+      &OdometryLocalizer::on_pose,
+      {.text = "Where the robot is now, in the frame of the world, from somebody who knows it."}};
   orca::PushProxy<Odometry> odometry_{
       *this, "odometry", {.text = "What the base measures, from the robot's start on."}};
   orca::PushServer<RobotPose> poses_{

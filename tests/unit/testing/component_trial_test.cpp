@@ -28,6 +28,7 @@ struct AvoidPorts final : Partner {
 struct GotoPorts final : Partner {
   using Partner::Partner;
   SendProxy<idl::GoalPoint> goal{*this, "GotoCoordinateSend"};
+  SendProxy<idl::GoalFailed> cancel{*this, "CancelSend"};
   PushServer<idl::RobotPose> pose{*this, "localizer"};
   PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
   PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
@@ -125,6 +126,39 @@ TEST_CASE(
   CHECK(reason == "lost: it is not known any more where the robot is");
   CHECK(stood);
   CHECK_FALSE(arrived);
+}
+
+TEST_CASE("Goto gives a goal up when it is told so, by its name or without one, and drives to the next one",
+          "[testing][goto]") {
+  std::vector<std::string> reasons;
+  bool stood = false;
+  bool arrived = false;
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    const auto cancel = [&](const std::string& name, const std::string& reason) {
+      auto order = make_object<idl::GoalFailed>();
+      order->name() = name;
+      order->reason() = reason;
+      return test.cancel.send(std::move(order)).ok();
+    };
+    for (const char* name : {"ahead", ""}) {
+      send_goal(test, 2.0);
+      push_pose(test, 0.0);
+      test.sleep(50ms);
+      cancel("hall", "");  // the robot does not drive there
+      test.sleep(50ms);
+      cancel(name, name);
+      reasons.push_back(test.failed.get_update_wait()->reason());
+      push_pose(test, 0.0);
+      test.sleep(50ms);
+      stood = test.motion.latest()->kind() != idl::NORMAL;
+    }
+    send_goal(test, 2.0);
+    push_pose(test, 2.0);
+    arrived = test.arrived.get_update_wait() != nullptr;
+  });
+  CHECK(reasons == std::vector<std::string>{"cancelled: by \"test\", ahead", "cancelled: by \"test\""});
+  CHECK(stood);
+  CHECK(arrived);
 }
 
 TEST_CASE("by odometry that does not say how wrong it is Goto claims no arrival after 40 m",

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/testing/component_trial.hpp"
 
@@ -20,6 +21,7 @@ struct Robot final : Partner {
   using Partner::Partner;
   PushServer<idl::Odometry> odometry{*this, "odometry"};
   PushProxy<idl::RobotPose> pose{*this, "RobotPosePush"};
+  SendProxy<idl::RobotPose> where{*this, "RobotPoseSend"};
 };
 
 // Returns the pose of a robot that started at (1, 6), facing left, and has driven 2 m ahead and 0.5 m to the left.
@@ -54,10 +56,39 @@ TEST_CASE("a pose by odometry starts where the robot does, and faces as it did",
   CHECK(pose->stamp().ns() == 123);
 }
 
+TEST_CASE("whoever sends where the robot is now decides all poses that follow", "[testing][localizer]") {
+  Pose2 there{};
+  Pose2 later{};
+  try_component<Robot>({.type = "orca.OdometryLocalizer"}, [&](Robot& robot) {
+    const auto drive_to = [&](double x, double y, double yaw) {
+      auto odometry = robot.odometry.loan();
+      odometry->x(x);
+      odometry->y(y);
+      odometry->steer_angle(yaw);
+      robot.odometry.push(std::move(odometry));
+      return plane_pose(*robot.pose.get_update_wait());
+    };
+    drive_to(2.0, 0.5, 0.25);
+    auto where = make_object<idl::RobotPose>();
+    where->x(7.0);
+    where->y(-3.0);
+    where->orientation(0.25 + kRight);
+    REQUIRE(robot.where.send(std::move(where)).ok());
+    robot.sleep(10ms);
+    there = drive_to(2.0, 0.5, 0.25);
+    later = drive_to(3.0, 0.5, 0.25);
+  });
+  CHECK(there.x == Approx(7.0));
+  CHECK(there.y == Approx(-3.0));
+  CHECK(there.yaw == Approx(0.25 + kRight));
+  CHECK(later.x == Approx(7.0));
+  CHECK(later.y == Approx(-2.0));
+}
+
 TEST_CASE("odometry that does not say how wrong it is gives a pose that is not exact",
           "[testing][localizer]") {
   const auto covariance = pose_with({})->covariance();
-  CHECK(position_deviation(covariance) > 0.05);  // after 2 m
+  CHECK(position_deviation(covariance) > 0.01);  // after 2 m
   CHECK(covariance[8] > 0.0);
 }
 

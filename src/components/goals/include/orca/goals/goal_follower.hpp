@@ -94,6 +94,7 @@ class GoalFollower : public Component {
   };
 
   Status on_goal(const ObjectPtr<idl::GoalPoint>& goal);
+  Status on_cancel(const ObjectPtr<idl::GoalFailed>& order);
   Status refuse(const idl::GoalPoint& goal, const char* fault);
   void follow_route(const Pose2& pose);
   void push_path(const Pose2& pose);
@@ -112,6 +113,7 @@ class GoalFollower : public Component {
   void announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason);
 
   SendServer<idl::GoalPoint> goal_;
+  SendServer<idl::GoalFailed> cancel_;
   PushServer<idl::MotionCommand> motion_;
   PushServer<idl::Arrived> arrived_;
   PushServer<idl::GoalFailed> failed_;
