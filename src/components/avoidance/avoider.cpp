@@ -204,7 +204,7 @@ Vec2 Avoider::moved_since(Vec2 point, double age) const { return seen_from(moved
 void Avoider::advise() {
   const bool hears = heard_at_ && to_seconds(now() - *heard_at_) <= deaf_after() && hears_aside(deaf_after());
   standing_.look(stays(twist_), [&] { return hears && !question_ ? what_holds() : why_deaf(); });
-  if (question_ || !hears) {
+  if (question_ || !hears || is_covered()) {
     motion_.push(full_stop());
     return;
   }

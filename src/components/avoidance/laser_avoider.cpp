@@ -105,6 +105,13 @@ std::string LaserAvoider::silent_aside(double longest) const {
   return {};
 }
 
+bool LaserAvoider::is_covered() {
+  const auto covered = [](const auto& scan) { return scan && orca::is_covered(*scan); };
+  return covered(laser_.latest()) ||
+         std::ranges::any_of(more_lasers_.sources(),
+                             [&](const MoreLasers::Source& source) { return covered(source.latest()); });
+}
+
 std::string LaserAvoider::what_holds() {
   const auto rectangle = described_body();
   const RobotOutline robot{radius(), rectangle ? 2.0 * rectangle->half_length : 0.0,

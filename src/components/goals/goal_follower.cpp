@@ -217,9 +217,11 @@ bool GoalFollower::is_hopeless(const Pose2& pose) {
   if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
     end_route(idl::GOAL_TIMED_OUT, "timed out: not reached within " + in_short(next.time_limit()) + " s");
   } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
+    const std::string holds = what_holds();
     end_route(idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) + " m to " +
                                      place() + " for " + in_short(*blocked_after_) + " s" +
-                                     (doubts_ ? ", and " + doubt() : ""));
+                                     (doubts_ ? ", and " + doubt() : "") +
+                                     (holds.empty() ? "" : ", and " + holds));
   } else {
     return false;
   }

@@ -240,7 +240,8 @@ class GridPlanner final : public orca::go::GoalFollower {
     const bool hears = navigator_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= *deaf_after_;
     const bool stands = std::abs(twist_.forward) < kSlow && std::abs(twist_.turn_rate) < kSlow;
     standing_.look(stands, [&] { return hears ? what_holds() : why_deaf(); });
-    if (!hears) {
+    const auto scan = laser_.latest();
+    if (!hears || (scan && orca::is_covered(*scan))) {
       motion().push(orca::full_stop());
       note_speed(0.0);
       return;
@@ -252,7 +253,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     note_speed(steer.speed);
   }
 
-  [[nodiscard]] std::string what_holds() const {
+  [[nodiscard]] std::string what_holds() const override {
     const auto scan = laser_.latest();
     const orca::nav::Footprint own = footprint();
     const std::string beams =

@@ -44,6 +44,11 @@ std::string in_metres(double length) {
   return text;
 }
 
+// Whether a beam has met something too near to be measured. One that has measured nothing (NaN) has not.
+bool is_too_near(const idl::LaserRangeReadings& scan, double range) {
+  return range <= scan.min_range() && range < scan.max_range();
+}
+
 }  // namespace
 
 bool RobotOutline::holds(Vec2 point) const {
@@ -57,13 +62,17 @@ Vec2 end_of_beam(const idl::LaserRangeReadings& scan, std::size_t beam) {
   return mount.position() + range * direction(mount.yaw + angle_of(scan, beam));
 }
 
+bool is_covered(const idl::LaserRangeReadings& scan) {
+  return std::ranges::any_of(scan.ranges(), [&](double range) { return is_too_near(scan, range); });
+}
+
 std::string beams_at_robot(const idl::LaserRangeReadings& scan, const RobotOutline& robot) {
   Sector covered;
   Sector own;
   for (std::size_t i = 0; i < scan.ranges().size(); ++i) {
     const double range = scan.ranges()[i];
     if (!(range < scan.max_range())) continue;
-    if (range <= scan.min_range()) {
+    if (is_too_near(scan, range)) {
       covered.add(angle_of(scan, i));
     } else if (robot.holds(end_of_beam(scan, i))) {
       own.add(angle_of(scan, i));

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <numbers>
 #include <stdexcept>
 
 #include "orca/geometry/objects/covariance.hpp"
@@ -42,6 +43,14 @@ struct OdometryPorts final : Partner {
   PushServer<idl::Odometry> odometry{*this, "odometry"};
   PushProxy<idl::MotionCommand> motion{*this, "MotionCmdPush"};
   PushProxy<idl::Arrived> arrived{*this, "ArrivedPush"};
+};
+
+struct PlannerPorts final : Partner {
+  using Partner::Partner;
+  SendProxy<idl::GoalPoint> goal{*this, "GotoCoordinateSend"};
+  PushServer<idl::LaserRangeReadings> laser{*this, "laser"};
+  PushServer<idl::Odometry> odometry{*this, "odometry"};
+  PushProxy<idl::GoalFailed> failed{*this, "GoalFailedPush"};
 };
 
 struct WrongType final : Partner {
@@ -159,6 +168,36 @@ TEST_CASE("Goto gives a goal up when it is told so, by its name or without one, 
   CHECK(reasons == std::vector<std::string>{"cancelled: by \"test\", ahead", "cancelled: by \"test\""});
   CHECK(stood);
   CHECK(arrived);
+}
+
+TEST_CASE("a planner that gives a goal up because its laser sees the robot itself says so", "[testing]") {
+  std::string reason;
+  const Trial trial{.type = "orca.GridPlanner", .params = {{"blocked_after", "5 s"}}};
+  try_component<PlannerPorts>(trial, [&](PlannerPorts& test) {
+    auto goal = make_object<idl::GoalPoint>();
+    goal->reach_radius().distance(0.3);
+    goal->coordinate().point().x(4.0);
+    REQUIRE(test.goal.send(std::move(goal)).ok());
+    for (int i = 0; i < 100 && !test.failed.new_data_arrived(); ++i) {
+      auto scan = test.laser.loan();
+      scan->max_range(8.0);
+      scan->angle_start(-std::numbers::pi / 2);
+      scan->angle_increment(std::numbers::pi / 180);
+      scan->ranges().assign(181, 8.0);
+      for (std::size_t k = 0; k < 10; ++k) scan->ranges()[k] = 0.1;
+      scan->stamp(to_time_value(test.now()));
+      test.laser.push(std::move(scan));
+      auto odometry = test.odometry.loan();
+      odometry->stamp(to_time_value(test.now()));
+      test.odometry.push(std::move(odometry));
+      test.sleep(100ms);
+    }
+    reason = test.failed.get_update_wait()->reason();
+  });
+  CHECK_THAT(reason,
+             Catch::Contains(
+                 "blocked: no nearer than 4 m to the goal for 5 s, and of the laser \"test\" 10 of its 181 "
+                 "beams, from -90 to -81 deg, end within the robot's own outline"));
 }
 
 TEST_CASE("by odometry that does not say how wrong it is Goto claims no arrival after 40 m",

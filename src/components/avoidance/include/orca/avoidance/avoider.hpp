@@ -67,6 +67,8 @@ class Avoider : public Component {
   [[nodiscard]] virtual bool hears_aside(double /*longest*/) const { return true; }
   /// Says who of those is silent, for people.
   [[nodiscard]] virtual std::string silent_aside(double /*longest*/) const { return {}; }
+  /// Returns whether something is so near to a sensor that it cannot be measured. The robot then stands.
+  [[nodiscard]] virtual bool is_covered() { return false; }
   /// Says what of the last readings must hold the robot where it is, for people; empty if nothing does. Called while it stands.
   [[nodiscard]] virtual std::string what_holds() { return {}; }
   /// Returns what the robot should do. Called once a lap, unless the robot must stand anyway.

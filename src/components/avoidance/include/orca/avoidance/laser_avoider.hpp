@@ -54,6 +54,7 @@ class LaserAvoider : public Avoider {
   void listen_aside(EchoMemory& memory) override;
   [[nodiscard]] bool hears_aside(double longest) const override;
   [[nodiscard]] std::string silent_aside(double longest) const override;
+  [[nodiscard]] bool is_covered() override;
   [[nodiscard]] std::string what_holds() override;
   [[nodiscard]] bool is_heard(const MoreLasers::Source& source, double longest) const;
   [[nodiscard]] Further& further(const MoreLasers::Source& source);

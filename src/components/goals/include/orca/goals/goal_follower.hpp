@@ -42,6 +42,8 @@ class GoalFollower : public Component {
   virtual void drive(const Pose2& pose, const Target& target) = 0;
   /// Takes note that there is nothing to drive to.
   virtual void idle() {}
+  /// Says what must hold the robot where it is, for people; empty if nothing does. Called for a goal that is given up as blocked.
+  [[nodiscard]] virtual std::string what_holds() const { return {}; }
   /// Forgets where things are: the robot is lost, or its odometry counts from another place.
   virtual void forget_places() {}
 

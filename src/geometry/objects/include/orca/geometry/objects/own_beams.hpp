@@ -21,6 +21,11 @@ struct RobotOutline {
 /// @pre  its range is a number.
 [[nodiscard]] Vec2 end_of_beam(const idl::LaserRangeReadings& scan, std::size_t beam);
 
+/// Returns whether some beams of a scan are too near to be measured: something is at the laser, and nobody knows how far it
+/// reaches. A robot must not drive by such a scan.
+/// @thread  pure function; any thread.
+[[nodiscard]] bool is_covered(const idl::LaserRangeReadings& scan);
+
 /// Says which beams of a scan must hold the robot where it is, for people: those that are too near to be measured, and those that
 /// end within the robot's own outline. Empty if there are none.
 /// @thread  pure function; any thread.
