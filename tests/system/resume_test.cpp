@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -83,7 +84,63 @@ std::vector<std::string> names_of(const std::vector<Arrival>& arrivals) {
   return names;
 }
 
+// The shipped graph of a robot with an emulated base, localized as the real one is.
+std::string emulated_by_odometry(const TempFolder& folder, const std::string& name) {
+  std::string graph = read_text(source_file("graphs/" + name + ".xml"));
+  graph = std::regex_replace(graph, std::regex("\\.\\./sim/"), source_file("sim/"));
+  std::smatch real;
+  REQUIRE(std::regex_search(
+      graph, real, std::regex("<component name=\"localizer\" type=\"orca.OdometryLocalizer\"[^>]*/>")));
+  const std::string by_odometry =
+      real.str() + "<connect from=\"base.OdometryPush\" to=\"localizer.odometry\"/>";
+  return folder.write(
+      name + ".xml",
+      std::regex_replace(graph,
+                         std::regex("<component name=\"localizer\" type=\"orca.TruthLocalizer\"[^>]*/>"),
+                         by_odometry));
+}
+
 }  // namespace
+
+TEST_CASE(
+    "a shipped robot that knows by its odometry where it is says that it is lost after its process was, and "
+    "drives nowhere",
+    "[system][resume]") {
+  const TempFolder folder;
+  Subprocess program(deployer({emulated_by_odometry(folder, "nomad_scout"), "--profile", "emulate", "--set",
+                               "goals=ahead: 9 0; back: 0 0", "--until", "40s"}));
+  std::this_thread::sleep_for(Seconds(6));
+  const std::optional<pid_t> process = find_child(program.pid(), "odometry_localizer");
+  REQUIRE(process);
+  REQUIRE(kill(*process, SIGKILL) == 0);
+  const Run run = finish(program, Seconds(90));
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.arrivals().empty());
+  CHECK(run.says("localizer: it is not known any more where the robot is: \"base\" has begun anew"));
+  REQUIRE(run.failures().size() == 2);
+  CHECK(run.failures()[0] == "failed ahead lost: it is not known any more where the robot is");
+  CHECK(run.failures()[1] == "failed back lost: it is not known any more where the robot is");
+}
+
+TEST_CASE(
+    "in each shipped graph a localizer in the process of its base keeps in mind which odometry it has heard",
+    "[system][resume]") {
+  int localizers = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source_file("graphs"))) {
+    if (entry.path().extension() != ".xml") continue;
+    const std::string graph = read_text(entry.path().string());
+    const std::regex element("<component [^>]*\"orca.OdometryLocalizer\"[^>]*>");
+    for (std::sregex_iterator found(graph.begin(), graph.end(), element), end; found != end; ++found) {
+      const std::string text = found->str();
+      CAPTURE(entry.path().string(), text);
+      if (text.find("process=") != std::string::npos) continue;
+      CHECK(text.find("restore=\"last\"") != std::string::npos);
+      ++localizers;
+    }
+  }
+  CHECK(localizers >= 7);
+}
 
 TEST_CASE("with restore=last a Command that is killed goes on with the goal that it drove to",
           "[system][resume]") {
