@@ -13,7 +13,6 @@
 #include "orca/hardware.hpp"
 #include "orca/hw/framing/byte_reader.hpp"
 #include "orca/hw/framing/checksums.hpp"
-#include "orca/hw/framing/scanner.hpp"
 #include "orca/hw/laser_place.hpp"
 #include "orca/hw/line_driver.hpp"
 #include "orca/hw/line_frames.hpp"
@@ -112,7 +111,7 @@ class Owl final : public orca::hw::LineDriver {
   }
 
   [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return orca::hw::counts_of(scanner_.statistics());
+    return orca::hw::counts_of(frames_.statistics());
   }
   Status drive(const orca::hw::DriveSetpoint& /*setpoint*/) override {
     return orca::fail(orca::Code::failed_precondition, "a laser does not move");
@@ -137,13 +136,12 @@ class Owl final : public orca::hw::LineDriver {
 
   Status receive(TimePoint now) {
     looked_ = now;
-    return orca::hw::read_frames(
-        line(), scanner_, now, [this](const orca::hw::framing::Frame& frame, TimePoint sent) {
-          heard(sent);
-          const Bytes content = frame.bytes.subspan(kHead, frame.bytes.size() - kHead - kCheck);
-          if (frame.bytes[1] == kName) named_ = true;
-          if (frame.bytes[1] == kScan && content.size() == 2 * kBeams) publish(content, sent);
-        });
+    return frames_.read(line(), now, [this](const orca::hw::framing::Frame& frame, TimePoint sent) {
+      heard(sent);
+      const Bytes content = frame.bytes.subspan(kHead, frame.bytes.size() - kHead - kCheck);
+      if (frame.bytes[1] == kName) named_ = true;
+      if (frame.bytes[1] == kScan && content.size() == 2 * kBeams) publish(content, sent);
+    });
   }
 
   void publish(Bytes content, TimePoint sent) {
@@ -165,7 +163,7 @@ class Owl final : public orca::hw::LineDriver {
 
   orca::hw::LaserPlace place_{*this, "its middle beam"};
   orca::hw::SensorHW<orca::idl::LaserRangeReadings> scans_{100ms};
-  orca::hw::framing::Scanner scanner_{{look, kHead + kLongestContent + kCheck}};
+  orca::hw::LineFrames frames_{{look, kHead + kLongestContent + kCheck}};
   bool named_ = false;
   TimePoint begun_{}, asked_{}, looked_{};
 };

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "orca/hw/line_frames.hpp"
-
 namespace orca::hw::create2 {
 namespace {
 
@@ -59,9 +57,9 @@ Status Create2Session::begin(TimePoint now) {
 // A command that was cut short may wait for its data, of which it takes at most four here.
 Status Create2Session::call(TimePoint now) {
   deadline_ = now + kFrameTime;
-  frames_ = 0;
+  good_frames_ = 0;
   link_.discard_input();
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   if (tries_ > 0)
     for (int i = 0; i < 4; ++i)
       if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
@@ -72,7 +70,7 @@ Status Create2Session::call(TimePoint now) {
 
 Result<bool> Create2Session::advance(TimePoint now) {
   const auto meet = [this](const Sensors& sensors, TimePoint) {
-    if (!sensors.left_counts || ++frames_ < kFirstFrames) return;
+    if (!sensors.left_counts || ++good_frames_ < kFirstFrames) return;
     found_ = true;
     mode_offset_ = sensors.mode == kPassivePlusOne ? 1 : 0;
   };
@@ -106,7 +104,7 @@ Error Create2Session::nobody() const {
 }
 
 Status Create2Session::receive(TimePoint now, const Take& take) {
-  return read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+  return frames_.read(link_, now, [&](const framing::Frame& frame, TimePoint stamp) {
     Sensors sensors;
     // The scanner has looked whether it fits.
     if (!sensors.apply_body(body_of(frame.bytes)).ok()) return;

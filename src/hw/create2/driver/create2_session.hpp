@@ -10,7 +10,7 @@
 #include "orca/hw/create2/command.hpp"
 #include "orca/hw/create2/sensors.hpp"
 #include "orca/hw/create2/stream.hpp"
-#include "orca/hw/framing/scanner.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/link/byte_link.hpp"
 
 namespace orca::hw::create2 {
@@ -51,7 +51,7 @@ class Create2Session {
 
   /// Returns the rate of the line [baud].
   [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
-  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   Status call(TimePoint now);
@@ -60,11 +60,11 @@ class Create2Session {
 
   link::ByteLink& link_;
   const std::vector<std::uint32_t> rates_;
-  framing::Scanner scanner_{kProtocol};
+  LineFrames frames_{kProtocol};
   std::size_t rate_ = 0;
   int tries_ = 0;  // at this rate
   TimePoint deadline_{};
-  int frames_ = 0;  // since the robot was called
+  int good_frames_ = 0;  // since the robot was called
   bool found_ = false;
   int mode_offset_ = 0;  // of the modes that it reports
 };

@@ -5,8 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "orca/hw/line_frames.hpp"
-
 namespace orca::hw::nomad_scout {
 namespace {
 
@@ -31,7 +29,7 @@ Status ScoutSession::begin(TimePoint now) {
   refusals_ = 0;
   heard_ = false;
   first_.reset();
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
   link_.discard_input();
   return ask(get_state(), now);
@@ -57,7 +55,7 @@ Status ScoutSession::try_again(TimePoint now) {
     if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set;
   }
   link_.discard_input();
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   return ask(get_state(), now);
 }
 
@@ -82,22 +80,22 @@ Status ScoutSession::ask(const Packet& packet, TimePoint now) {
 }
 
 Status ScoutSession::receive(TimePoint now, const Take& take) {
-  const std::uint64_t spoiled = scanner_.statistics().bad_checksums;
+  const std::uint64_t spoiled = frames_.statistics().bad_checksums;
   Status taken = read(now, take);
   if (asked_ && now >= deadline_) {  // the end of its answer was lost
     asked_.reset();
-    scanner_.give_up([&](const framing::Frame& frame) {
-      if (taken.ok()) taken = take_frame(frame, now, take);
+    frames_.give_up([&](const framing::Frame& frame, TimePoint stamp) {
+      if (taken.ok()) taken = take_frame(frame, stamp, take);
     });
   }
   // An answer that was spoiled is an answer: the robot waits for the next command.
-  if (scanner_.statistics().bad_checksums != spoiled) asked_.reset();
+  if (frames_.statistics().bad_checksums != spoiled) asked_.reset();
   return taken;
 }
 
 Status ScoutSession::read(TimePoint now, const Take& take) {
   Status taken;
-  Status read = read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+  Status read = frames_.read(link_, now, [&](const framing::Frame& frame, TimePoint stamp) {
     if (taken.ok()) taken = take_frame(frame, stamp, take);
   });
   return taken.ok() ? read : taken;

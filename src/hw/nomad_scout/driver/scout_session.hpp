@@ -9,7 +9,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/framing/scanner.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
 
@@ -65,7 +65,7 @@ class ScoutSession {
 
   /// Returns the rate of the line [baud].
   [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
-  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   Status read(TimePoint now, const Take& take);
@@ -76,7 +76,7 @@ class ScoutSession {
 
   link::ByteLink& link_;
   const std::vector<std::uint32_t> rates_;
-  framing::Scanner scanner_{kProtocol};
+  LineFrames frames_{kProtocol};
   std::size_t rate_ = 0;
   int tries_ = 0;       // at this rate
   bool heard_ = false;  // a packet, at whatever rate

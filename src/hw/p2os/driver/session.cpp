@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "orca/hw/line_frames.hpp"
 #include "orca/hw/p2os/sip.hpp"
 
 namespace orca::hw::p2os {
@@ -24,7 +23,7 @@ Status Session::begin(TimePoint now) {
   tries_ = 0;
   heard_ = false;
   identity_ = {};
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
   link_.discard_input();
   return say(Step::sync0, now);
@@ -93,7 +92,7 @@ Result<bool> Session::try_again(TimePoint now) {
     if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set.error();
   }
   link_.discard_input();
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   if (Status said = say(Step::sync0, now); !said.ok()) return said.error();
   return false;
 }
@@ -112,7 +111,7 @@ Error Session::nobody() const {
 }
 
 Status Session::receive(TimePoint now, const std::function<void(const Received&)>& take) {
-  return read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
+  return frames_.read(link_, now, [&](const framing::Frame& frame, TimePoint stamp) {
     take({body_of(frame.bytes), stamp});
   });
 }

@@ -10,7 +10,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/framing/scanner.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/p2os/command.hpp"
 #include "orca/hw/p2os/sync.hpp"
@@ -58,7 +58,7 @@ class Session {
   [[nodiscard]] const Identity& identity() const { return identity_; }
   /// Returns the rate of the line [baud].
   [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
-  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   enum class Step { sync0, sync1, sync2, first_packet, closing, done };
@@ -71,7 +71,7 @@ class Session {
 
   link::ByteLink& link_;
   const std::vector<std::uint32_t> rates_;
-  framing::Scanner scanner_{kProtocol};
+  LineFrames frames_{kProtocol};
   Step step_ = Step::sync0;
   std::size_t rate_ = 0;
   int tries_ = 0;  // at this rate

@@ -104,8 +104,8 @@ class PlayerBase final : public orca::hw::LineDriver {
 
   Status poll() override {
     const TimePoint now = host().now();
-    if (Status read = session_->receive([&](const Message& message) { take(message, now); }); !read.ok())
-      return read;
+    const auto taken = [this](const Message& message, TimePoint sent) { take(message, sent); };
+    if (Status read = session_->receive(now, taken); !read.ok()) return read;
     miss_power(now);
     if (now < say_again_) return line().flush();
     return powered_ ? say(applied_) : rest();

@@ -69,7 +69,7 @@ Status PlayerSession::ask(TimePoint now) {
 
 Result<bool> PlayerSession::advance(TimePoint now) {
   Status taken;
-  Status read = receive([&](const Message& message) {
+  Status read = receive(now, [&](const Message& message, TimePoint) {
     if (taken.ok()) taken = take(message, now);
   });
   if (!taken.ok()) return taken.error();
@@ -96,15 +96,16 @@ Result<bool> PlayerSession::advance(TimePoint now) {
   return false;
 }
 
-Status PlayerSession::receive(const Take& take) {
+Status PlayerSession::receive(TimePoint now, const Take& take) {
   std::array<std::uint8_t, 4096> bytes{};
   for (int i = 0; i < kMostReads; ++i) {
     const Result<std::size_t> count = link_.read(bytes);
     if (!count) return count.error();
     if (*count == 0) return ok();
+    if (reader_.waiting() == 0) begun_ = now;
     Status fed = reader_.feed({bytes.data(), *count}, [&](const Message& message) {
       ++messages_;
-      take(message);
+      take(message, std::exchange(begun_, now));
     });
     if (!fed.ok()) return fed;
   }

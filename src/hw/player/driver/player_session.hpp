@@ -43,7 +43,8 @@ struct PlayerRobotFacts {
 /// @source  Player 3.1 server and its client library libplayerc.
 class PlayerSession {
  public:
-  using Take = std::function<void(const Message&)>;
+  /// A function that takes a message, and when its first byte came.
+  using Take = std::function<void(const Message&, TimePoint sent)>;
 
   /// @param link      outlives the object.
   /// @param wishes    the base, and other devices that are used as far as the server has them.
@@ -63,7 +64,7 @@ class PlayerSession {
 
   /// Reads what there is and hands out the messages.
   /// @errors  those of the link and of MessageReader.
-  Status receive(const Take& take);
+  Status receive(TimePoint now, const Take& take);
 
   /// Takes an answer that did not come in time: of a driver that was still starting.
   /// @return whether it has changed facts().
@@ -115,6 +116,7 @@ class PlayerSession {
   TimePoint deadline_{};
   PlayerRobotFacts facts_;
   std::uint64_t messages_ = 0;
+  TimePoint begun_{};      // when the first byte came of the message that is not whole yet
   std::uint64_t bad_ = 0;  // of them
 };
 

@@ -170,7 +170,7 @@ class Rplidar final : public orca::hw::LineDriver {
   }
 
   void take(const Point& point, TimePoint stamp) {
-    heard(stamp);
+    heard(session_->sent());
     const Turn* const turn = turns_->add(point, stamp);
     if (turn == nullptr) return;
     turned_ = looked_;

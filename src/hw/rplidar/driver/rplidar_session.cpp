@@ -26,6 +26,7 @@ RplidarSession::RplidarSession(link::ByteLink& link, ScanMode mode) : link_(link
 Status RplidarSession::begin(TimePoint now) {
   was_reset_ = has_rates_ = false;
   heard_bytes_ = 0;
+  arrivals_ = {};
   before_ = {};
   receiver_ = {};
   rates_ = kUsualRates;
@@ -116,12 +117,13 @@ Status RplidarSession::read(TimePoint now, const Take& take) {
     const Result<std::size_t> count = link_.read(bytes);
     if (!count) return count.error();
     if (*count == 0) return ok();
-    heard_bytes_ += *count;
+    arrivals_.note(heard_bytes_ + *count, now, link_.byte_time());
     for (std::size_t i = 0; i < *count; ++i) {
-      const TimePoint came = now - from_seconds(static_cast<double>(*count - 1 - i) * link_.byte_time());
+      const TimePoint came = arrivals_.of(heard_bytes_++) + from_seconds(link_.byte_time());
       place_in_capsule_ = 0;
       receiver_.feed({&bytes[i], 1}, [&](const Event& event) { hear(event, came, take); });
     }
+    if (heard_bytes_ > kCapsuleSize) arrivals_.forget(heard_bytes_ - kCapsuleSize);
   }
 }
 
@@ -145,6 +147,7 @@ void RplidarSession::hear_point(const Point& point, TimePoint now, const Take& t
   if (step_ != Step::spin && step_ != Step::flow && step_ != Step::scan) return;
   step_ = Step::flow;
   deadline_ = kForever;
+  sent_ = arrivals_.of(heard_bytes_ - (express_ ? kCapsuleSize : kNodeSize));
   if (take) take(point, now - age_of_point());
   ++place_in_capsule_;
 }

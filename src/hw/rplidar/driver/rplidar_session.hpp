@@ -7,6 +7,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/hw/arrivals.hpp"
 #include "orca/hw/line_counts.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/rplidar/receiver.hpp"
@@ -62,6 +63,8 @@ class RplidarSession {
   [[nodiscard]] bool is_express() const { return express_; }
   /// Returns whether points have come since scan().
   [[nodiscard]] bool scans() const { return step_ == Step::flow; }
+  /// Returns when the first byte left the scanner of what brought the last points. @pre  points have come.
+  [[nodiscard]] TimePoint sent() const { return sent_; }
   /// Returns what was counted since begin().
   [[nodiscard]] LineCounts counts() const;
 
@@ -97,6 +100,8 @@ class RplidarSession {
   bool has_rates_ = false;
   bool express_ = false;
   std::uint64_t heard_bytes_ = 0;  // since begin()
+  Arrivals arrivals_;
+  TimePoint sent_{};
   DeviceInfo info_;
   Health health_;
   SampleRates rates_;

@@ -51,6 +51,7 @@ Status Session::find_from(std::size_t index, TimePoint now) {
     }
     link_.discard_input();
     scanner_ = framing::Scanner(kFromLaser);
+    arrivals_ = {};
     return say(Step::find, now);
   }
   return index > 0 && now < patient_until_ ? find_from(0, now) : Status(nobody());
@@ -269,16 +270,16 @@ Status Session::receive(TimePoint now, const std::function<void(const Received&)
     if (!count) return count.error();
     if (*count == 0) return ok();
     if (step_ == Step::find) own_.feed({bytes.data(), *count}, [](const framing::Frame&) {});
-    const std::uint64_t after = scanner_.received() + *count;
+    arrivals_.note(scanner_.received() + *count, now, link_.byte_time());
     bool is_damaged = false;  // what we have sent
     scanner_.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
       const Heard what = heard(frame.bytes);
       is_damaged |= what == Heard::nak && frame.skipped == 0;
       if (what != Heard::telegram) return;
       const std::optional<Reply> reply = parse_reply(payload_of(frame.bytes));
-      const double age = static_cast<double>(after - frame.begin) * link_.byte_time();
-      if (reply) take({*reply, now - from_seconds(age)});
+      if (reply) take({*reply, arrivals_.of(frame.begin)});
     });
+    arrivals_.forget(scanner_.received() - scanner_.waiting());
     if (is_damaged && step_ != Step::done && step_ != Step::settle) deadline_ = now;
   }
 }

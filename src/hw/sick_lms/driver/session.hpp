@@ -9,6 +9,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/hw/arrivals.hpp"
 #include "orca/hw/framing/scanner.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/sick_lms/reply.hpp"
@@ -25,7 +26,7 @@ struct Wishes {
   Duration patience{0};             ///< For a laser that does not answer yet [s].
 };
 
-/// A telegram of the laser, and when its first byte arrived.
+/// A telegram of the laser, and when its first byte left it.
 struct Received {
   Reply reply;
   TimePoint stamp;
@@ -99,6 +100,7 @@ class Session {
   const Wishes wishes_;
   const bool has_rate_;
   framing::Scanner scanner_{kFromLaser};
+  Arrivals arrivals_;
   framing::Scanner own_{kFromHost};  // finds our own requests, which a loop sends back
   Step step_ = Step::find;
   std::vector<std::uint32_t> order_;  // of the rates at which it is looked for

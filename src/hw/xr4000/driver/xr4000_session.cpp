@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "orca/hw/line_frames.hpp"
 #include "orca/hw/xr4000/request.hpp"
 
 namespace orca::hw::xr4000 {
@@ -22,7 +21,7 @@ Status XrSession::begin(TimePoint now) {
 }
 
 Status XrSession::call(TimePoint now) {
-  scanner_ = framing::Scanner(kProtocol);
+  frames_ = LineFrames(kProtocol);
   link_.discard_input();
   return ask(hello(), now);
 }
@@ -75,16 +74,15 @@ Status XrSession::ask(const Frame& request, TimePoint now) {
 }
 
 Status XrSession::receive(TimePoint now, const Take& take) {
-  const std::uint64_t spoiled = scanner_.statistics().bad_checksums;
-  const Status read = read_frames(link_, scanner_, now, [&](const framing::Frame& frame, TimePoint stamp) {
-    take_frame(frame, stamp, take);
-  });
+  const std::uint64_t spoiled = frames_.statistics().bad_checksums;
+  const Status read = frames_.read(
+      link_, now, [&](const framing::Frame& frame, TimePoint stamp) { take_frame(frame, stamp, take); });
   if (asked_ && now >= deadline_) {  // the end of its answer was lost
     asked_.reset();
-    scanner_.give_up([&](const framing::Frame& frame) { take_frame(frame, now, take); });
+    frames_.give_up([&](const framing::Frame& frame, TimePoint stamp) { take_frame(frame, stamp, take); });
   }
   // An answer that was spoiled is an answer: the agent waits for the next request.
-  if (scanner_.statistics().bad_checksums != spoiled) asked_.reset();
+  if (frames_.statistics().bad_checksums != spoiled) asked_.reset();
   return read;
 }
 

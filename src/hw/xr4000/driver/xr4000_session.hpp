@@ -6,7 +6,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/framing/scanner.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/xr4000/answers.hpp"
 
@@ -49,7 +49,7 @@ class XrSession {
   /// Sends a request whose answer is of no interest.
   Status tell(const Frame& request) { return link_.write(request.view()); }
 
-  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   Status meet(const Message& answer);
@@ -58,7 +58,7 @@ class XrSession {
   void take_frame(const framing::Frame& frame, TimePoint stamp, const Take& take);
 
   link::ByteLink& link_;
-  framing::Scanner scanner_{kProtocol};
+  LineFrames frames_{kProtocol};
   int tries_ = 0;
   bool found_ = false;
   bool echoes_ = false;  // something that we have sent came back

@@ -2,35 +2,54 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/hw/arrivals.hpp"
 #include "orca/hw/framing/scanner.hpp"
 #include "orca/hw/line_counts.hpp"
 #include "orca/hw/link/byte_link.hpp"
 
 namespace orca::hw {
 
-/// Reads what there is and calls sink(const framing::Frame&, TimePoint) for each frame that it completes, with the time at which
-/// the frame's first byte began to leave the device, by the time that the line takes for a byte.
-/// @errors  those of ByteLink::read().
-/// @thread  the link's.
-template <class Sink>
-Status read_frames(link::ByteLink& link, framing::Scanner& scanner, TimePoint now, Sink&& sink) {
-  std::array<std::uint8_t, 1024> bytes{};
-  for (;;) {
-    const Result<std::size_t> count = link.read(bytes);
-    if (!count) return count.error();
-    if (*count == 0) return ok();
-    const std::uint64_t after = scanner.received() + *count;
-    scanner.feed({bytes.data(), *count}, [&](const framing::Frame& frame) {
-      const double age = static_cast<double>(after - frame.begin) * link.byte_time();
-      sink(frame, now - Duration(std::llround(1e9 * age)));
-    });
+/// The frames that come over a line, each with the time at which its first byte left the device (see Arrivals). To begin anew, assign
+/// a new one.
+///
+/// Thread contract: not synchronised; the line's strand.
+class LineFrames {
+ public:
+  /// @pre  as for framing::Scanner.
+  explicit LineFrames(const framing::Protocol& protocol) : scanner_(protocol) {}
+
+  /// Reads what there is and calls sink(const framing::Frame&, TimePoint sent) for each frame that it completes.
+  /// @errors  those of ByteLink::read().
+  template <class Sink>
+  Status read(link::ByteLink& link, TimePoint now, Sink&& sink) {
+    std::array<std::uint8_t, 1024> bytes{};
+    for (;;) {
+      const Result<std::size_t> count = link.read(bytes);
+      if (!count) return count.error();
+      if (*count == 0) return ok();
+      arrivals_.note(scanner_.received() + *count, now, link.byte_time());
+      scanner_.feed({bytes.data(), *count},
+                    [&](const framing::Frame& frame) { sink(frame, arrivals_.of(frame.begin)); });
+      arrivals_.forget(scanner_.received() - scanner_.waiting());
+    }
   }
-}
+
+  /// Gives up the frame whose end is missing, as Scanner::give_up(); the sink is that of read().
+  template <class Sink>
+  void give_up(Sink&& sink) {
+    scanner_.give_up([&](const framing::Frame& frame) { sink(frame, arrivals_.of(frame.begin)); });
+  }
+
+  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
+
+ private:
+  framing::Scanner scanner_;
+  Arrivals arrivals_;
+};
 
 /// Returns a scanner's counters as a driver reports them.
 [[nodiscard]] inline LineCounts counts_of(const framing::Statistics& all) {
