@@ -53,7 +53,11 @@ std::vector<std::uint8_t> p2os_config(const P2osSettings& settings, unsigned gri
   fields.byte(0).words({0, 0, 0, 0});           // two SIPs; stall value and count; joystick
   fields.words({100, 400, 100, 100, 0, 0, 0});  // turning: deg/s, mm/s, deg/s2 twice; gains
   fields.words({300, 300, 0, 0, 0});            // driving: mm/s2 twice; gains
-  fields.byte(settings.front_bumpers).byte(settings.rear_bumpers).byte(0).byte(40).byte(2);
+  fields.byte(settings.front_bumpers)
+      .byte(settings.rear_bumpers)
+      .byte(0)
+      .byte(40)
+      .byte(settings.resets_baud ? 2 : 0);
   fields.byte(0).word(0).byte(0).byte(0).word(0).word(0);  // gyro, drift, aux rates, ticks, shutdown
   return fields.text("1.0").bytes;
 }

@@ -167,7 +167,7 @@ void P2osFirmware::carry_out(int number, int value, TimePoint now) {
     case kSetv: return servo_->set_speed(0.001 * std::abs(value));
     case kSetrv: return servo_->set_turn_rate(kTurnDegree * std::abs(value));
     case kSeto: origin_ = body_.odometry(); return;
-    case kConfig: return send(p2os_config(settings_, gripper_->kind()), now);
+    case kConfig: return tell_settings(now);
     case kSonar: return switch_sonar(value);
     case kStop:
     case kEstop: return stop();
@@ -204,7 +204,7 @@ void P2osFirmware::switch_sonar(int value) { sonar_ = value != 0 && settings_.ha
 
 void P2osFirmware::set_baud(int code) {
   constexpr std::uint32_t kRates[] = {9600, 19200, 38400, 57600, 115200};
-  if (code >= 0 && code < 5) baud_ = kRates[code];
+  if (code >= 0 && code < 5 && kRates[code] <= settings_.fastest) baud_ = kRates[code];
 }
 
 void P2osFirmware::stop() {
@@ -216,19 +216,23 @@ Twist2 P2osFirmware::wanted() { return servo_->velocity(body_.odometry()); }
 
 void P2osFirmware::drive() { body_.drive(power_ ? wanted() : Twist2{}); }
 
-// The line has its configured rate again, whatever rate the host had set.
+void P2osFirmware::tell_settings(TimePoint now) {
+  if (settings_.tells_settings) send(p2os_config(settings_, gripper_->kind()), now);
+}
+
 void P2osFirmware::close() {
   stop();
   gripper_->forget_host();
   power_ = sonar_ = open_ = false;
   syncs_ = 0;
-  baud_ = settings_.baud;
+  if (settings_.resets_baud) baud_ = settings_.baud;
 }
 
 void P2osFirmware::reset(TimePoint) { restart(); }
 
 void P2osFirmware::restart() {
   close();
+  baud_ = settings_.baud;
   bumpers_stall_ = 0;
   origin_ = body_.odometry();
   line_.clear();

@@ -41,7 +41,7 @@ TEST_CASE("hwprobe names the robot at a port, shows its first data and counts, a
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK_THAT(run.out, Contains("orca.hw.P2os: ActivMedia Pioneer 2-DX"));
-  CHECK_THAT(run.out, Contains("connected to \"Orca_Emu\" (Pioneer p2dx) at 9600 baud"));
+  CHECK_THAT(run.out, Contains("connected to \"Orca_Emu\" (Pioneer p2dx) at 38400 baud"));
   CHECK_THAT(run.out,
              Contains("Odometry: x 0, y 0") && Contains("SonarRangeReadings: ") && Contains("Battery: "));
   CHECK_THAT(run.out, Contains("0 spoiled, 0 bytes skipped"));

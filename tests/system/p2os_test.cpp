@@ -65,7 +65,7 @@ TEST_CASE("a Pioneer drives to its goals over a serial line, and its motors are 
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   REQUIRE(run.arrivals().size() == 2);
-  CHECK(run.says("connected to \"Orca_Emu\" (Pioneer p2dx) at 9600 baud"));
+  CHECK(run.says("connected to \"Orca_Emu\" (Pioneer p2dx) at 38400 baud"));
   const Pose2 end = pioneer.with([](P2osFirmware&, PlainBody& body) { return body.odometry(); });
   CHECK(std::hypot(end.x - run.arrivals()[1].x, end.y - run.arrivals()[1].y) < 0.1);
   CHECK(stands(pioneer));
@@ -261,7 +261,8 @@ TEST_CASE("a controller that is switched off and on in mid-motion is found again
   CHECK_FALSE(has_power(pioneer));
 }
 
-TEST_CASE("kill -9 of the whole system: the controller's watchdog stops the wheels", "[system][hardware]") {
+TEST_CASE("kill -9 of the whole system: the controller's watchdog stops the wheels, and it is found again",
+          "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("pioneer");
   Pioneer pioneer(device);
@@ -270,6 +271,11 @@ TEST_CASE("kill -9 of the whole system: the controller's watchdog stops the whee
   program.send(SIGKILL);
   CHECK(eventually([&] { return stands(pioneer); }));
   CHECK(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.watchdog_stops(); }) == 1);
+  CHECK(pioneer.with([](P2osFirmware& firmware, PlainBody&) { return firmware.is_open(); }));
+  const Run again = run_deployer(drive(device), Seconds(60));  // it still sends, at the rate of before
+  INFO(again.err);
+  CHECK(again.exit_code() == 0);
+  CHECK(again.says("(Pioneer p2dx) at 38400 baud"));
 }
 
 TEST_CASE("the red button takes the motors' power, and only an operator gives it back",

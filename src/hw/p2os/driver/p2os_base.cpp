@@ -92,7 +92,8 @@ class P2osBase final : public orca::hw::LineDriver {
 
  protected:
   Status begin(TimePoint now) override {
-    session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()});
+    if (!session_)
+      session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()}, *speed_up_);
     return session_->begin(now);
   }
 
@@ -232,9 +233,12 @@ class P2osBase final : public orca::hw::LineDriver {
     host().write_log(orca::log::Level::info, "connected to " + orca::in_quotes(robot.name) + " (" +
                                                  robot.robot_class + " " + robot.subclass + ") at " +
                                                  std::to_string(session_->rate()) + " baud");
+    if (const std::string& trouble = session_->rate_trouble(); !trouble.empty())
+      host().write_log(orca::log::Level::info,
+                       "it stays at " + std::to_string(session_->rate()) + " baud: " + trouble);
     senses_->connect(choice.is_known ? choice.model : *model_);
     say_again_every_ = kSayAgain;
-    (void)send({encode(Command::config, 1)});
+    if (session_->config()) take(*session_->config());
   }
 
   [[nodiscard]] bool may_drive() const { return is_known_ || *drive_unknown_; }
@@ -314,6 +318,12 @@ class P2osBase final : public orca::hw::LineDriver {
       {.text =
            "Whether a robot moves that calls itself a model that is not known: its counts are read as those "
            "of `model`."}};
+  orca::Param<bool> speed_up_{*this,
+                              "speed_up",
+                              true,
+                              {.text = "Whether a robot at 9600 or 19200 baud is told to send at 38400; "
+                                       "false where something between has "
+                                       "a fixed rate, as a radio modem may."}};
   orca::hw::BaseFigures base_{*this};
 
   const Model* model_ = nullptr;

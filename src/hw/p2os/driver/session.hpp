@@ -13,6 +13,7 @@
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/p2os/command.hpp"
+#include "orca/hw/p2os/config.hpp"
 #include "orca/hw/p2os/sync.hpp"
 
 namespace orca::hw::p2os {
@@ -23,24 +24,33 @@ struct Received {
   TimePoint stamp;
 };
 
-/// The connection to a robot: finds the rate of the line, makes the handshake, and then passes packets on.
+/// The connection to a robot: finds the rate of the line, makes the handshake, asks for the controller's settings, changes to a faster
+/// rate, and then passes packets on.
 ///
 /// The handshake is SYNC0, SYNC1, SYNC2, each answered, then OPEN, whereupon the robot begins to send. A controller that is still
 /// open from an earlier run sends at once: it is closed first.
+///
+/// The rate is changed to kFastRate where the robot has a slower one and says that it returns to its own when the connection ends: so
+/// every program finds it again. If nothing is heard at the faster rate, both go back, and after two such attempts, or losses soon
+/// after a change, the robot's own rate is kept. A robot that is lost is looked for at the rate that it had last, and at its own.
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  Pioneer 2 operations manual, "Connecting"; order of rates and times of public drivers.
 class Session {
  public:
+  /// The rate [baud] that public drivers change to: their parameters name it for all models.
+  static constexpr std::uint32_t kFastRate = 38400;
+
   /// @param link   outlives the object.
   /// @param rates  [baud] to be tried, in this order; one that the link ignores is enough for a connection.
-  Session(link::ByteLink& link, std::vector<std::uint32_t> rates);
+  /// @param speeds_up  whether a slower rate may be changed to kFastRate.
+  Session(link::ByteLink& link, std::vector<std::uint32_t> rates, bool speeds_up = true);
 
-  /// Begins anew with the first rate. @pre  the link is open.
+  /// Begins anew. @pre  the link is open.
   Status begin(TimePoint now);
 
   /// Goes on with the handshake.
-  /// @return whether it is done: the robot is known, and has sent its first packet.
+  /// @return whether it is done: the robot is known, and sends packets.
   /// @errors  not_found if nothing answers at any rate, with what to do; those of the link.
   Result<bool> advance(TimePoint now);
   /// Returns when advance() has something to do, even if nothing comes.
@@ -56,25 +66,61 @@ class Session {
 
   /// Returns what the robot has said of itself. @pre  the handshake is done.
   [[nodiscard]] const Identity& identity() const { return identity_; }
+  /// Returns the settings of its controller; nothing: it does not tell them. @pre  the handshake is done.
+  [[nodiscard]] const std::optional<Config>& config() const { return config_; }
   /// Returns the rate of the line [baud].
-  [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
+  [[nodiscard]] std::uint32_t rate() const { return rate_; }
+  /// Returns why the rate is not kFastRate; empty: it is, or there is no need.
+  [[nodiscard]] const std::string& rate_trouble() const { return rate_trouble_; }
   [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
-  enum class Step { sync0, sync1, sync2, first_packet, closing, done };
+  enum class Step {
+    sync0,
+    sync1,
+    sync2,
+    first_packet,
+    closing,   // an old connection
+    settings,  // are asked for
+    faster,    // it is told to change its rate
+    fast,      // it is listened to at the new rate
+    slower,    // it is told to change back
+    slow,      // it is listened to at the old rate
+    done
+  };
 
+  Status search(TimePoint now);
+  Status call(TimePoint now);
   Status say(Step step, TimePoint now);
   Status take(std::span<const std::uint8_t> body, TimePoint now);
   Status greet(std::span<const std::uint8_t> body, TimePoint now);
-  Result<bool> try_again(TimePoint now);
+  Status choose_rate(TimePoint now);
+  Result<bool> can_be_fast();
+  Status finish(TimePoint now);
+  Status change(std::uint32_t baud, Step step, TimePoint now);
+  Status set_rate(std::uint32_t baud);
+  Status try_again(TimePoint now);
+  Status miss(TimePoint now);
+  Status lose_at_change(TimePoint now);
+  Status call_again(TimePoint now);
   [[nodiscard]] Error nobody() const;
 
   link::ByteLink& link_;
   const std::vector<std::uint32_t> rates_;
+  const bool speeds_up_;
   LineFrames frames_{kProtocol};
   Step step_ = Step::sync0;
-  std::size_t rate_ = 0;
-  int tries_ = 0;  // at this rate
+  std::vector<std::uint32_t> order_;  // of the rates at which it is called
+  std::size_t call_ = 0;              // the present one of these
+  int closings_ = 0;                  // of old connections
+  int tries_ = 0;                     // to get its settings
+  std::uint32_t rate_ = 0;            // of the line
+  std::uint32_t last_rate_ = 0;       // at which it worked last
+  std::optional<TimePoint> fast_since_;
+  int misses_ = 0;  // of the faster rate
+  bool is_lost_at_change_ = false;
+  std::string rate_trouble_;
+  std::optional<Config> config_;
   TimePoint deadline_{};
   bool heard_ = false;  // a packet, at whatever rate
   Identity identity_;

@@ -31,11 +31,14 @@ struct P2osSettings {
   int sonars = 16;
   unsigned front_bumpers = 5;
   unsigned rear_bumpers = 5;
-  Duration cycle = 100ms;       ///< [s] between two information packets.
-  Duration watchdog = 2s;       ///< [s] without a command until the robot stops.
-  std::uint32_t baud = 9600;    ///< After power-on, and after CLOSE.
-  double voltage = 12.7;        ///< [V] of the battery.
-  bool has_sonar_power = true;  ///< Its sonars can be switched on.
+  Duration cycle = 100ms;          ///< [s] between two information packets.
+  Duration watchdog = 2s;          ///< [s] without a command until the robot stops.
+  std::uint32_t baud = 9600;       ///< After power-on.
+  bool resets_baud = true;         ///< It has this rate again after CLOSE, and says so.
+  std::uint32_t fastest = 115200;  ///< [baud] A faster rate that it is told to take it does not take.
+  bool tells_settings = true;      ///< It answers CONFIG; old firmware does not.
+  double voltage = 12.7;           ///< [V] of the battery.
+  bool has_sonar_power = true;     ///< Its sonars can be switched on.
 };
 
 /// Returns the settings of a robot's controller by its subclass; nothing if that is not known here.
@@ -48,7 +51,7 @@ struct P2osSettings {
 /// as it is commanded, and stops it when no command has come for the time of its watchdog.
 ///
 /// A line that the host has set to another rate carries no command either way. What is sent takes its time at the rate, which is
-/// the configured one again after CLOSE.
+/// the configured one again after CLOSE if the settings say so.
 ///
 /// Translation (VEL, MOVE) and rotation (RVEL, ROTATE, HEAD, DHEAD) are independent of each other; VEL2 and STOP are for both. It
 /// sets its odometry to 0, tells its configuration, and lets bumpers raise a stall. What has no use for a body without gyros and serial ports of its own is
@@ -93,6 +96,7 @@ class P2osFirmware final : public Firmware {
   void set_wheels(int value);
   void switch_sonar(int value);
   void set_baud(int code);
+  void tell_settings(TimePoint now);
   void stop();
   void close();
   void restart();
