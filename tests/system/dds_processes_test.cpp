@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 #include "hosted_system.hpp"
@@ -48,6 +49,24 @@ TEST_CASE("a graph whose processes are joined by DDS reaches its goals", "[syste
   CHECK(run.exit_code() == 0);
   CHECK(run.arrivals().size() == 1);
   if (kDdsLetsPluginsGo) CHECK_FALSE(run.says("alarm"));
+}
+
+TEST_CASE("without a loopback interface a graph with link=\"dds\" does not start, and says why",
+          "[system][dds][tool]") {
+  const Words alone{"/usr/bin/env", "unshare", "--net"};  // where "lo" is down
+  Subprocess trial(alone + Words{"true"});
+  if (finish(trial, Seconds(10)).exit_code() != 0) {
+    std::cout << "SKIPPED: this user may not make a network of its own\n";
+    return;
+  }
+  Subprocess program(alone + deployer({kScout, "--set", kNear, "--set", "link=dds"}));
+  const Run run = finish(program, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() != 0);
+  CHECK(run.says("DDS between processes of one machine needs its loopback interface"));
+  CHECK(run.says("ip link set lo up"));
+  Subprocess other(alone + deployer({kScout, "--set", kNear}));
+  CHECK(finish(other, Seconds(60)).exit_code() == 0);  // shared memory needs none
 }
 
 TEST_CASE("only a process with an edge that goes over DDS has anything of DDS", "[system][dds]") {

@@ -2,8 +2,10 @@
 // The shipped graphs of real robots with --profile emulate: the real drivers talk to emulated devices in the simulated world.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <numbers>
 #include <string>
@@ -16,6 +18,7 @@
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using Catch::Contains;
 using namespace std::chrono_literals;
 
 namespace {
@@ -256,4 +259,33 @@ TEST_CASE("odometry that went over the line is that of the world, as finely as t
     CHECK(difference.apart <= 2.0 * robot.length_step + 0.5 * robot.angle_step * 2.1);
     CHECK(difference.turned <= 0.51 * robot.angle_step);
   }
+}
+
+TEST_CASE("a driver of an emulated line that nothing offers is found by --check, with its place",
+          "[system][hardware]") {
+  std::ifstream file(source_file("graphs/pioneer2dx_sick.xml"));
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto exchange = [&](const std::string& old, const std::string& fresh) {
+    for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += fresh.size())
+      text.replace(at, old.size(), fresh);
+  };
+  exchange("../sim/", ORCA_SOURCE_DIR "/sim/");
+  exchange("value=\"emulated:${emulated}_laser\"", "value=\"emulated:pioner_laser\"");
+  const TempFolder folder;
+  const std::string graph = folder.write("nobody.xml", text);
+  const Words check{graph, "--profile", "emulate", "--set", "emulated=pioneer", "--check"};
+  const Run misspelt = run_deployer(check, Seconds(60));
+  CHECK(misspelt.exit_code() == 2);
+  const std::size_t at = text.find("emulated:pioner_laser");
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  CHECK_THAT(misspelt.err,
+             Contains("nobody.xml:" + std::to_string(line) + ":") &&
+                 Contains("error G042: hardware \"sick\": parameter \"device\": nothing in this "
+                          "graph emulates \"pioner_laser\"; did you mean \"pioneer_laser\"?"));
+  const Run elsewhere = run_deployer({source_file("graphs/pioneer2dx_sick.xml"), "--profile", "real",
+                                      "--check", "--set", "base_port=emulated:nobody"},
+                                     Seconds(60));
+  CHECK(elsewhere.exit_code() == 0);  // another system may emulate it
+  CHECK_THAT(elsewhere.err,
+             Contains("warning G057") && Contains("nothing in this graph emulates \"nobody\", so another"));
 }

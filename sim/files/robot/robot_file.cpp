@@ -111,6 +111,9 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text, 
   if (orca == nullptr)
     return robot.refuse(robot_codes::kMissing,
                         "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
+  for (const xml::Element& e : root.children())
+    if (e.name() == "orca" && &e != orca)
+      reporter.error(robot_codes::kDuplicate, e.position(), "there is an <orca> already; a robot has one");
   detail::read_extension(*orca, model, reporter);
   detail::check_mounts(root, *orca, reporter);
   if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);

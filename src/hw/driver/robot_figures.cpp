@@ -39,6 +39,8 @@ class FiguresReader {
                "there is no element <orca> with the robot's figures; docs/robot-files.md describes it");
       return figures;
     }
+    check_once(robot_, "orca");
+    for (const char* const part : {"drive", "gripper", "odometry"}) check_once(*orca, part);
     figures.radius = positive(*orca, "radius", "m");
     figures.bumper_radius =
         orca->attribute("bumper_radius") != nullptr ? number(*orca, "bumper_radius", "m") : figures.radius;
@@ -58,6 +60,14 @@ class FiguresReader {
     if (e.name() == "odometry") figures.wheel_errors = wheel_errors(e);
     if (e.name() == "sonar_ring" && !figures.sonar_errors.is_known()) figures.sonar_errors = errors(e);
     if (e.name() == "bumper_ring") add_bumpers(e, figures.bumpers);
+  }
+
+  void check_once(const Element& parent, std::string_view name) {
+    const Element* const first = child_of(parent, name);
+    for (const Element& e : parent.children())
+      if (e.name() == name && &e != first)
+        complain(e, std::string(name.front() == 'o' ? "there is an <" : "there is a <") + e.name() +
+                        "> already; a robot has one");
   }
 
   void complain(const Element& at, const std::string& what) {

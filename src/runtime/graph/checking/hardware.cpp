@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "emulated_lines.hpp"
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/node_name.hpp"
@@ -90,6 +91,7 @@ void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, 
     model.add(std::move(checked), by_name);
   }
   check_conflicts(sound, types.catalogue(), model, report);
+  check_emulated_lines(nodes, model, report);
 }
 
 }  // namespace orca::graph

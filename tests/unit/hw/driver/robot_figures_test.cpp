@@ -347,3 +347,15 @@ TEST_CASE("a laser whose place is not clear is refused with what to do", "[hw][r
   CHECK_THAT(all_of(place.read()),
              Contains("mount: it names a laser of the robot's file, and there is none"));
 }
+
+TEST_CASE("a robot's file that describes the robot twice is refused where it begins anew",
+          "[hw][robot_file]") {
+  const TempFolder folder;
+  const std::string file =
+      folder.write("two.urdf",
+                   "<robot name=\"r\">\n  <link name=\"l\"/>\n  <orca radius=\"20 cm\"/>\n"
+                   "  <orca radius=\"30 cm\"/>\n</robot>\n");
+  std::vector<HardwareFault> faults;
+  CHECK_FALSE(hw::read_robot_figures(file, faults));
+  CHECK_THAT(all_of(faults), Contains("4:3: there is an <orca> already; a robot has one"));
+}

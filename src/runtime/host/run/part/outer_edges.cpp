@@ -183,7 +183,13 @@ Result<DdsOptions> OuterEdges::dds_options() const {
   options.graph = whole_.name;
   options.run = run_;
   options.process = process_;
-  if (whole_.machines.size() < 2) return options;
+  if (whole_.machines.size() < 2) {
+    const Result<std::string> loopback = own_address("", options.address, Duration{0});
+    if (loopback) return options;
+    return fail(Code::unavailable, "DDS between processes of one machine needs its loopback interface: " +
+                                       loopback.error().message +
+                                       "; switch it on (ip link set lo up), or leave out link=\"dds\"");
+  }
   const auto here = std::ranges::find(whole_.processes, process_, &graph::ProcessNode::name);
   for (const graph::MachineNode& node : whole_.machines) {
     const bool is_here = node.name == here->machine;
