@@ -2,10 +2,13 @@
 // orcactl swap of hardware: the driver of a base is exchanged in real time, on the robot's way to a goal.
 #include <catch2/catch.hpp>
 
+#include <thread>
+
 #include "deployer.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using namespace std::chrono_literals;
 using Catch::Contains;
 
 namespace {
@@ -15,7 +18,7 @@ std::string next_version(const std::string& name) {
 }
 
 // A cart that stands where its driver has left it, whichever drives it next, and is sent 6 m ahead.
-std::string graph(const std::string& file) {
+std::string graph(const std::string& file, const std::string& metres) {
   return "<graph name=\"driver_swap\" version=\"1\" ends=\"command\" plugins=\"" ORCA_BINARY_DIR
          "/tests/host_plugins\">\n"
          "  <process name=\"body\"/>\n"
@@ -26,7 +29,9 @@ std::string graph(const std::string& file) {
          "  <component name=\"goto\" type=\"orca.Goto\"/>\n"
          "  <component name=\"fuser\" type=\"orca.MotionCommandFuser\"/>\n"
          "  <component name=\"command\" type=\"orca.Command\" start_after=\"fuser\">\n"
-         "    <param name=\"goals\" value=\"far: 6 0\"/><param name=\"behaviours\" value=\"goto\"/>\n"
+         "    <param name=\"goals\" value=\"far: " +
+         metres +
+         " 0\"/><param name=\"behaviours\" value=\"goto\"/>\n"
          "  </component>\n"
          "  <connect from=\"command.goto\" to=\"goto.GotoCoordinateSend\"/>\n"
          "  <connect from=\"command.clients\" to=\"fuser.ClientListSend\"/>\n"
@@ -46,9 +51,9 @@ std::string from(const std::string& log, const std::string& begin) {
 // A robot that drives to its goal.
 class Way {
  public:
-  Way()
-      : program_(
-            deployer({folder_.write("driver_swap.xml", graph(folder_.file("place"))), "--log", "debug"})) {
+  explicit Way(const std::string& metres = "6")
+      : program_(deployer(
+            {folder_.write("driver_swap.xml", graph(folder_.file("place"), metres)), "--log", "debug"})) {
     REQUIRE(waits_for("cart 1 moves"));
   }
 
@@ -104,6 +109,37 @@ TEST_CASE("a driver that fails is gone again, and the robot goes on with the one
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(run.arrivals().size() == 1);
+}
+
+TEST_CASE("a driver that hangs while it is made is refused after 10 s, and the robot does not even stop",
+          "[system][swap][driver]") {
+  Way way("12");
+  const Run refused = Way::swap(next_version("test_cart_2"), {"--set", "trouble=sleep"});
+  INFO(refused.err);
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err, Contains("the new driver did not return within 10 s"));
+  CHECK_THAT(run_orcactl({"plugins"}).out, Contains("test_cart.so"));
+  REQUIRE(Way::swap(next_version("test_cart_2")).exit_code() == 0);  // nothing is under way any more
+  const Run run = way.end();
+  INFO(run.err);
+  const std::string asked = from(run.err, "its driver is to be exchanged");
+  CHECK_THAT(asked.substr(0, asked.find("its driver is to be exchanged", 1)), !Contains("stops at once"));
+  CHECK(run.arrivals().size() == 1);
+}
+
+TEST_CASE("a driver that computes for ever while it is made costs its process, which begins anew",
+          "[system][swap][driver]") {
+  Way way("12");
+  const Run refused = Way::swap(next_version("test_cart_2"), {"--set", "trouble=spin"});
+  INFO(refused.err);
+  CHECK(refused.exit_code() == 1);
+  REQUIRE(way.waits_for("computes without end, so the process is ended"));
+  bool is_back = false;
+  for (int tries = 0; tries < 50 && !is_back; ++tries) {
+    std::this_thread::sleep_for(100ms);
+    is_back = Way::swap(next_version("test_cart_2")).exit_code() == 0;
+  }
+  CHECK(is_back);
 }
 
 TEST_CASE("what cannot take a driver's place is refused with all reasons, and the robot does not even stop",

@@ -34,6 +34,8 @@ class Cart final : public orca::hw::HardwareContainer {
  private:
   std::vector<orca::HardwareFault> prepare() override {
     if (*trouble_ == "prepare") return {{"trouble", "is not liked today"}, {"speed", "is not liked either"}};
+    if (*trouble_ == "sleep") std::this_thread::sleep_for(std::chrono::hours(24));
+    for (volatile bool spins = *trouble_ == "spin"; spins;) continue;
     orca::hw::DriveLimits limits{.max_speed = *speed_, .max_turn_rate = 2.0, .steer_gain = 1.0};
     if (CART_ODD != 0) limits.type = orca::idl::HOLONOMIC;
     motion_.emplace(limits, milliseconds(200));
@@ -126,11 +128,11 @@ class Cart final : public orca::hw::HardwareContainer {
   orca::Param<double> speed_{
       *this, "speed", 0.5, {.unit = "m/s", .min = 0.0, .max = CART_VERSION == 1 ? 2.0 : 1.0}};
   orca::Param<std::string> file_{*this, "file", "", {.text = "Where it keeps its place while it is closed."}};
-  orca::Param<std::string> trouble_{
-      *this,
-      "trouble",
-      "none",
-      {.choices = {"none", "prepare", "open", "reopen", "throw", "wait", "block", "hang", "start", "close"}}};
+  orca::Param<std::string> trouble_{*this,
+                                    "trouble",
+                                    "none",
+                                    {.choices = {"none", "prepare", "sleep", "spin", "open", "reopen",
+                                                 "throw", "wait", "block", "hang", "start", "close"}}};
 
   std::optional<orca::hw::MotionHW> motion_;
   orca::hw::SensorHW<orca::idl::Odometry> odometry_{kPeriod};

@@ -36,6 +36,7 @@ void Residency::set_code(const void* code) {
 }
 
 Status Residency::construct() {
+  const plugin::CodeLimit limit;
   const TypeEntry& entry = *resident_.type.entry;
   const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::constructor, &entry}, [&] {
     resident_.object = static_cast<Component*>(entry.create(*resident_.site));

@@ -24,6 +24,7 @@ HardwareInstance::~HardwareInstance() {
 }
 
 Status HardwareInstance::construct(const std::map<std::string, ParamValue>& params) {
+  const plugin::CodeLimit limit;
   values_ = params;
   std::vector<HardwareFault> errors;
   const auto fault = guarded_call({name_.c_str(), Hook::constructor, type_.entry}, [&] {

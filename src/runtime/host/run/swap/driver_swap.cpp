@@ -13,7 +13,9 @@
 namespace orca::host {
 namespace {
 
+constexpr Duration kDriverMakeLimit = 10s;
 constexpr Duration kCloseLimit = 2s;
+constexpr Duration kDriverEndLimit = 5s;
 constexpr Duration kLook = 2ms;  // between two looks whether a strand has ended, which nobody reports
 constexpr const char* kPause = "its driver is being exchanged";
 
@@ -32,7 +34,8 @@ std::vector<std::string> texts_of(const std::vector<HardwareFault>& faults) {
 
 }  // namespace
 
-DriverSwap::DriverSwap(const Site& site, SwapOrder order) : site_(site), order_(std::move(order)) {}
+DriverSwap::DriverSwap(const Site& site, SwapOrder order)
+    : site_(site), order_(std::move(order)), task_(site.run) {}
 
 Error DriverSwap::refuse(Code code, const std::string& why) const {
   return fail(code, why, order_.component);
@@ -49,21 +52,50 @@ Status DriverSwap::prepare() {
     return refuse(Code::unavailable, "an earlier driver of it hangs" + way_out());
   report_.old_type = site_.type;
   report_.new_type = order_.type.empty() ? site_.type : order_.type;
-  Result<std::unique_ptr<HardwareInstance>> made = make_driver();
-  if (!made) return made.error();
-  const std::vector<std::string> faults = driver_misfits(site_.place.driver(), **made);
-  if (!faults.empty())
-    return refuse(Code::failed_precondition,
-                  report_.new_type + " cannot take its place: " + joined(faults, "; "));
-  (*made)->put_on_trial();
-  site_.place.add_spare(std::move(made).value());
-  begin();
+  task_.begin(kDriverMakeLimit, [this] { made_ = make_driver(); });
   return ok();
 }
 
+DriverSwap::Outcome DriverSwap::made() {
+  if (!task_.is_done()) return task_.is_late() ? leave_behind() : std::nullopt;
+  task_.reset();
+  if (!made_) return Outcome(made_.error());
+  const std::vector<std::string> faults = driver_misfits(site_.place.driver(), **made_);
+  if (!faults.empty()) {
+    made_ = std::unique_ptr<HardwareInstance>();
+    return Outcome(refuse(Code::failed_precondition,
+                          report_.new_type + " cannot take its place: " + joined(faults, "; ")));
+  }
+  (*made_)->put_on_trial();
+  site_.place.add_spare(std::move(made_).value());
+  begin();
+  return std::nullopt;
+}
+
+// The exchange ends without the new driver, and the present one has not noticed. One that sleeps for ever takes nothing but memory.
+DriverSwap::Outcome DriverSwap::leave_behind() {
+  const std::string what = "the constructor or prepare() of the new driver";
+  is_stuck_ = true;
+  if (is_loading_.load() || task_.computes()) {
+    if (site_.stand_still)
+      site_.stand_still(
+          order_.component,
+          what +
+              (is_loading_.load() ? " or its static initialisation hangs, and no code can be loaded any more"
+                                  : " computes without end") +
+              ", so the process is ended, and begins anew with the code of the graph");
+  } else {
+    site_.run.reporter.log(log::Level::error, order_.component,
+                           what + " does not return; it stays in memory until the process is started again");
+  }
+  return Outcome(refuse(Code::deadline_exceeded, what + " did not return within 10 s"));
+}
+
 Result<std::unique_ptr<HardwareInstance>> DriverSwap::make_driver() {
+  is_loading_.store(true);
   Result<LoadedType> type =
       site_.catalogue.acquire(std::move(order_.plugin), PluginKind::hardware, report_.new_type, order_.trial);
+  is_loading_.store(false);
   if (!type) return type.error();
   report_.build_id = type->library->build_id();
   auto described = plugin::describe_hardware(*type->entry, type->file(), order_.component);
@@ -89,6 +121,7 @@ void DriverSwap::begin() {
 
 std::optional<Result<SwapReport>> DriverSwap::step() {
   switch (phase_) {
+    case Phase::making: return made();
     case Phase::closing: return closed();
     case Phase::opening: return opened();
     case Phase::closing_new: return closed_new();
@@ -98,6 +131,7 @@ std::optional<Result<SwapReport>> DriverSwap::step() {
 }
 
 TimePoint DriverSwap::wake_up() const {
+  if (phase_ == Phase::making) return task_.limit();
   const bool closes = phase_ == Phase::closing || phase_ == Phase::closing_new;
   return closes ? std::min(limit_, saturating_add(site_.run.executive.now(), kLook)) : limit_;
 }
@@ -198,7 +232,9 @@ Result<SwapReport> DriverSwap::undone(const std::string& what) {
   return refuse(Code::failed_precondition, what);
 }
 
+// What has not ended by now will not.
 Result<SwapReport> DriverSwap::give_up() {
+  if (!task_.join_until(saturating_add(site_.run.executive.now(), kDriverEndLimit))) is_stuck_ = true;
   return refuse(Code::unavailable, "the system was stopped before the swap was done");
 }
 

@@ -6,7 +6,6 @@
 
 #include "containment/environment.hpp"
 #include "fit.hpp"
-#include "orca/base/stall_watch.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::host {
@@ -17,7 +16,6 @@ constexpr Duration kConfigureLimit = 10s;
 constexpr Duration kLapEndLimit = 5s;     // for the component to come to the end of a lap
 constexpr Duration kTakeOverLimit = 10s;  // of save_state(), start() and load_state() together
 constexpr Duration kEndLimit = 5s;
-constexpr Duration kMostComputing = 500ms;  // while it is past its limit: whoever takes more does not sleep
 
 }  // namespace
 
@@ -25,7 +23,8 @@ Swap::Swap(const Place& place, SwapOrder order)
     : place_(place),
       order_(std::move(order)),
       beside_(place.run.executive, "swap", place.run.seed, place.run.changed, place.run.missions),
-      backdrop_(place.run.executive) {}
+      backdrop_(place.run.executive),
+      task_(place.run) {}
 
 Swap::~Swap() = default;
 
@@ -33,38 +32,20 @@ Error Swap::refuse(Code code, const std::string& why) const { return fail(code, 
 
 void Swap::enter(Phase phase, Duration limit) {
   phase_ = phase;
-  limit_ = saturating_add(place_.run.executive.now(), limit);
-  computed_ = clock_.used();
+  task_.enter(limit);
 }
-
-bool Swap::is_late() const { return place_.run.executive.now() >= limit_; }
-
-bool Swap::computes() const { return clock_.used() - computed_ > kMostComputing; }
 
 // --- Beside the component ---------------------------------------------------------------------------------
 
 Status Swap::prepare() {
   if (place_.component.parts().hardware != nullptr)
     return refuse(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs");
-  begin_task(Phase::making, kMakeLimit, [this] {
+  phase_ = Phase::making;
+  task_.begin(kMakeLimit, [this] {
     made_ = make();
     if (!made_.ok()) successor_.reset();
   });
   return ok();
-}
-
-// Begins a phase in which code runs that may hang.
-void Swap::begin_task(Phase phase, Duration limit, std::function<void()> body) {
-  clock_.reset();
-  enter(phase, limit);
-  is_done_.store(false);
-  task_ = place_.run.executive.spawn({"swap", 0}, [this, body = std::move(body)] {
-    leave_stall_watch();
-    clock_.start();
-    body();
-    is_done_.store(true, std::memory_order_release);
-    place_.run.changed();
-  });
 }
 
 // Runs on a task of its own.
@@ -132,11 +113,11 @@ Swap::Outcome Swap::step() {
   return std::nullopt;
 }
 
-TimePoint Swap::wake_up() const { return limit_; }
+TimePoint Swap::wake_up() const { return task_.limit(); }
 
 Swap::Outcome Swap::made() {
-  if (!is_done()) {
-    if (!is_late()) return std::nullopt;
+  if (!task_.is_done()) {
+    if (!task_.is_late()) return std::nullopt;
     outcome_ = refuse(Code::deadline_exceeded, "the constructor of the new one did not return within 10 s");
     if (is_loading_.load())
       return lose("its static initialisation hangs, and no code can be loaded any more");
@@ -146,16 +127,13 @@ Swap::Outcome Swap::made() {
   if (!made_.ok()) return Outcome(made_.error());
   if (const Status connected = connect(); !connected.ok()) return end(connected.error());
   enter(Phase::configuring, kConfigureLimit);
-  successor_->start([this] {
-    leave_stall_watch();
-    clock_.start();
-  });
+  successor_->start([this] { task_.start_clock(); });
   return step();
 }
 
 Swap::Outcome Swap::configured() {
   if (successor_->state() == ComponentState::init) {
-    if (!is_late()) return std::nullopt;
+    if (!task_.is_late()) return std::nullopt;
     outcome_ = refuse(Code::deadline_exceeded, "configure() of the new one did not return within 10 s");
     return leave_behind("configure() of the new one");
   }
@@ -167,7 +145,7 @@ Swap::Outcome Swap::configured() {
 }
 
 Swap::Outcome Swap::taken_over() {
-  if (!pending_->done()) return is_late() ? withdraw() : std::nullopt;
+  if (!pending_->done()) return task_.is_late() ? withdraw() : std::nullopt;
   if (const Status& taken = pending_->result(); !taken.ok())
     return end(refuse(taken.error().code, "the new one was not taken: " + taken.error().message));
   report_.pause = take_over_.pause;
@@ -195,7 +173,7 @@ Swap::Outcome Swap::watch() {
     return end(refuse(Code::failed_precondition, "the new one failed, and the old one is back: " + *why));
   };
   if (const Outcome outcome = back(); outcome || phase_ == Phase::ending) return outcome;
-  if (!is_late()) return std::nullopt;
+  if (!task_.is_late()) return std::nullopt;
   if (place_.component.succession().confirm()) {
     const Outcome outcome = back();
     return outcome || phase_ == Phase::ending ? outcome : end(report_);
@@ -210,7 +188,8 @@ Swap::Outcome Swap::watch() {
 // Lets the object that is not needed any more end, the old one or the new one.
 Swap::Outcome Swap::end(Result<SwapReport> outcome) {
   outcome_ = std::move(outcome);
-  begin_task(Phase::ending, kEndLimit, [this] {
+  phase_ = Phase::ending;
+  task_.begin(kEndLimit, [this] {
     successor_->request_exit();
     (void)successor_->join_until(kForever);
     successor_.reset();
@@ -219,14 +198,14 @@ Swap::Outcome Swap::end(Result<SwapReport> outcome) {
 }
 
 Swap::Outcome Swap::ended() {
-  if (is_done()) return task_.reset(), outcome_;
-  if (!is_late()) return std::nullopt;
+  if (task_.is_done()) return task_.reset(), outcome_;
+  if (!task_.is_late()) return std::nullopt;
   return leave_behind("stop() or the destructor of the object that is not needed any more");
 }
 
 // The exchange ends without the object. One that sleeps for ever takes nothing but memory.
 Swap::Outcome Swap::leave_behind(const std::string& hangs) {
-  if (computes()) return lose(hangs + " computes without end");
+  if (task_.computes()) return lose(hangs + " computes without end");
   is_stuck_ = true;
   place_.run.reporter.log(log::Level::error, order_.component,
                           hangs + " does not return; it stays in memory until the process is started again");
@@ -245,7 +224,7 @@ Swap::Outcome Swap::lose(const std::string& hangs) {
 Result<SwapReport> Swap::give_up() {
   const Error reason = refuse(Code::unavailable, "the system was stopped before the swap was done");
   const TimePoint limit = saturating_add(place_.run.executive.now(), kEndLimit);
-  if (task_ != nullptr && !task_->join_until(limit)) is_stuck_ = true;
+  if (!task_.join_until(limit)) is_stuck_ = true;
   if (is_stuck_ || successor_ == nullptr) return reason;
   successor_->request_exit();
   is_stuck_ = !successor_->join_until(limit);

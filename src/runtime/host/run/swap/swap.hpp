@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "candidate_clock.hpp"
+#include "candidate_task.hpp"
 #include "exchange.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
@@ -62,8 +62,6 @@ class Swap final : public Exchange {
   enum class Phase { making, configuring, taking_over, in_take_over, probation, going_back, ending };
   using Outcome = std::optional<Result<SwapReport>>;
 
-  void begin_task(Phase phase, Duration limit, std::function<void()> body);
-  [[nodiscard]] bool is_done() const { return is_done_.load(std::memory_order_acquire); }
   Status make();
   Status connect();
   Status acquire(LoadedType& type, Contract& contract);
@@ -78,24 +76,18 @@ class Swap final : public Exchange {
   Outcome leave_behind(const std::string& hangs);
   Outcome lose(const std::string& hangs);
   void enter(Phase phase, Duration limit);
-  [[nodiscard]] bool is_late() const;
-  [[nodiscard]] bool computes() const;
   [[nodiscard]] Error refuse(Code code, const std::string& why) const;
 
   const Place place_;
   SwapOrder order_;
   QuietRun beside_;  // surroundings of the new object while it is configured
   Backdrop backdrop_;
-  CandidateClock clock_;                 // of the thread on which the object runs that is not in its place
   std::atomic<bool> is_loading_{false};  // and not only constructing
-  std::atomic<bool> is_done_{false};     // by the task
-  Status made_;                          // set before is_done_
-  std::unique_ptr<Task> task_;  // makes the new object, or destroys the one that is not needed any more
+  Status made_;                          // set before the task is done
+  CandidateTask task_;  // makes the new object, or destroys the one that is not needed any more
   std::vector<PortContract> offered_;  // by the new type
   std::unique_ptr<ComponentInstance> successor_;
   Phase phase_ = Phase::making;
-  TimePoint limit_{};
-  Duration computed_{};             // by that thread when the phase began
   std::shared_ptr<Order> pending_;  // at the component
   TakeOver take_over_;
   SwapReport report_;

@@ -28,7 +28,8 @@ Result<std::unique_ptr<Exchange>> Swaps::make(SwapOrder order) {
   HardwarePlace* const hardware = graph_.find_component(name) == nullptr ? system_.hardware(name) : nullptr;
   if (hardware != nullptr) {
     const graph::HardwareNode& node = *graph_.find_hardware(name);
-    const DriverSwap::Site site{run_, catalogue_, *hardware, type_of(name, node.type), node.process};
+    const DriverSwap::Site site{run_,         catalogue_,  *hardware, type_of(name, node.type),
+                                node.process, stand_still_};
     swap = std::make_unique<DriverSwap>(site, std::move(order));
     return swap;
   }
