@@ -92,6 +92,30 @@ TEST_CASE(
   CHECK_THAT(run.err, !Contains("PLUGIN_PINNED"));
 }
 
+TEST_CASE("a driver's parameters are shown, and changed by putting it in anew", "[system][swap][driver]") {
+  Way way;
+  CHECK_THAT(run_orcactl({"get", "cart.speed"}).out, Contains("0.5") && Contains("m/s"));
+  const Run of_base = run_orcactl({"get", "base"});  // its own, and its driver's
+  CHECK_THAT(of_base.out, Contains("cart") && Contains("speed") && Contains("trouble"));
+  for (const std::string name : {"cart", "base"}) {
+    const Run refused = run_orcactl({"set", name + ".speed", "0.4 m/s"});
+    CHECK(refused.exit_code() == 1);
+    CHECK_THAT(refused.err, Contains("cart.speed: a driver reads its parameters only when it begins") &&
+                                Contains("orcactl swap cart ") &&
+                                Contains("test_cart.so --set speed=\"0.4 m/s\""));
+    CHECK_THAT(run_orcactl({"set", name + ".speed", "0.4 kg"}).err, Contains("speed") && Contains("m/s"));
+  }
+  CHECK_THAT(run_orcactl({"get", "base.sped"}).err, Contains("did you mean \"speed\"?"));
+  const Run swapped =
+      Way::swap(ORCA_BINARY_DIR "/tests/host_plugins/test_cart.so", {"--set", "speed=0.4 m/s"});
+  INFO(swapped.err);
+  REQUIRE(swapped.exit_code() == 0);
+  CHECK_THAT(run_orcactl({"get", "base.speed"}).out, Contains("0.4"));
+  const Run run = way.end();
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 1);
+}
+
 TEST_CASE("a driver that fails is gone again, and the robot goes on with the one that it had",
           "[system][swap][driver]") {
   Way way;

@@ -148,7 +148,11 @@ void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& rep
   Result<SwapWish> wish = read_wish(words);
   if (!wish) return reply->refuse(wish.error());
   exchange(std::move(wish).value(),
-           [reply](const Result<Record>& done) { done ? reply->add(*done) : reply->refuse(done.error()); });
+           [this, reply, name = wish->component, params = wish->params](const Result<Record>& done) {
+             if (!done) return reply->refuse(done.error());
+             operating_.note_set(name, params);
+             reply->add(*done);
+           });
 }
 
 void Exchanging::take_rebuilt(const std::string& file) {

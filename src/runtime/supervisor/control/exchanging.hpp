@@ -51,7 +51,7 @@ class Exchanging {
   /// All of these outlive the object.
   /// @param wake  lets go_on() be called soon. It is called on other threads.
   Exchanging(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
-             const Operating& operating, std::function<void()> wake)
+             Operating& operating, std::function<void()> wake)
       : graph_(graph), facts_(facts), names_(names), operating_(operating), wake_(std::move(wake)) {}
 
   /// Exchanges a component's code, after it was tried out, or a driver. The answer ends when the old code, or the new one if it was
@@ -118,7 +118,7 @@ class Exchanging {
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const SystemNames& names_;
-  const Operating& operating_;
+  Operating& operating_;
   const std::function<void()> wake_;
   std::vector<Open> open_;
   // The components of which an exchange has been begun and has not ended; orders that host processes have not answered

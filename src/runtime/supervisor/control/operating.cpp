@@ -61,6 +61,11 @@ Pairs pairs_of(const graph::Params& params) {
   return {texts.begin(), texts.end()};
 }
 
+const Contract* contract_of(const std::map<std::string, Contract>& contracts, const std::string& name) {
+  const auto found = contracts.find(name);
+  return found == contracts.end() ? nullptr : &found->second;
+}
+
 // Puts a title before each line of a text.
 std::string titled(const std::string& lines, const std::string& title) {
   std::string result = title;
@@ -89,13 +94,29 @@ class Operating::SettingReader {
   void take(const std::string& what, const std::string& value) {
     const Result<ParamName> name = operating_.find(what);
     if (!name) return note(name.error());
-    const graph::ComponentNode& component = *name->component;
-    if (name->param.empty() || !facts_.contracts.contains(component.name))
-      return note(fail(Code::invalid_argument, "name one parameter: " + component.name + ".PARAM"));
-    auto setting = std::ranges::find(settings_, component.name, &Setting::component);
-    if (setting == settings_.end()) setting = settings_.insert(setting, {component.name, {}, {}});
+    const std::string& owner = name->owner.name;
+    if (name->param.empty() || name->owner.contract == nullptr)
+      return note(fail(Code::invalid_argument, "name one parameter: " + owner + ".PARAM"));
+    if (name->owner.hardware != nullptr) return note(only_anew(*name, value));
+    auto setting = std::ranges::find(settings_, owner, &Setting::component);
+    if (setting == settings_.end()) setting = settings_.insert(setting, {owner, {}, {}});
     if (!setting->texts.emplace(name->param, value).second)
       note(fail(Code::invalid_argument, what + " is given twice; give it one value"));
+  }
+
+  // A driver reads its parameters when it is made, since the endpoints that it offers hang on them.
+  [[nodiscard]] Error only_anew(const ParamName& name, const std::string& value) const {
+    const Result<graph::Params> read =
+        graph::read_settings(name.owner.contract->params, {{name.param, value}});
+    if (!read) return read.error();
+    const auto plugin = facts_.plugins.find(name.owner.hardware->type);
+    const std::string file = plugin == facts_.plugins.end() ? "PLUGIN.so" : plugin->second.file;
+    return fail(
+        Code::failed_precondition,
+        name.owner.name + "." + name.param +
+            ": a driver reads its parameters only when it begins; this puts it in anew, for which the "
+            "robot stops: orcactl swap " +
+            name.owner.name + " " + file + " --set " + name.param + "=" + in_quotes(value));
   }
 
   void read_values(Setting& setting, const std::string& title) {
@@ -200,50 +221,76 @@ void Operating::pause(const std::string& name, bool suspends, const ReplyPtr& re
 
 // ---- Parameters
 
+// Returns what has parameters under a name: a component and the driver that it serves, or a driver alone.
+Result<std::vector<Operating::Owner>> Operating::owners(const std::string& name) const {
+  const graph::HardwareNode* hardware = graph_.find_hardware(name);
+  std::vector<Owner> all;
+  if (hardware == nullptr || graph_.find_component(name) != nullptr) {
+    const Result<const graph::ComponentNode*> node = names_.component(name);
+    if (!node) return node.error();
+    all.push_back({name, contract_of(facts_.contracts, name), nullptr, params_of(**node)});
+    hardware = graph_.find_hardware((*node)->hardware);
+  }
+  if (hardware != nullptr)
+    all.push_back({hardware->name, contract_of(facts_.drivers, hardware->name), hardware,
+                   with_changes(hardware->name, hardware->params)});
+  return all;
+}
+
 // A component's name may hold no dot, so what follows the last one is a parameter.
 Result<Operating::ParamName> Operating::find(const std::string& what) const {
   const std::size_t dot = what.rfind('.');
-  const Result<const graph::ComponentNode*> node = names_.component(what.substr(0, dot));
-  if (!node) return node.error();
-  if (dot == std::string::npos) return ParamName{*node, ""};
+  const Result<std::vector<Owner>> all = owners(what.substr(0, dot));
+  if (!all) return all.error();
+  if (dot == std::string::npos) return ParamName{all->front(), ""};
   const std::string param = what.substr(dot + 1);
-  if ((*node)->params.contains(param)) return ParamName{*node, param};
   std::vector<std::string> names;
-  for (const auto& [name, value] : (*node)->params) names.push_back(name);
+  for (const Owner& owner : *all) {
+    if (owner.params.contains(param)) return ParamName{owner, param};
+    for (const auto& [name, value] : owner.params) names.push_back(name);
+  }
   const auto nearest = xml::nearest_name(param, names);
-  return fail(Code::not_found, (*node)->name + " has no parameter " + in_quotes(param) +
+  return fail(Code::not_found, all->front().name + " has no parameter " + in_quotes(param) +
                                    (nearest ? xml::did_you_mean(nearest) : "; it has: " + listed(names)));
 }
 
-std::string Operating::value_of(const ParamName& name) const {
-  return graph::print_value(params_of(*name.component).at(name.param));
+graph::Params Operating::params_of(const graph::ComponentNode& component) const {
+  return with_changes(component.name, component.params);
 }
 
-graph::Params Operating::params_of(const graph::ComponentNode& component) const {
-  graph::Params params = component.params;
-  const auto changed = changed_.find(component.name);
+graph::Params Operating::with_changes(const std::string& owner, graph::Params params) const {
+  const auto changed = changed_.find(owner);
   if (changed == changed_.end()) return params;
   for (const auto& [name, value] : changed->second) params.insert_or_assign(name, value);
   return params;
 }
 
-void Operating::add_param(const ParamName& name, Reply& reply) const {
-  const auto contract = facts_.contracts.find(name.component->name);
-  const ParamContract* const param =
-      contract == facts_.contracts.end() ? nullptr : contract->second.param(name.param);
-  reply.add(Record{{"component", name.component->name},
-                   {"param", name.param},
-                   {"value", value_of(name)},
+void Operating::add_param(const Owner& owner, const std::string& name, Reply& reply) {
+  const ParamContract* const param = owner.contract == nullptr ? nullptr : owner.contract->param(name);
+  reply.add(Record{{"component", owner.name},
+                   {"param", name},
+                   {"value", graph::print_value(owner.params.at(name))},
                    {"unit", param == nullptr ? "" : param->unit},
-                   {"fixed", param != nullptr && param->fixed},
+                   {"fixed", owner.hardware != nullptr || (param != nullptr && param->fixed)},
                    {"text", param == nullptr ? "" : param->text}});
 }
 
 void Operating::get(const std::string& what, const ReplyPtr& reply) const {
   const Result<ParamName> name = find(what);
   if (!name) return reply->refuse(name.error());
-  if (!name->param.empty()) return add_param(*name, *reply);
-  for (const auto& [param, value] : name->component->params) add_param({name->component, param}, *reply);
+  if (!name->param.empty()) return add_param(name->owner, name->param, *reply);
+  const Result<std::vector<Owner>> all = owners(what);
+  for (const Owner& owner : *all)
+    for (const auto& [param, value] : owner.params) add_param(owner, param, *reply);
+}
+
+void Operating::note_set(const std::string& owner, const std::map<std::string, std::string>& texts) {
+  const bool is_driver = graph_.find_component(owner) == nullptr;
+  const Contract* const contract = contract_of(is_driver ? facts_.drivers : facts_.contracts, owner);
+  if (contract == nullptr) return;
+  for (const auto& [name, text] : texts)
+    if (const Result<graph::Params> read = graph::read_settings(contract->params, {{name, text}}))
+      changed_[owner].insert_or_assign(name, read->at(name));
 }
 
 void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply) {
@@ -345,6 +392,8 @@ void Operating::recall(const std::vector<std::pair<std::string, Pairs>>& params)
 void Operating::came_up(const std::vector<Member*>& members) {
   for (const Member* const member : members) {
     for (const graph::ComponentNode& node : graph_.components)
+      if (node.process == member->name()) changed_.erase(node.name);
+    for (const graph::HardwareNode& node : graph_.hardware)
       if (node.process == member->name()) changed_.erase(node.name);
     const auto [begin, end] = awaited_.equal_range(member);
     for (auto waiting = begin; waiting != end; ++waiting)

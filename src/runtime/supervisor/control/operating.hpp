@@ -41,10 +41,11 @@ class Operating {
   /// record for each of a group.
   void suspend(const std::string& name, const ReplyPtr& reply);
   void resume(const std::string& name, const ReplyPtr& reply);
-  /// Answers with a parameter, "component.param", or with all of a component.
+  /// Answers with a parameter, "component.param", or with all of a component and of the driver that it serves. A driver's name, too,
+  /// may stand before its parameters.
   void get(const std::string& what, const ReplyPtr& reply) const;
   /// Changes parameters of any components: all of them, or none. They are checked before anything changes, and the
-  /// answer has everything that is wrong with them.
+  /// answer has everything that is wrong with them. Those of a driver are refused with the command that puts it in anew.
   /// @param words  "component.param" and its value, in turn.
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Does the same with values that have been read and checked, by component.
@@ -75,17 +76,27 @@ class Operating {
 
   /// Notes what an operator has changed through an earlier supervisor.
   void recall(const std::vector<std::pair<std::string, Pairs>>& params);
+  /// Notes that new code of a component, or a new driver, has taken over with these parameters, by their texts.
+  void note_set(const std::string& owner, const std::map<std::string, std::string>& texts);
   /// Notes that processes work again. Parameters that were changed have the graph's values there.
   void came_up(const std::vector<Member*>& members);
 
  private:
+  // A component or driver, and its parameters as they are now.
+  struct Owner {
+    std::string name;
+    const Contract* contract;             // null: not known
+    const graph::HardwareNode* hardware;  // null: a component
+    graph::Params params;
+  };
   struct ParamName {
-    const graph::ComponentNode* component;
+    Owner owner;
     std::string param;  // empty: all
   };
+  [[nodiscard]] Result<std::vector<Owner>> owners(const std::string& name) const;
   [[nodiscard]] Result<ParamName> find(const std::string& what) const;
-  [[nodiscard]] std::string value_of(const ParamName& name) const;
-  void add_param(const ParamName& name, Reply& reply) const;
+  [[nodiscard]] graph::Params with_changes(const std::string& owner, graph::Params params) const;
+  static void add_param(const Owner& owner, const std::string& name, Reply& reply);
 
   // What is to change in one component.
   struct Setting {
@@ -107,7 +118,7 @@ class Operating {
   const SystemNames& names_;
   const host::Reports reports_;
   const RunLevers levers_;
-  std::map<std::string, graph::Params> changed_;    // by component: what is not as in the graph
+  std::map<std::string, graph::Params> changed_;    // by component or driver: what is not as in the graph
   std::map<std::string, std::string> comers_;       // see expect()
   std::multimap<const Member*, ReplyPtr> awaited_;  // restarts
   std::vector<ReplyPtr> until_end_;

@@ -20,8 +20,11 @@ PluginFacts plugin_of(PluginKind kind, const std::string& type, host::PluginCata
 SystemFacts facts_of(const graph::Graph& graph, host::PluginCatalogue& catalogue) {
   SystemFacts facts;
   facts.ports = graph::list_ports(graph, catalogue);
-  for (const graph::HardwareNode& node : graph.hardware)
+  for (const graph::HardwareNode& node : graph.hardware) {
     facts.plugins[node.type] = plugin_of(PluginKind::hardware, node.type, catalogue);
+    if (Result<Contract> contract = catalogue.hardware(node.type))
+      facts.drivers[node.name] = std::move(contract).value();
+  }
   for (const graph::ComponentNode& node : graph.components) {
     facts.plugins[node.type] = plugin_of(PluginKind::component, node.type, catalogue);
     std::optional<graph::HardwareUse> use;

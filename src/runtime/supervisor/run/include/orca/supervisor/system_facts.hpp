@@ -26,6 +26,7 @@ struct PluginFacts {
 struct SystemFacts {
   std::vector<graph::ListedPort> ports;        ///< Of all components.
   std::map<std::string, Contract> contracts;   ///< By component.
+  std::map<std::string, Contract> drivers;     ///< By hardware; their parameters.
   std::map<std::string, PluginFacts> plugins;  ///< By type.
 };
 
