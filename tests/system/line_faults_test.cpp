@@ -218,7 +218,7 @@ TEMPLATE_TEST_CASE("a driver works on over a bad line", "[system][hardware]", Pi
           before + (TestType::moves ? 0.4 : 10.0));  // at 0.5 m/s; a scan takes less than 50 ms
     driver.spoil(nullptr);
   };
-  driver.spoil(garbage_after(1501, {0x13, 0xFA, 0x02, 0x00}));
+  driver.spoil(garbage_after(TestType::moves ? 701 : 1501, {0x13, 0xFA, 0x02, 0x00}));
   check_works_on("garbage between and within frames");
   driver.spoil(glued(60));
   check_works_on("frames that come together");
