@@ -191,3 +191,14 @@ TEST_CASE("--help and --version answer on stdout", "[system]") {
   CHECK(help.err.empty());
   CHECK(run_deployer({"--version"}).out.find("orca") != std::string::npos);
 }
+
+TEST_CASE("the table of commands is also help, completion and man page", "[system][orcactl]") {
+  const Run help = run_orcactl({"--help"});
+  CHECK(help.exit_code() == 0);
+  const Run man = run_orcactl({"man"});
+  const Run bash = run_orcactl({"completion", "bash"});
+  const Run zsh = run_orcactl({"completion", "zsh"});
+  for (const char* const command : {"ps", "echo", "estop", "alarms", "missions"})
+    for (const Run* const run : {&help, &man, &bash, &zsh}) CHECK_THAT(run->out, Catch::Contains(command));
+  CHECK(run_orcactl({"completion", "fish"}).exit_code() == 2);
+}

@@ -24,6 +24,7 @@ constexpr int kBrain = 1;
 struct Usage {
   std::string name;
   Words arguments;
+  std::string more;  // an argument that may be left out; empty: none of a single word
 };
 
 // Returns all commands that orcactl has, whatever they are.
@@ -42,6 +43,8 @@ std::vector<Usage> all_commands() {
       for (std::string word; words >> word;) {
         is_optional = is_optional || word.starts_with("[");
         if (!is_optional) usage.arguments.push_back(word);
+        if (word.starts_with("[") && word.ends_with("]"))
+          usage.more = word.substr(1, word.find_first_of(".]") - 1);
         if (word.ends_with("]")) is_optional = false;
       }
       commands.push_back(usage);
@@ -96,6 +99,8 @@ std::vector<Words> calls_of(const Usage& usage, const Meanings& there) {
       for (const std::string& meaning : meanings.at(argument)) longer.push_back(call + Words{meaning});
     calls = longer;
   }
+  if (there.contains(usage.more))
+    for (const std::string& meaning : there.at(usage.more)) calls.push_back(calls.front() + Words{meaning});
   return calls;
 }
 
@@ -105,11 +110,16 @@ std::string text_of(const Words& words) {
   return text;
 }
 
-// Gives a command on one machine, and checks that it is answered, or refused with the reason that it is for the other.
+// Gives a command on one machine, and checks that it is answered, or refused with the reason that it is for the other, or that a
+// word is missing.
 void check_call(const Pair& pair, int machine, const Words& call) {
   const Run run = pair.orcactl(machine, call, Seconds(10));
   INFO("on machine " << kMachines[machine] << ": " << text_of(call) << "\n" << run.out << run.err);
   CHECK(run.ended);
+  if (run.exit_code() == 2) {
+    CHECK_THAT(run.err, Contains(call.front() + " needs "));
+    return;
+  }
   CHECK((run.exit_code() == 0 || run.exit_code() == 1));
   if (run.exit_code() == 1) CHECK(run.says(kMachines[1 - machine]));
 }

@@ -74,7 +74,8 @@ TEST_CASE("each port is recorded where its component's own objects pass", "[host
   });
   const std::string text = read_text(folder.file("all.csv"));
   CHECK(count_lines(text) == 5);
-  for (const char* line : {",goto.out,0,,1,", ",goto.in,0,,6,", ",goto.order,0,,8,", ",goto.intake,0,,12,"})
+  for (const char* line :
+       {",goto.out,0,,,1,", ",goto.in,0,,,6,", ",goto.order,0,,,8,", ",goto.intake,0,,,12,"})
     CHECK_THAT(text, Contains(line));
 }
 
