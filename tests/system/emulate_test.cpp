@@ -76,9 +76,10 @@ AtRest compared(const std::string& file) {
 // Each device says who made it, which driver of which plugin drives it, and where it is connected.
 void check_description(const Run& asked) {
   CHECK(asked.exit_code() == 0);
-  CHECK_THAT(asked.out, Catch::Contains("<drives"));
+  const auto devices = asked.out.find("<drives");
+  REQUIRE(devices != std::string::npos);
   for (const char* const nothing : {"library=\"\"", "driver=\"\"", "port=\"\"", "vendor=\"\"", "model=\"\""})
-    CHECK_THAT(asked.out, !Catch::Contains(nothing));
+    CHECK_THAT(asked.out.substr(devices), !Catch::Contains(nothing));
 }
 
 // Returns the last scan of a robot that stands at its start in an ideal world.

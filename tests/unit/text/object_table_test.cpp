@@ -74,7 +74,7 @@ TEST_CASE("a table begins with stamp and port, then come the fields, structs wit
   pose.steering_velocity(-std::numeric_limits<double>::quiet_NaN());
   pose.stamp().ns(1'250'000'000);
   CHECK(table.row("localizer.RobotPosePush", sealed(pose)) ==
-        "1.25,localizer.RobotPosePush,1.5,maker,7,0,,0,0.1,-2,inf,0,0,nan,0,0,0,0,0,0,0,0,0\n");
+        "1.25,localizer.RobotPosePush,1.5,maker,,7,0,,,0,0.1,-2,inf,0,0,nan,0,0,0,0,0,0,0,0,0\n");
 }
 
 TEST_CASE("a sequence has a column per element of the objects seen before, and one for the rest",
