@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 using Catch::Contains;
@@ -171,15 +172,19 @@ TEST_CASE("parameters of several components change together, or not at all", "[s
 
 TEST_CASE("a component that is too long in a lap keeps its values, and so do the others",
           "[system][groups]") {
-  Subprocess program(deployer({kScout}));
-  REQUIRE(comes_true([&] { return are_all({"goto", "command"}, "WORK"); }, Seconds(20)));
-  const std::string speed = value_of("goto.max_speed");
-  const std::string timeout = value_of("command.goal_timeout");
-  const Run late = run_orcactl({"set", "goto.max_speed", "0.2", "command.goal_timeout", "77 s"});
+  const TempFolder folder;
+  const std::string graph =
+      folder.write("lap.xml", R"(<graph name="lap" version="1" plugins=")" ORCA_BINARY_DIR R"(/tests/plugins">
+  <component name="slow" type="test.SlowStarter" autonomous="true"><param name="lap" value="100 s"/></component>
+  <component name="quick" type="test.LapCounter" autonomous="true"><param name="laps" value="1000000"/></component>
+</graph>)");
+  Subprocess program(deployer({graph}));
+  REQUIRE(comes_true([&] { return are_all({"slow", "quick"}, "WORK"); }, Seconds(20)));
+  const Run late = run_orcactl({"set", "quick.laps", "77", "slow.delay", "77 s"});
   CHECK(late.exit_code() == 1);
-  CHECK_THAT(late.err, Contains("command: it has not come to the end of a lap in time"));
-  CHECK(value_of("goto.max_speed") == speed);
-  CHECK(value_of("command.goal_timeout") == timeout);
+  CHECK_THAT(late.err, Contains("slow: it has not come to the end of a lap in time"));
+  CHECK(value_of("quick.laps") == "1000000");
+  CHECK(value_of("slow.delay") == "0");
   stop(program);
 }
 

@@ -3,7 +3,7 @@
 
 namespace {
 
-/// Is not ready in time, or says that it never will be.
+/// Is not ready in time, or says that it never will be, or has one long lap.
 class SlowStarter final : public orca::Component {
  public:
   using Component::Component;
@@ -14,9 +14,13 @@ class SlowStarter final : public orca::Component {
     if (*refuses_) return orca::fail(orca::Code::unavailable, "the moon is in the wrong phase");
     return orca::ok();
   }
-  orca::Outcome work() override { return orca::done(); }
+  orca::Outcome work() override {
+    sleep(orca::from_seconds(*lap_));
+    return orca::done();
+  }
 
   orca::Param<double> delay_{*this, "delay", 0.0, {.unit = "s", .min = 0.0}};
+  orca::Param<double> lap_{*this, "lap", 0.0, {.unit = "s", .min = 0.0}};
   orca::Param<bool> refuses_{*this, "refuses", false};
 };
 
