@@ -175,7 +175,9 @@ const char* g_hung_said = "has not returned within 10 s; the process is ended wi
 int g_hung_status = EXIT_FAILURE;
 
 // Runs on the thread that hangs, because only that thread knows what it is doing.
-void on_hung(int /*signal*/, siginfo_t* /*info*/, void* context) {
+void on_hung(int /*signal*/, siginfo_t* info, void* context) {
+  if (info->si_code == SI_TIMER && !static_cast<plugin::CodeLimit*>(info->si_value.sival_ptr)->is_over())
+    return;
   const Activity* const activity = Activity::current();
   Line line;
   if (activity != nullptr) {
