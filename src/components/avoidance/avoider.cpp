@@ -183,6 +183,7 @@ bool Avoider::follow(const idl::Odometry& odometry) {
   if (odometer_.begins_anew(odometry)) {  // what it remembers lies elsewhere now
     memory_.clear();
     floor_.clear();
+    escape_.reset();
     moved_at_.reset();
   }
   const TimePoint stamp = to_time_point(odometry.stamp());
