@@ -314,6 +314,7 @@ TEST_CASE("a change that the graph names is carried out as one of the command li
   CHECK(ordered.trace_hash() == run.trace_hash());
   const Run slower = run_deployer(Words{without} + virtual_clock(), Seconds(60));
   REQUIRE(slower.arrivals().size() == 3);
+  CHECK(slower.trace_hash() != run.trace_hash());  // it is a change
   CHECK(slower.arrivals()[2].t > run.arrivals()[2].t);
 }
 

@@ -369,7 +369,6 @@ TEST_CASE("the time from a sensor to the wheels is measured along the causes of 
       {"latency", "--from", "base.odometry", "--to", "wheels", "--for", "3 s", "--json"}, Seconds(20));
   INFO(told.out << told.err);
   CHECK(told.exit_code() == 0);
-  // A cause names the port that it came from.
   const std::size_t at = told.out.find("\"way\": \"base.OdometryPush > ");
   REQUIRE(at != std::string::npos);
   const std::string line = told.out.substr(at, told.out.find('\n', at) - at);

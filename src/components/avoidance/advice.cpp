@@ -20,6 +20,9 @@ constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all
 
 constexpr double kTurnUrgency = 0.95;  // of not turning where a corner would touch something
 
+constexpr double kNarrow = 0.1;  // [m] across a thing that may have a foot
+constexpr double kNear = 0.4;    // [m] from it: what is there belongs to it, or to what it belongs to
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // A body that squeezes has a round nose that much farther ahead: a rectangle would fit between two posts only if
@@ -96,6 +99,20 @@ TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
   return room;
 }
 
+// Whether nothing is near an echo that is farther from it than a narrow thing is wide.
+bool is_alone(Vec2 echo, std::span<const Vec2> echoes) {
+  return std::ranges::none_of(echoes, [&](Vec2 other) {
+    const double apart = norm(other - echo);
+    return apart > kNarrow && apart < kNear;
+  });
+}
+
+// Whether an echo, and all that are of the same thing, are alone: else it is the middle of something wider.
+bool is_narrow(Vec2 echo, std::span<const Vec2> echoes) {
+  return std::ranges::all_of(
+      echoes, [&](Vec2 other) { return norm(other - echo) > kNarrow || is_alone(other, echoes); });
+}
+
 }  // namespace
 
 std::optional<Rectangle> rectangle(double length, double width) {
@@ -125,6 +142,18 @@ double free_way(std::span<const Vec2> echoes, double direction, const Limits& li
   for (Vec2 echo : echoes)
     way = std::min({way, way_to_point(echo, ahead, limits), way_to_wall(echo, ahead, limits)});
   return std::max(0.0, way);
+}
+
+void add_feet(std::vector<Vec2>& all, double foot) {
+  const std::size_t seen = all.size();
+  for (std::size_t i = 0; i < seen; ++i) {
+    const Vec2 echo = all[i];
+    const double distance = norm(echo);
+    if (distance <= 0.0 || !is_narrow(echo, std::span(all).first(seen))) continue;
+    const Vec2 aside = foot / distance * Vec2{-echo.y, echo.x};
+    all.push_back(echo + aside);
+    all.push_back(echo - aside);
+  }
 }
 
 double way_ahead(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {

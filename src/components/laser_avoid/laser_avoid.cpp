@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <vector>
+
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -16,11 +18,17 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
     mine.turn_margin = kTurnMargin;
     mine = with_body(memory, situation, mine);
     mine.watches_goal = true;
-    return avoid(memory.echoes(), situation, mine);
+    seen_.assign(memory.echoes().begin(), memory.echoes().end());
+    orca::avoid::add_feet(seen_, kFoot);
+    return avoid(seen_, situation, mine);
   }
 
   // [m] Less than others keep: it knows the shape of what is near.
   static constexpr double kTurnMargin = 0.02;
+  // [m] By which the bodies of small robots are wider to each side than the heads of their lasers, and feet than masts.
+  static constexpr double kFoot = 0.13;
+
+  std::vector<orca::Vec2> seen_;
 };
 
 }  // namespace

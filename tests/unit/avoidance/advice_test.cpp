@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -48,6 +49,22 @@ TEST_CASE("the free way ends where the robot with its margin touches the echo", 
   const std::vector<Vec2> aside{{0.7, 0.18}};
   CHECK(free_way(aside, 0.0, kAdviceLimits) == Approx(0.7 - std::sqrt(kReach * kReach - 0.18 * 0.18)));
   CHECK(free_way(ahead, pi / 2, kAdviceLimits) == kAdviceLimits.safe_distance);
+}
+
+TEST_CASE("a mast is as wide as the foot that may be below, and a wall or a pillar is what it is",
+          "[avoidance]") {
+  std::vector<Vec2> mast{{1.0, -0.03}, {0.99, 0.0}, {1.0, 0.03}};
+  add_feet(mast, 0.13);
+  REQUIRE(mast.size() == 9);
+  const auto widest = std::ranges::max_element(mast, {}, &Vec2::y);
+  CHECK(widest->y == Approx(0.03 + 0.13).margin(0.01));
+  CHECK(free_way(mast, 0.0, kAdviceLimits) == Approx(0.99 - kReach));
+  for (const double half_width : {0.08, 0.5}) {
+    std::vector<Vec2> wide{
+        {1.0, half_width}, {1.0, 0.5 * half_width}, {1.0, 0.0}, {1.0, -0.5 * half_width}, {1.0, -half_width}};
+    add_feet(wide, 0.13);
+    CHECK(wide.size() == 5);
+  }
 }
 
 TEST_CASE("a near echo beside the way counts as a wall across its beam", "[avoidance]") {

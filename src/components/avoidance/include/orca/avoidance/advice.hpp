@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "orca/avoidance/echo_memory.hpp"
 
@@ -73,6 +74,12 @@ struct Advice {
 /// Nothing is heard from the place where the robot will touch it. Therefore a near echo stands for a wall
 /// across its beam.
 [[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
+
+/// Adds what may stand below what a laser sees: a mast, the leg of a chair or the head of another robot's laser is narrower than what
+/// it stands on. Each thing that is narrower than 0.1 m, with nothing else near, becomes wider to both sides, across its beam.
+/// @param foot [m]  by which it becomes wider to each side.
+/// @param all  the echoes, robot frame, and with them afterwards those beside narrow things.
+void add_feet(std::vector<Vec2>& all, double foot);
 
 /// How far a robot can turn on the spot before a corner of its body touches an echo [rad]; both are positive.
 struct TurnRoom {
