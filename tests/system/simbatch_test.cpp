@@ -25,7 +25,7 @@ std::string misdeeds(const TempFolder& folder, const std::string& limit = "60 s"
   for (const std::string& deed : deeds)
     variants += "<variant name=\"" + deed + "\"><set arg=\"deed\" value=\"" + deed + "\"/></variant>";
   return folder.write("misdeeds.xml",
-                      "<experiment name=\"misdeeds\" seeds=\"1\" until=\"10 s\" memory=\"1 GB\" limit=\"" +
+                      "<experiment name=\"misdeeds\" seeds=\"1\" until=\"10 s\" memory=\"500 MB\" limit=\"" +
                           limit + "\" graph=\"" + system_graph("hooligan.xml") +
                           "\"><set arg=\"plugins\" value=\"" + std::string(ORCA_BINARY_DIR "/tests/plugins") +
                           "\"/><set arg=\"where\" value=\"later\"/>" + variants +
