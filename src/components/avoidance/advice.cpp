@@ -20,8 +20,8 @@ constexpr double kBlockedPenalty = 4.0;          // [rad] for no free way at all
 
 constexpr double kTurnUrgency = 0.95;  // of not turning where a corner would touch something
 
-constexpr double kNarrow = 0.1;  // [m] across a thing that may have a foot
-constexpr double kNear = 0.4;    // [m] from it: what is there belongs to it, or to what it belongs to
+constexpr double kNarrow = 0.45;  // [m] across a thing that stands alone, and may be wider elsewhere
+constexpr double kNear = 0.8;     // [m] around it, where nothing else is
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -99,7 +99,7 @@ TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
   return room;
 }
 
-// Whether nothing is near an echo that is farther from it than a narrow thing is wide.
+// Whether nothing near an echo is farther from it than a narrow thing is wide.
 bool is_alone(Vec2 echo, std::span<const Vec2> echoes) {
   return std::ranges::none_of(echoes, [&](Vec2 other) {
     const double apart = norm(other - echo);
@@ -107,7 +107,7 @@ bool is_alone(Vec2 echo, std::span<const Vec2> echoes) {
   });
 }
 
-// Whether an echo, and all that are of the same thing, are alone: else it is the middle of something wider.
+// Whether an echo and all those of the same thing are alone: else it is the middle of something wider.
 bool is_narrow(Vec2 echo, std::span<const Vec2> echoes) {
   return std::ranges::all_of(
       echoes, [&](Vec2 other) { return norm(other - echo) > kNarrow || is_alone(other, echoes); });

@@ -25,7 +25,7 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
 
   // [m] Less than others keep: it knows the shape of what is near.
   static constexpr double kTurnMargin = 0.02;
-  // [m] By which the bodies of small robots are wider to each side than the heads of their lasers, and feet than masts.
+  // [m] The body of a Create 2 is that much wider to each side than the head of its laser.
   static constexpr double kFoot = 0.13;
 
   std::vector<orca::Vec2> seen_;

@@ -75,10 +75,11 @@ struct Advice {
 /// across its beam.
 [[nodiscard]] double free_way(std::span<const Vec2> echoes, double direction, const Limits& limits);
 
-/// Adds what may stand below what a laser sees: a mast, the leg of a chair or the head of another robot's laser is narrower than what
-/// it stands on. Each thing that is narrower than 0.1 m, with nothing else near, becomes wider to both sides, across its beam.
+/// Adds what a laser may not see of things that stand alone. A mast, a chair or another robot is wider below or above the height at which
+/// the laser looks, and may come nearer. Each thing that is less than 0.45 m across, and has nothing else within 0.8 m, becomes wider to
+/// both sides, across its beams.
 /// @param foot [m]  by which it becomes wider to each side.
-/// @param all  the echoes, robot frame, and with them afterwards those beside narrow things.
+/// @param all  the echoes, robot frame; afterwards also those beside things that stand alone.
 void add_feet(std::vector<Vec2>& all, double foot);
 
 /// How far a robot can turn on the spot before a corner of its body touches an echo [rad]; both are positive.
