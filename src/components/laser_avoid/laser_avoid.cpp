@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <vector>
 
 #include "orca/avoidance/laser_avoider.hpp"
@@ -19,14 +20,15 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
     mine = with_body(memory, situation, mine);
     mine.watches_goal = true;
     seen_.assign(memory.echoes().begin(), memory.echoes().end());
-    orca::avoid::add_feet(seen_, kFoot);
+    orca::avoid::add_feet(seen_, std::max(0.0, kFromAlone - limits.margin));
     return avoid(seen_, situation, mine);
   }
 
   // [m] Less than others keep: it knows the shape of what is near.
   static constexpr double kTurnMargin = 0.02;
-  // [m] The body of a Create 2 is that much wider to each side than the head of its laser.
-  static constexpr double kFoot = 0.13;
+  // [m] Kept free beside what stands alone, unless the margin is more. The body of a Create 2 is 0.13 m wider to each side than the head
+  // of its laser.
+  static constexpr double kFromAlone = 0.22;
 
   std::vector<orca::Vec2> seen_;
 };
