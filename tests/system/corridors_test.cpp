@@ -15,6 +15,7 @@ using namespace orca::test;
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kFieldIsSteady = 1.1;  // [m]
 
 struct Course {
   std::string avoider;
@@ -55,12 +56,15 @@ double time_through(const TempFolder& folder, const Course& course, double width
   const auto contacts = run.contacts();
   if (!contacts.empty() && contacts.front().find(" 0.0") != std::string::npos)
     return kNever;  // it fills the corridor
-  // PotentialField sways in narrow passages until it touches: its page says so.
-  if (course.avoider != "PotentialField") CHECK(contacts.empty());
+  CHECK(contacts.empty());
   return run.arrivals().empty() ? kNever : run.arrivals()[0].t;
 }
 
-// @param passes [m]  width from which on the robot must get through.
+// Khatib's field sways between walls, more or less by chance: its page says so.
+bool sways(const Course& course, double width) {
+  return course.avoider == "PotentialField" && width < kFieldIsSteady;
+}
+
 // In corridors from `passes` [m] on the robot must arrive.
 void check_widths(const Course& course, int step, double passes) {
   const TempFolder folder;
@@ -70,7 +74,8 @@ void check_widths(const Course& course, int step, double passes) {
     INFO(course.avoider << ' ' << course.robot << ", " << width << " cm");
     const double time = time_through(folder, course, 0.01 * width);
     std::cout << ' ' << width << '=' << time;
-    CHECK((least == kNever || time <= 1.05 * least));
+    const double growth = course.avoider == "PotentialField" ? 1.1 : 1.05;
+    CHECK((least == kNever || time <= growth * least || sways(course, 0.01 * width)));
     CHECK((time < kNever || 0.01 * width < passes));
     least = std::min(least, time);
   }
@@ -86,11 +91,12 @@ TEST_CASE("no avoider takes longer for a wider corridor, nor touches its walls",
   check_widths({"SonarAvoid", "peoplebot"}, 14, 0.9);
   for (const char* const avoider : {"VfhPlus", "Dwa", "NdPlus", "GridPlanner"})
     check_widths({avoider, "pioneer_2dx"}, 28, 0.9);
+  check_widths({"PotentialField", "barn_base"}, 28, kFieldIsSteady);
 }
 
 TEST_CASE("no robot with any avoider takes longer for a corridor that is 2 cm wider", "[.][slow]") {
   for (const std::string& robot : kWithSonars) check_widths({"SonarAvoid", robot}, 2, 1.0);
   for (const std::string& avoider : kLaserAvoiders)
     for (const std::string& robot : kWithLaser)
-      check_widths({avoider, robot}, 2, avoider == "PotentialField" ? 1.6 : 1.0);
+      check_widths({avoider, robot}, 2, avoider == "PotentialField" ? kFieldIsSteady : 1.0);
 }

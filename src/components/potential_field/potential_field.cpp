@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
 #include "force.hpp"
+#include "orca/avoidance/footprint.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -8,7 +14,7 @@ namespace {
 /// sees repels it. See README.md.
 class PotentialField final : public orca::avoid::LaserAvoider {
  public:
-  explicit PotentialField(orca::ComponentHost& host) : LaserAvoider(host) {}
+  explicit PotentialField(orca::ComponentHost& host) : LaserAvoider(host, {.hidden = true}) {}
 
  private:
   // With a goal it drives alone: all it says has full weight. Within reach of the goal, and without one, it speaks where
@@ -23,7 +29,36 @@ class PotentialField final : public orca::avoid::LaserAvoider {
                                            : orca::Vec2{kStraightOn, 0.0};
     const orca::Vec2 force = attraction(goal, settings) + repelled;
     const orca::field::Course wanted = course(velocity(force, settings), settings);
-    return {true, wanted.direction, wanted.speed, 1.0};
+    const orca::field::Outline& own = settings.body;
+    return safe(wanted, memory.echoes(), situation, {own.radius, own.half_length, own.half_width});
+  }
+
+  // The field moves a point. The body follows it as far as it can stop before it touches what the laser sees: slower, and
+  // without so much of its turn if that does not help. While it drives that holds for the turn that it makes now as well.
+  [[nodiscard]] orca::avoid::Advice safe(const orca::field::Course& wanted,
+                                         std::span<const orca::Vec2> echoes,
+                                         const orca::avoid::Situation& situation,
+                                         const orca::avoid::Footprint& outline) const {
+    const double rate = std::clamp(kTurnGain * wanted.direction, -kMaxTurnRate, kMaxTurnRate);
+    for (const double turning : {1.0, 0.5, 0.0}) {
+      for (const double driving : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+        const orca::Twist2 slower{driving * wanted.speed, 0.0, turning * rate};
+        const orca::Twist2 at_first{slower.forward, 0.0, situation.turn_rate};
+        if (can_stop(slower, echoes, outline) && (driving == 0.0 || can_stop(at_first, echoes, outline)))
+          return {true, wanted.direction, slower.forward, 1.0, slower.turn_rate};
+      }
+    }
+    return {true, 0.0, 0.0, 1.0, 0.0};
+  }
+
+  [[nodiscard]] bool can_stop(const orca::Twist2& motion, std::span<const orca::Vec2> echoes,
+                              const orca::avoid::Footprint& outline) const {
+    double time = std::numeric_limits<double>::infinity();
+    for (const orca::Vec2 echo : echoes)
+      time = std::min(time, time_to_margin(echo, motion, kMargin, outline));
+    const double left = std::max(0.0, time - reaction_time());
+    return motion.forward <= 2.0 * left * kDeceleration &&
+           std::abs(motion.turn_rate) <= 2.0 * left * kTurnDeceleration;
   }
 
   [[nodiscard]] orca::field::Settings settings(const orca::avoid::Limits& limits) const {
@@ -33,7 +68,13 @@ class PotentialField final : public orca::avoid::LaserAvoider {
     return {*attraction_, *repulsion_, *influence_, *damping_, limits.max_speed, outline};
   }
 
-  static constexpr double kStraightOn = 100.0;  // [m]
+  static constexpr double kStraightOn = 100.0;      // [m]
+  static constexpr double kMargin = 0.05;           // [m] kept free around the body
+  static constexpr double kDeceleration = 0.5;      // [m/s2]
+  static constexpr double kTurnDeceleration = 2.0;  // [rad/s2]
+  static constexpr double kTurnGain = 1.0;          // [1/s]
+  static constexpr double kMaxTurnRate =
+      1.5;  // [rad/s] at which a slow scan still shows places about where they are
 
   orca::Param<double> attraction_{
       *this,

@@ -155,10 +155,10 @@ TEST_CASE("in a closed room NdPlus turns on the spot, to the side of the goal", 
   }
 }
 
-TEST_CASE("PotentialField wishes for the direction of the goal with full weight", "[testing][field]") {
+TEST_CASE("PotentialField turns towards the goal with full weight", "[testing][field]") {
   const auto said = said_by("orca.PotentialField", {.goal_x = 3.0, .goal_y = 3.0});
-  CHECK(said->steering() == idl::BY_DIRECTION);
-  CHECK(said->direction() == Approx(std::numbers::pi / 4));
+  CHECK(said->steering() == idl::BY_TURN_RATE);
+  CHECK(said->turn_rate() == Approx(std::numbers::pi / 4));
   CHECK(said->weight() == Approx(2000.0));
 }
 
