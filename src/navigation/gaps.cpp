@@ -16,6 +16,8 @@ constexpr double kOpposite = -0.5;  // cosine of the angle between both sides, a
 constexpr double kEvery = 0.1;      // [m] at which a path is searched for gaps
 constexpr double kOffMiddle = 0.2;  // [m] from the path to the middle of a gap that belongs to it
 constexpr double kSpare = 0.05;     // [m] beside a robot that turns round
+constexpr double kJoin =
+    0.3;  // [m] at least between two bends where a piece through a gap joins what is beside it
 constexpr std::array kRuns{
     0.4, 0.25, 0.1};  // [m] of straight path before the nose and behind the tail, the longest that fits
 
@@ -89,6 +91,10 @@ Path lined_up(const OccupancyMap& map, const Footprint& footprint, const Path& p
   const auto copy_to = [&](double end) {
     for (; done + kEvery < end; done += kEvery) points.push_back(path.at(done + kEvery));
   };
+  // A step aside between two near points would turn the robot across the gap.
+  const auto make_room_for = [&](Vec2 next) {
+    while (points.size() > 1 && norm(next - points.back()) < kJoin) points.pop_back();
+  };
   for (double along = 0.0; along < path.length();) {
     const auto gap = narrowest(map, footprint, path, along);
     const auto piece = gap ? piece_through(map, footprint, *gap) : std::nullopt;
@@ -96,16 +102,20 @@ Path lined_up(const OccupancyMap& map, const Footprint& footprint, const Path& p
     const double begin = path.nearest(piece->one, done, path.length());
     const double end = path.nearest(piece->other, begin, path.length());
     copy_to(begin);
-    if (begin > done) points.push_back(piece->one);
+    if (begin > done) {
+      make_room_for(piece->one);
+      points.push_back(piece->one);
+    }
     done = std::max(done, begin);
     along = std::max(along, end);
     if (end >= path.length()) continue;  // It leads into the gap, not through it.
+    make_room_for(gap->middle);
     points.push_back(gap->middle);
     points.push_back(piece->other);
-    done = std::max(done, end);
+    done = std::max(done, end + kJoin - kEvery);
   }
   copy_to(path.length());
-  if (done < path.length()) points.push_back(path.at(path.length()));
+  points.push_back(path.at(path.length()));
   return Path(points);
 }
 

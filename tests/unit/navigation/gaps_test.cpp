@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
+#include "orca/navigation/path_planner.hpp"
 
 using namespace orca::nav;
 using orca::Vec2;
@@ -23,6 +24,22 @@ OccupancyMap wall_with_door(double low, double high) {
   for (double y = low; y > -3.0; y -= 0.02) scan.push_back({{2.0, y}, {2.0, y}, true});
   for (double y = high; y < 3.0; y += 0.02) scan.push_back({{2.0, y}, {2.0, y}, true});
   for (int i = 0; i < 3; ++i) map.see(scan);
+  return map;
+}
+
+// A corridor along x whose walls a laser has seen with errors of 1 cm, as one does.
+OccupancyMap corridor(double half_width, orca::RandomStream& random) {
+  OccupancyMap map(0.05, 8.0);
+  map.reset({2.0, 0.0});
+  for (int i = 0; i < 3; ++i) {
+    std::vector<Beam> scan;
+    for (double x = -1.5; x < 5.5; x += 0.04)
+      for (const double y : {-half_width, half_width}) {
+        const Vec2 echo{x, y + random.uniform(-0.01, 0.01)};
+        scan.push_back({echo, echo, true});
+      }
+    map.see(scan);
+  }
   return map;
 }
 
@@ -61,6 +78,20 @@ TEST_CASE("a path that crosses a narrow door askew is lined up with it, and stil
   CHECK(norm(path.at(0.0) - askew[0]) < 1e-9);
   CHECK(norm(path.at(path.length()) - askew[2]) < 1e-9);
   for (const double x : {1.7, 1.85, 2.0, 2.15, 2.3}) CHECK(off_axis(path, x, 0.0) < 0.03);
+}
+
+TEST_CASE("a path beside the middle of a corridor takes no step aside in which the robot would touch a wall",
+          "[navigation]") {
+  orca::RandomStream random(7, "test", "corridors");
+  for (double half_width = 0.26; half_width < 0.37; half_width += 0.01) {
+    const OccupancyMap map = corridor(half_width, random);
+    const std::array beside{Vec2{0.0, 0.025}, Vec2{4.0, 0.025}};
+    const Path path = lined_up(map, kLong, Path(beside));
+    CAPTURE(half_width);
+    CHECK(touches_along(map, kLong, path, 0.0, path.length()) < 0.0);
+    CHECK(norm(path.at(path.length()) - beside[1]) < 1e-9);
+    for (double along = 0.0; along < path.length(); along += 0.02) CHECK(std::abs(path.heading(along)) < 0.3);
+  }
 }
 
 TEST_CASE("a path through a wide door stays as it is, within its points", "[navigation]") {
