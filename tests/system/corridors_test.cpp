@@ -93,6 +93,7 @@ TEST_CASE("no avoider takes longer for a wider corridor, nor touches its walls",
   for (const char* const avoider : {"VfhPlus", "Dwa", "NdPlus", "GridPlanner"})
     check_widths({avoider, "pioneer_2dx"}, 28, 0.9);
   check_widths({"GridPlanner", "barn_base"}, 2, 0.6, 72);
+  check_widths({"NdPlus", "create2"}, 4, 0.7, 80);
   check_widths({"PotentialField", "barn_base"}, 28, kFieldIsSteady);
 }
 

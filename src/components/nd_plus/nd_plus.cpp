@@ -4,12 +4,23 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "motion.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 #include "orca/geometry/angle.hpp"
+#include "orca/geometry/arc.hpp"
+#include "orca/geometry/pose2.hpp"
 
 namespace {
+
+double bearing(orca::Vec2 place) { return orca::portable::atan2(place.y, place.x); }
+
+std::vector<orca::Vec2> seen_from(const orca::Pose2& X_RB, std::span<const orca::Vec2> echoes) {
+  std::vector<orca::Vec2> seen;
+  for (const orca::Vec2 echo : echoes) seen.push_back(orca::seen_from(X_RB, echo));
+  return seen;
+}
 
 /// A behaviour that drives the robot to its goal past what its laser sees, by ND+ (Minguez, Osuna and Montano, 2004). See
 /// README.md.
@@ -50,10 +61,11 @@ class NdPlus final : public orca::avoid::LaserAvoider {
     const double radius = orca::nd::half_way(settings.body) + settings.margin;
     const auto area = free_walking_area(echoes, goal(situation), radius);
     if (!area) return {};
-    const double way = orca::portable::atan2(area->place.y, area->place.x);
-    went_ = area->holds_goal() ? std::nullopt : std::optional(situation.heading + way);
-    const orca::nd::Dangers near = dangers(echoes, way, settings);
-    orca::nd::Course wanted = course(motion_direction(near, *area, radius, settings), near.share(), settings);
+    went_ = area->holds_goal() ? std::nullopt : std::optional(situation.heading + bearing(area->place));
+    const orca::Pose2 then = when_it_follows(situation);
+    const orca::nd::FreeWalkingArea ahead = seen_from(then, *area);
+    const orca::nd::Dangers near = dangers(seen_from(then, echoes), bearing(ahead.place), settings);
+    orca::nd::Course wanted = course(motion_direction(near, ahead, radius, settings), near.share(), settings);
     if (situation.goal && !situation.passes_goal)
       wanted.speed = std::min(wanted.speed, speed_to_stop(situation.goal_distance, settings));
     return made_safe(wanted, near.share(), situation.turn_rate, echoes, settings);
@@ -72,6 +84,12 @@ class NdPlus final : public orca::avoid::LaserAvoider {
       return turn;
     }
     return {};
+  }
+
+  // The pose at which the robot can follow what is said now. If it were steered by what it sees from where it is, it would sway
+  // between two walls, ever wider.
+  [[nodiscard]] orca::Pose2 when_it_follows(const orca::avoid::Situation& situation) const {
+    return orca::moved({situation.speed, 0.0, situation.turn_rate}, reaction_time());
   }
 
   [[nodiscard]] orca::nd::Goal goal(const orca::avoid::Situation& situation) const {

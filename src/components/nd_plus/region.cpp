@@ -76,6 +76,13 @@ Region region_of(std::size_t sector, const std::vector<Region>& regions) {
 
 }  // namespace
 
+FreeWalkingArea seen_from(const Pose2& X_RB, FreeWalkingArea area) {
+  area.region.right = left_of(area.region.right, sector_of(-X_RB.yaw));
+  area.place = orca::seen_from(X_RB, area.place);
+  if (area.edge) area.edge->place = orca::seen_from(X_RB, area.edge->place);
+  return area;
+}
+
 bool is_navigable(std::span<const Vec2> echoes, Vec2 place, double radius) {
   const double way = norm(place);
   if (way <= 0.0) return true;

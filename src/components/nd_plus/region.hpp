@@ -5,6 +5,7 @@
 #include <span>
 
 #include "diagram.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/geometry/vec2.hpp"
 
 /// The free walking area of ND+: the region through which the robot goes on to its goal. Terms, frames and threads: see
@@ -34,6 +35,9 @@ struct FreeWalkingArea {
 
   [[nodiscard]] bool holds_goal() const { return !edge; }
 };
+
+/// Returns the area seen from another pose `X_RB` of the robot: its places exactly, its region turned by whole sectors.
+[[nodiscard]] FreeWalkingArea seen_from(const Pose2& X_RB, FreeWalkingArea area);
 
 /// Returns whether a circle can come to a place: it finds room there, and no two echoes on different sides of the straight way are so near
 /// to each other that it does not pass between them.

@@ -151,3 +151,16 @@ TEST_CASE("a mirrored scene has the mirrored free walking area", "[nd]") {
     CHECK(one->place.y == Approx(-other->place.y).margin(1e-12));
   }
 }
+
+TEST_CASE("an area that is seen from farther on is where it was", "[nd]") {
+  const auto echoes = wall_with({{1.0, 2.5}});
+  const auto area = free_walking_area(echoes, kAhead, kRadius);
+  REQUIRE(area);
+  REQUIRE(area->edge);
+  const orca::Pose2 on{0.2, -0.1, 4 * kSector};
+  const FreeWalkingArea seen = seen_from(on, *area);
+  CHECK(norm(on * seen.place - area->place) == Approx(0.0).margin(1e-12));
+  CHECK(norm(on * seen.edge->place - area->edge->place) == Approx(0.0).margin(1e-12));
+  CHECK(seen.region.middle() + on.yaw == Approx(area->region.middle()));
+  CHECK(seen.region.width == area->region.width);
+}
