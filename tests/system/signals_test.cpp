@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <random>
 #include <thread>
 
@@ -52,6 +53,8 @@ void check_stopped(const Stopped& stopped) {
 // Sends a signal to a robot that drives in real time.
 Run end_driving_robot(int signal, const std::string& trace, const Words& more = {}) {
   Subprocess program(deployer(Words{source_file("graphs/scout_goto.xml"), "--trace", trace} + more));
+  // On a busy machine a second may pass before the program has opened its files.
+  for (int i = 0; i < 100 && !std::filesystem::exists(trace); ++i) sleep_for(0.1);
   sleep_for(1.0 * (kSanitized ? 4.0 : 1.0));
   program.send(signal);
   return finish(program, Seconds(kEndLimit));
