@@ -88,6 +88,13 @@ TEST_CASE("a client reads the banner first", "[hw][player]") {
   CHECK(client.ids == std::vector<MessageId>{kListDevices});
 }
 
+TEST_CASE("a client reads banner and messages byte by byte", "[hw][player]") {
+  Listener client(MessageReader::Side::client);
+  for (const std::uint8_t byte : after_each_other({banner_bytes(), kListMessage, kModeMessage}))
+    REQUIRE(client.hear(Bytes{byte}).ok());
+  CHECK(client.ids == std::vector<MessageId>{kListDevices, kSetDataMode});
+}
+
 TEST_CASE("a client that reaches another server says so", "[hw][player]") {
   Listener client(MessageReader::Side::client);
   const orca::Status heard = client.hear(Bytes(32, 'x'));
