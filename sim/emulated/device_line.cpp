@@ -41,6 +41,21 @@ Status DeviceLine::open() {
   return terminal_ != nullptr ? terminal_->await_driver() : ok();
 }
 
+Status DeviceLine::open_in_memory(std::function<void()> ring) {
+  const bool listens = name_.starts_with(kListens);
+  auto memory = std::make_unique<hw::link::MemoryLink>(
+      hw::link::MemoryOptions{.name = listens ? "tcp:" + name_.substr(name_.rfind(':') + 1) : name_,
+                              .end = hw::link::MemoryOptions::End::device});
+  terminal_ = nullptr;
+  port_ = nullptr;
+  memory_ = memory.get();
+  seats_.front().link = std::move(memory);
+  const Result<hw::link::Opening> opened = memory_->open();
+  if (!opened) return opened.error();
+  memory_->ring_at_input(std::move(ring));
+  return ok();
+}
+
 Status DeviceLine::lock_name() {
   const std::string path = hw::link::emulated_path(name_);
   if (Status made = hw::link::make_emulated_folder(); !made.ok()) return made;
@@ -56,6 +71,7 @@ Status DeviceLine::lock_name() {
 }
 
 std::string DeviceLine::where() const {
+  if (memory_ != nullptr) return "a driver of this run opens it, as " + memory_->name();
   if (terminal_ == nullptr)
     return "it " + name_.substr(0, kListens.size() - 1) + "s at " + name_.substr(kListens.size());
   return "a driver opens it as emulated:" + name_ + ", other programs as " + hw::link::emulated_path(name_);
@@ -68,10 +84,18 @@ void DeviceLine::close() {
 }
 
 bool DeviceLine::exchange(TimePoint now) {
-  const auto set = terminal_ != nullptr ? terminal_->line() : std::nullopt;
-  for (Seat& seat : seats_) exchange(seat, set ? set->baud : 0, now);
+  const std::uint32_t rate = baud();
+  for (Seat& seat : seats_) exchange(seat, rate, now);
   if (port_ != nullptr && std::ranges::all_of(seats_, &Seat::is_taken)) add_seat();
   return std::ranges::any_of(seats_, &Seat::is_taken);
+}
+
+// Returns the rate that the driver has set; 0: the line has none.
+std::uint32_t DeviceLine::baud() const {
+  const auto set = terminal_ != nullptr ? terminal_->line()
+                   : memory_ != nullptr ? memory_->line()
+                                        : std::nullopt;
+  return set ? set->baud : 0;
 }
 
 // While no driver has the line open there is nothing to read, and what the device says is lost.

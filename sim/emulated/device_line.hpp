@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "orca/emulators/firmware.hpp"
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/link/listen_link.hpp"
+#include "orca/hw/link/memory_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
 
 namespace orca::sim {
@@ -30,6 +32,10 @@ class DeviceLine {
 
   /// @errors  already_exists if another system offers a line of that name; those of PtyLink::open() and ListenLink::open().
   Status open();
+  /// Opens it as a line in memory, in virtual time: a driver in this process finds it in the same words, and nobody else.
+  /// @param ring  called when a driver has written something; on its strand.
+  /// @errors  already_exists if another emulation of this process offers a line of that name.
+  Status open_in_memory(std::function<void()> ring);
   void close();
   /// Returns for people where a driver and other programs find it.
   [[nodiscard]] std::string where() const;
@@ -46,14 +52,16 @@ class DeviceLine {
   };
 
   [[nodiscard]] Status lock_name();
+  [[nodiscard]] std::uint32_t baud() const;
   void exchange(Seat& seat, std::uint32_t baud, TimePoint now);
   void add_seat();
 
   const std::string name_;
-  std::vector<Seat> seats_;                // at least one
-  hw::link::PtyLink* terminal_ = nullptr;  // the first seat's link, if it is one
-  hw::link::ListenLink* port_ = nullptr;   // likewise
-  Descriptor lock_;                        // of the terminal's name, while it is open
+  std::vector<Seat> seats_;                 // at least one
+  hw::link::PtyLink* terminal_ = nullptr;   // the first seat's link, if it is one
+  hw::link::ListenLink* port_ = nullptr;    // likewise
+  hw::link::MemoryLink* memory_ = nullptr;  // likewise
+  Descriptor lock_;                         // of the terminal's name, while it is open
 };
 
 }  // namespace orca::sim

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped graphs of real robots with --profile emulate: the real drivers talk to emulated devices in the simulated world.
+// The shipped graphs of real robots with --profile emulate: the real drivers talk to emulated devices in the simulated world. Most of it runs
+// in virtual time, over lines in memory; in real time, over pseudo terminals and connections, what needs an operator or is labelled slow.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <iostream>
 #include <numbers>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "deployer.hpp"
@@ -44,8 +44,10 @@ std::string graph_of(const Robot& robot) {
   return source_file("graphs/" + std::string(robot.graph) + ".xml");
 }
 
+Words emulate(const Robot& robot) { return Words{graph_of(robot), "--profile", "emulate"} + virtual_clock(); }
+
 // Two systems of other tests may run at the same time. Lines have names, the server listens at a port.
-Words emulate(const Robot& robot, const TempFolder& folder) {
+Words emulate_in_real_time(const Robot& robot, const TempFolder& folder) {
   const bool is_server = robot.graph == std::string("player_robot");
   const std::string place = is_server ? std::to_string(free_port()) : folder.path().filename().string();
   return {graph_of(robot), "--profile", "emulate", "--set", "emulated=" + place};
@@ -96,9 +98,7 @@ RecordTable::Row scan_at_start(const std::string& graph, const Words& more, cons
   return rows.back();
 }
 
-Words emulated_in(const TempFolder& folder) {
-  return {"--profile", "emulate", "--set", "emulated=" + std::string(folder.path().filename())};
-}
+Words emulated() { return Words{"--profile", "emulate"} + virtual_clock(); }
 
 // The robot's file with its laser upright, or hanging upside down, at the same place.
 Words robot_with_laser(const std::string& robot, const std::string& origin, bool hangs,
@@ -130,7 +130,7 @@ TEST_CASE(
   const TempFolder folder;
   const Words robot = robot_with_laser("pioneer_2dx", "0.017 0.008 0.3", hangs, folder);
   const RecordTable::Row sim = scan_at_start("pioneer2dx_sick", virtual_clock() + robot, folder);
-  const RecordTable::Row real = scan_at_start("pioneer2dx_sick", emulated_in(folder) + robot, folder);
+  const RecordTable::Row real = scan_at_start("pioneer2dx_sick", emulated() + robot, folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
   const std::vector<double> got = numbers(real, "ranges");
   REQUIRE(wanted.size() == 181);
@@ -158,7 +158,7 @@ TEST_CASE("turns of an RPLIDAR that went over the line are those of the world, t
   const TempFolder folder;
   const Words robot = robot_with_laser("create2", "0 0 0.135", hangs, folder);
   const RecordTable::Row sim = scan_at_start("create2_rplidar", virtual_clock() + robot, folder);
-  const RecordTable::Row real = scan_at_start("create2_rplidar", emulated_in(folder) + robot, folder);
+  const RecordTable::Row real = scan_at_start("create2_rplidar", emulated() + robot, folder);
   const std::vector<double> wanted = numbers(sim, "ranges");
   const std::vector<double> got = numbers(real, "ranges");
   REQUIRE(wanted.size() == 360);
@@ -193,8 +193,7 @@ TEST_CASE("scans of a Player server are those of the world, as a laser and as a 
     CAPTURE(how);
     const RecordTable::Row real =
         scan_at_start("player_robot",
-                      Words{"--profile", "emulate", "--set", "emulated=" + std::to_string(free_port()),
-                            "--set", how[0], "--set", how[1]} +
+                      emulated() + Words{"--set", how[0], "--set", how[1]} +
                           robot_with_laser("pioneer_2dx", "0.017 0.008 0.3", hangs, folder),
                       folder);
     const std::vector<double> got = numbers(real, "ranges");
@@ -208,25 +207,25 @@ TEST_CASE("scans of a Player server are those of the world, as a laser and as a 
   }
 }
 
-TEST_CASE("each shipped robot reaches its first goal with its real drivers on emulated devices",
+TEST_CASE("each shipped robot reaches all its goals with its real drivers, the same way each time",
           "[system][hardware]") {
   for (const Robot& robot : kRobots) {
     CAPTURE(robot.graph);
-    const TempFolder folder;
-    const Run run =
-        run_deployer(emulate(robot, folder) + Words{"--set", "goals=door: 3.6 6 > 3.6 7.4"}, Seconds(90));
+    const Run run = run_deployer(emulate(robot), Seconds(60));
     INFO(run.err);
     CHECK(run.exit_code() == 0);
-    CHECK(run.arrivals().size() == 1);
+    CHECK(run.arrivals().size() == 3);
     CHECK(run.contacts().empty());
+    CHECK(run_deployer(emulate(robot), Seconds(60)).out == run.out);
   }
 }
 
-TEST_CASE("each shipped robot reaches all its goals with its real drivers on emulated devices", "[.][slow]") {
+TEST_CASE("in real time each shipped robot reaches all its goals with its real drivers on emulated devices",
+          "[.][slow]") {
   for (const Robot& robot : kRobots) {
     CAPTURE(robot.graph);
     const TempFolder folder;
-    const Run run = run_deployer(emulate(robot, folder), Seconds(400));
+    const Run run = run_deployer(emulate_in_real_time(robot, folder), Seconds(400));
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(run.arrivals().size() == 3);
@@ -237,6 +236,22 @@ TEST_CASE("each shipped robot reaches all its goals with its real drivers on emu
   }
 }
 
+TEST_CASE("in real time each shipped robot drives off on emulated devices, and describes them",
+          "[system][hardware]") {
+  for (const Robot& robot : kRobots) {
+    CAPTURE(robot.graph);
+    const TempFolder folder;
+    Subprocess program(
+        deployer(emulate_in_real_time(robot, folder) + Words{"--set", "goals=ahead: 1.5 6; far: 3.6 6"}));
+    CHECK(program.wait_for_output("arrived ahead", Seconds(60)));
+    check_description(run_orcactl({"query", "base.RobotQuery", "<Ask/>"}));
+    program.send(SIGINT);
+    const Run run = finish(program, Seconds(20));
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+  }
+}
+
 TEST_CASE("odometry that went over the line is that of the world, as finely as the protocol tells it",
           "[system][hardware]") {
   for (const Robot& robot : kRobots) {
@@ -244,15 +259,11 @@ TEST_CASE("odometry that went over the line is that of the world, as finely as t
     const TempFolder folder;
     const std::string file = folder.file("poses.csv");
     // In an ideal world wheels do not slip, so the truth is what they have rolled.
-    Subprocess program(deployer(emulate(robot, folder) +
-                                Words{"--set", "realism=ideal", "--set", "goals=far: 2.5 6.3 > 9 6",
-                                      "--record", file + "=base.OdometryPush,localizer.RobotPosePush"}));
-    std::this_thread::sleep_for(7s);
-    CHECK(run_orcactl({"estop"}).exit_code() == 0);
-    std::this_thread::sleep_for(2s);
-    check_description(run_orcactl({"query", "base.RobotQuery", "<Ask/>"}));
-    program.send(SIGINT);
-    const Run run = finish(program, Seconds(20));
+    const Run run =
+        run_deployer(emulate(robot) + Words{"--set", "realism=ideal", "--set", "goals=far: 2.5 6.3 > 9 6",
+                                            "--fail", "goto=silent@7s", "--until", "10 s", "--record",
+                                            file + "=base.OdometryPush,localizer.RobotPosePush"},
+                     Seconds(60));
     INFO(run.err);
     REQUIRE(run.exit_code() == 0);
     const AtRest difference = compared(file);
@@ -260,6 +271,18 @@ TEST_CASE("odometry that went over the line is that of the world, as finely as t
     CHECK(difference.apart <= 2.0 * robot.length_step + 0.5 * robot.angle_step * 2.1);
     CHECK(difference.turned <= 0.51 * robot.angle_step);
   }
+}
+
+TEST_CASE("with --clock virtual a line to a real device is refused by --check, with its place",
+          "[system][hardware]") {
+  const Run run = run_deployer(
+      {source_file("graphs/pioneer2dx_sick.xml"), "--profile", "real", "--clock", "virtual", "--check"},
+      Seconds(60));
+  CHECK(run.exit_code() == 2);
+  CHECK_THAT(
+      run.err,
+      Contains("error G042: hardware \"pioneer\": parameter \"device\": in virtual time nothing is at the "
+               "other end of \"/dev/ttyS0\"; use emulated:NAME"));
 }
 
 TEST_CASE("a driver of an emulated line that nothing offers is found by --check, with its place",

@@ -22,9 +22,9 @@ namespace {
 constexpr Seconds kLimit{600};
 constexpr std::size_t kRuns = 5 * 3 * 20;
 
-// The shipped experiment, with a number of seeds.
-std::string office(const TempFolder& folder, const std::string& seeds) {
-  std::string text = text_in(source_file("sim/experiments/avoid_office.xml"));
+// A shipped experiment, with a number of seeds.
+std::string shipped(const std::string& name, const TempFolder& folder, const std::string& seeds) {
+  std::string text = text_in(source_file("sim/experiments/" + name));
   const auto replace = [&](const std::string& before, const std::string& after) {
     const std::size_t at = text.find(before);
     REQUIRE(at != std::string::npos);
@@ -32,7 +32,11 @@ std::string office(const TempFolder& folder, const std::string& seeds) {
   };
   replace("seeds=\"1-20\"", "seeds=\"" + seeds + "\"");
   replace("../../graphs/", source_file("graphs/"));
-  return folder.write("avoid_office.xml", text);
+  return folder.write(name, text);
+}
+
+std::string office(const TempFolder& folder, const std::string& seeds) {
+  return shipped("avoid_office.xml", folder, seeds);
 }
 
 // Returns the ordered export of a batch of its own.
@@ -125,4 +129,24 @@ TEST_CASE("seeds matter at nominal and harsh; at ideal all seeds are one run", "
     CHECK(different.size() == (is_ideal ? 1 : 3));
     CHECK(hashes[place].size() == (is_ideal ? 1 : 3));
   }
+}
+
+TEST_CASE(
+    "behaviours are compared through drivers of emulated devices, with the same bytes for 1 and 2 workers",
+    "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = shipped("emulated_office.xml", folder, "1-2");
+  const std::string one = made(experiment, folder.file("one"), {"--jobs", "1"});
+  CHECK(made(experiment, folder.file("two"), {"--jobs", "2"}) == one);
+  const Words lines = split_lines(one);
+  REQUIRE(lines.size() == 1 + 4 * 2 * 2);
+  const Words names = cells_of(lines.front());
+  const auto ending = std::ranges::find(names, "ending") - names.begin();
+  const auto hash = std::ranges::find(names, "trace_hash") - names.begin();
+  std::set<std::string> hashes;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    CHECK(cells_of(lines[i]).at(ending) == "success");
+    hashes.insert(cells_of(lines[i]).at(hash));
+  }
+  CHECK(hashes.size() == lines.size() - 1);  // a driver changes the run, and so does the seed
 }

@@ -82,7 +82,7 @@ void HardwareLoop::open() {
 }
 
 void HardwareLoop::attend() {
-  const bool due = container_.descriptor() >= 0 || host_.now() >= container_.next_poll();
+  const bool due = container_.hears_input() || host_.now() >= container_.next_poll();
   if (life_.state() == HardwareState::probing) {
     if (due) life_.probe_again();
     last_heard_ = host_.now();

@@ -19,7 +19,7 @@ LineDriver::LineDriver(HardwareHost& host, const std::string& usual, const link:
       first_(first) {}
 
 std::vector<HardwareFault> LineDriver::prepare_line() {
-  auto made = link::make_link(*device_, {.line = first_});
+  auto made = link::make_link(*device_);
   if (!made) return {{"device", made.error().message}};
   line_ = std::move(made).value();
   set_line_name(*device_);
@@ -58,21 +58,30 @@ std::vector<idl::Sensor> LineDriver::describe_senses() const {
 }
 
 Status LineDriver::open() {
-  if (Status kept = keep_bytes(); !kept.ok()) return kept;
+  if (Status made = make_line(); !made.ok()) return made;
   const Result<link::Opening> opening = line_->open();
   if (!opening) return opening.error();
   is_open_ = *opening == link::Opening::done;
-  return is_open_ ? begin(host().now()) : ok();
+  if (!is_open_) return ok();
+  rings_ = line_->ring_at_input([this] { wake(); });
+  return begin(host().now());
 }
 
-// A graph that is only checked writes no file, so the log begins when the line is opened for the first time.
-Status LineDriver::keep_bytes() {
-  if (keeps_bytes_ || byte_log_->empty()) return ok();
-  auto log =
-      link::ByteLog::create({.path = *byte_log_, .now = [this] { return host().now(); }}, line_->name());
-  if (!log) return log.error();
-  line_ = std::make_unique<link::LoggedLink>(std::move(line_), std::move(log).value());
-  keeps_bytes_ = true;
+// A graph that is only checked has no clock and writes no file, so the line is made when it is opened for the first time.
+Status LineDriver::make_line() {
+  if (is_made_) return ok();
+  const auto now = [this] { return host().now(); };
+  auto made =
+      link::make_link(*device_, {.line = first_, .now = now, .is_virtual = host().executive().is_virtual()});
+  if (!made) return made.error();
+  std::unique_ptr<link::ByteLink> line = std::move(made).value();
+  if (!byte_log_->empty()) {
+    auto log = link::ByteLog::create({.path = *byte_log_, .now = now}, line->name());
+    if (!log) return log.error();
+    line = std::make_unique<link::LoggedLink>(std::move(line), std::move(log).value());
+  }
+  line_ = std::move(line);
+  is_made_ = true;
   return ok();
 }
 

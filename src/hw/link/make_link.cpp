@@ -14,6 +14,7 @@
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/hw/link/listen_link.hpp"
+#include "orca/hw/link/memory_link.hpp"
 #include "orca/hw/link/pty_link.hpp"
 #include "orca/hw/link/replay_link.hpp"
 #include "orca/hw/link/serial_link.hpp"
@@ -30,7 +31,8 @@ constexpr Duration kEmulationStarts = 10s;  // another process may have to load 
 constexpr const char* kEmulated = "emulated";
 
 constexpr const char* kForms =
-    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, pty:PATH, "
+    "; a link is serial:/dev/ttyUSB0 (or the path alone), tcp:HOST:PORT, emulated:NAME, memory:NAME, "
+    "pty:PATH, "
     "listen:PORT or replay:FILE";
 
 Error wrong(std::string_view text, const std::string& what) {
@@ -92,7 +94,17 @@ Status check_folder() {
   return folder || folder.error().code == Code::not_found ? ok() : Status(folder.error());
 }
 
+Made make_memory(std::string_view name, const LinkOptions& options) {
+  MemoryOptions memory;
+  memory.name = name;
+  memory.line = options.line;
+  memory.patience = kEmulationStarts;
+  memory.now = options.now;
+  return Made(std::make_unique<MemoryLink>(std::move(memory)));
+}
+
 Made make_emulated(std::string_view text, std::string_view name, const LinkOptions& options) {
+  if (options.is_virtual) return make_memory(name, options);
   constexpr std::string_view kTcp = "tcp:";
   if (name.starts_with(kTcp)) {
     const std::optional<std::uint16_t> port = read_port(name.substr(kTcp.size()));
@@ -127,6 +139,11 @@ Status make_emulated_folder() {
               "cannot make " + folder->path() + "/" + kEmulated + ": " + std::strerror(errno));
 }
 
+bool fits_virtual_time(std::string_view text) {
+  const std::string_view kind = text.substr(0, text.find(':'));
+  return kind == kEmulated || kind == "memory" || kind == "replay";
+}
+
 std::string real_place(std::string_view text) {
   constexpr std::string_view kSerial = "serial:";
   const bool is_serial = text.starts_with('/') || text.starts_with(kSerial);
@@ -144,13 +161,15 @@ Result<std::unique_ptr<ByteLink>> make_link(std::string_view text, const LinkOpt
   if (colon == std::string_view::npos) return wrong(text, "it is no path and names no kind of link");
   const std::string_view kind = text.substr(0, colon);
   const std::string rest(text.substr(colon + 1));
-  constexpr std::array<std::string_view, 6> kKinds{"serial", "tcp", "emulated", "pty", "listen", "replay"};
+  constexpr std::array<std::string_view, 7> kKinds{"serial", "tcp",    "emulated", "memory",
+                                                   "pty",    "listen", "replay"};
   if (std::ranges::find(kKinds, kind) == kKinds.end())
     return wrong(text, "there is no kind " + in_quotes(printable(kind)));
   if (rest.empty()) return wrong(text, "nothing follows " + std::string(kind) + ":");
   if (kind == "serial") return make_serial(rest, options);
   if (kind == "tcp") return make_tcp(text, rest, options);
   if (kind == "emulated") return make_emulated(text, rest, options);
+  if (kind == "memory") return make_memory(rest, options);
   if (kind == "listen") return make_listener(text, rest);
   if (kind == "pty") return Made(std::make_unique<PtyLink>(rest));
   return Made(std::make_unique<ReplayLink>(ReplayOptions{rest, options.now}));

@@ -164,12 +164,22 @@ Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) {
 
 Status SerialLink::write(std::span<const std::uint8_t> bytes) {
   Status written = stream_->is_attached() ? check_flow() : ok();
-  if (written.ok()) written = stream_->write(bytes);
+  if (written.ok()) written = write_paced(bytes);
   if (!written.ok()) return written;
   waited_ = pending();
   busy_until_ =
       std::max(busy_until_, steady_now()) + from_seconds(static_cast<double>(bytes.size()) * byte_time());
   return written;
+}
+
+Status SerialLink::write_paced(std::span<const std::uint8_t> bytes) {
+  if (options_.line.pause == Duration{0}) return stream_->write(bytes);
+  if (Status fits = check_size(*this, bytes.size()); !fits.ok()) return fits;
+  for (const std::uint8_t& byte : bytes) {
+    if (Status written = stream_->write({&byte, 1}); !written.ok()) return written;
+    std::this_thread::sleep_for(options_.line.pause);
+  }
+  return ok();
 }
 
 Status SerialLink::flush() { return stream_->flush(); }

@@ -118,34 +118,29 @@ struct ListenKit : LinkKit {
 };
 
 /// A line in memory.
-template <bool kDescriptors>
 struct MemoryKit : LinkKit {
-  static constexpr bool kHasDescriptor = kDescriptors;
+  static constexpr bool kHasDescriptor = false;
   static constexpr bool kKeepsLastWords = true;
   static constexpr bool kDeliversLastWords = true;
   static constexpr bool kTellsPending = false;
 
   MemoryKit() {
-    hw::link::MemoryOptions options;
-    options.descriptors = kDescriptors;
-    std::tie(link, device) = hw::link::make_memory_links(options);
+    MemoryEnds ends = make_memory_ends();
+    link = std::move(ends.driver);
+    device = std::move(ends.device);
   }
 };
 
-/// A line in memory, with a log.
-struct LoggedKit : MemoryKit<true> {
-  TempFolder folder;
-
+/// A serial line, with a log.
+struct LoggedKit : SerialKit {
   LoggedKit() {
-    auto log = hw::link::ByteLog::create({folder.file("log"), std::size_t{1} << 24, steady_now}, "memory");
+    auto log = hw::link::ByteLog::create({folder.file("log"), std::size_t{1} << 24, steady_now}, "serial");
     link = std::make_unique<hw::link::LoggedLink>(std::move(link), std::move(*log));
   }
 };
 
 /// A line in memory on which faults could happen, but none does.
-struct FaultlessKit : MemoryKit<true> {
-  static constexpr bool kHasDescriptor = false;
-
+struct FaultlessKit : MemoryKit {
   FaultlessKit() {
     hw::link::FaultPlan plan;
     plan.now = steady_now;
@@ -157,5 +152,4 @@ struct FaultlessKit : MemoryKit<true> {
 
 #define ORCA_LINK_KITS                                                                                  \
   orca::test::SerialKit, orca::test::PtyKit, orca::test::TcpKit<AF_INET>, orca::test::TcpKit<AF_INET6>, \
-      orca::test::ListenKit, orca::test::MemoryKit<false>, orca::test::MemoryKit<true>,                 \
-      orca::test::LoggedKit, orca::test::FaultlessKit
+      orca::test::ListenKit, orca::test::MemoryKit, orca::test::LoggedKit, orca::test::FaultlessKit

@@ -171,5 +171,4 @@ class Owl final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(Owl, "my.Owl")
-ORCA_STEADY_CLOCK_ONLY("its laser lives in real time")
 // [/driver]

@@ -196,4 +196,3 @@ class Create2Base final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(Create2Base, "orca.hw.Create2")
-ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

@@ -263,4 +263,3 @@ class ScoutBase final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(ScoutBase, "orca.hw.NomadScout")
-ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

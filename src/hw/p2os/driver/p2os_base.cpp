@@ -343,4 +343,3 @@ class P2osBase final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(P2osBase, "orca.hw.P2os")
-ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

@@ -353,4 +353,3 @@ class PlayerBase final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(PlayerBase, "orca.hw.Player")
-ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

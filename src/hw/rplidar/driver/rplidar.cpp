@@ -239,4 +239,3 @@ class Rplidar final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(Rplidar, "orca.hw.Rplidar")
-ORCA_STEADY_CLOCK_ONLY("its laser lives in real time")

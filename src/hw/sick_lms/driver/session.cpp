@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -15,8 +14,8 @@ namespace {
 
 constexpr std::array<std::uint32_t, 4> kRates{38400, 9600, 19200, 500000};
 constexpr std::uint32_t kFastest = 500000;
-constexpr auto kPauseBetweenBytes = std::chrono::microseconds(60);  // at that rate; the laser needs 55
-constexpr Duration kAnswerTime = 250ms;                             // beside a scan that is on its way
+constexpr std::chrono::microseconds kPause{60};  // between bytes at that rate; the laser needs 55
+constexpr Duration kAnswerTime = 250ms;          // beside a scan that is on its way
 constexpr Duration kModeTime = 3s;
 constexpr Duration kWriteTime = 15s;
 constexpr Duration kSettleTime = 500ms;  // after a change of the rate
@@ -58,7 +57,8 @@ Status Session::find_from(std::size_t index, TimePoint now) {
 }
 
 Status Session::set_rate(std::uint32_t baud) {
-  if (Status set = link_.set_line({.baud = baud}); !set.ok()) return set;
+  if (Status set = link_.set_line({.baud = baud, .pause = baud < kFastest ? 0us : kPause}); !set.ok())
+    return set;
   rate_ = baud;
   return ok();
 }
@@ -282,15 +282,6 @@ Status Session::receive(TimePoint now, const std::function<void(const Received&)
     arrivals_.forget(scanner_.received() - scanner_.waiting());
     if (is_damaged && step_ != Step::done && step_ != Step::settle) deadline_ = now;
   }
-}
-
-Status Session::send(const Telegram& request) {
-  if (!has_rate_ || rate_ < kFastest) return link_.write(request.view());
-  for (const std::uint8_t& byte : request) {
-    if (Status written = link_.write({&byte, 1}); !written.ok()) return written;
-    std::this_thread::sleep_for(kPauseBetweenBytes);
-  }
-  return ok();
 }
 
 }  // namespace orca::hw::sick_lms

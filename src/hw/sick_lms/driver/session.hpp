@@ -61,7 +61,7 @@ class Session {
   Status receive(TimePoint now, const std::function<void(const Received&)>& take);
   /// Sends a request. At 500000 baud it pauses after each byte, as the laser needs it: 1 ms in all.
   /// @errors  those of ByteLink::write().
-  Status send(const Telegram& request);
+  Status send(const Telegram& request) { return link_.write(request.view()); }
 
   /// Returns type and version, as the laser names itself. @pre  advance() has returned true, as for the rest.
   [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }

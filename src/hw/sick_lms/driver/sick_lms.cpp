@@ -294,4 +294,3 @@ class SickLms final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(SickLms, "orca.hw.SickLms")
-ORCA_STEADY_CLOCK_ONLY("its laser lives in real time")

@@ -387,4 +387,3 @@ class Xr4000Base final : public orca::hw::LineDriver {
 }  // namespace
 
 ORCA_HARDWARE(Xr4000Base, "orca.hw.Xr4000")
-ORCA_STEADY_CLOCK_ONLY("its robot lives in real time")

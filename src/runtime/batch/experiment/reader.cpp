@@ -55,6 +55,7 @@ class ExperimentReader {
       experiment.error_at("version", codes::kBadValue,
                           "version " + in_quotes(*version) + " is not known; the only one is \"1\"");
     if (experiment.has("graph")) graph_ = path(experiment.text("graph").value_or(""));
+    profile_ = experiment.text("profile").value_or("");
     experiment_.seeds = numbers(experiment, "seeds");
     experiment_.metrics = metrics(experiment);
     experiment_.until = experiment.duration("until").value_or(Duration{0});
@@ -64,7 +65,8 @@ class ExperimentReader {
   }
 
   void variant(const Attributes& element) {
-    Variant variant{element.name("name").value_or(""), graph_, {}, element.element().position()};
+    Variant variant{element.name("name").value_or(""), graph_, {}, element.element().position(), profile_};
+    if (element.has("profile")) variant.profile = element.text("profile").value_or("");
     if (element.has("graph")) variant.graph = path(element.text("graph").value_or(""));
     if (variant.graph.empty())
       element.error(codes::kNoGraph, "variant " + in_quotes(variant.name) +
@@ -194,7 +196,8 @@ class ExperimentReader {
   const std::filesystem::path folder_;
   xml::Reporter& reporter_;
   Experiment experiment_;
-  std::string graph_;  // of variants that name none
+  std::string graph_;    // of variants that name none
+  std::string profile_;  // likewise
   std::map<std::pair<std::string, std::string>, xml::Position> names_;
 };
 

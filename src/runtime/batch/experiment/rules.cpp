@@ -24,6 +24,8 @@ constexpr std::array kExperiment{
     AttributeRule{"name", true, "Name of the experiment.", kName},
     AttributeRule{"version", false, "Version of the format; the only one is 1."},
     AttributeRule{"graph", false, "Graph of all variants that name none themselves."},
+    AttributeRule{"profile", false,
+                  "Profile of the graph, as with deployer --profile; its default_profile if not given."},
     AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
     AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
     AttributeRule{"metrics", false, "In which variants are compared; \"success time\" if not given."},
@@ -34,7 +36,8 @@ constexpr std::array kSet{
     AttributeRule{"value", false, "Its value."},
     AttributeRule{"file", false, "Instead of value: a file, whose path starts at the experiment's folder."}};
 constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
-                              AttributeRule{"graph", false, "Its graph, if it is not that of all."}};
+                              AttributeRule{"graph", false, "Its graph, if it is not that of all."},
+                              AttributeRule{"profile", false, "Its profile, if it is not that of all."}};
 constexpr std::array kWorld{
     AttributeRule{"name", true, "Name of the world.", kName},
     AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres}};

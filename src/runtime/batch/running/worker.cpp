@@ -125,6 +125,8 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
   host::StopSignal stop(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
   host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
   graph::LoadOptions load;
+  if (const std::string& profile = experiment.variants[run.variant].profile; !profile.empty())
+    load.profiles = {profile};
   load.settings = experiment.settings_of(run);
   load.any_link = true;
   xml::Diagnostics diagnostics;

@@ -131,7 +131,13 @@ std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::Hardw
   // A container is prepared only once: a second one of its name, which is an error, gets its own.
   const Result<plugin::DescribedHardware*> made = describe_anew(use);
   if (!made) return {{"", made.error().text()}};
-  return (*made)->prepare(use.params);
+  std::vector<HardwareFault> faults = (*made)->prepare(use.params);
+  const std::string& line = (*made)->container().line_name();
+  if (clock_ == ClockKind::virtual_time && !line.empty() && !hw::link::fits_virtual_time(line))
+    faults.push_back(
+        {"device", "in virtual time nothing is at the other end of " + in_quotes(line) +
+                       "; use emulated:NAME with an orca.hw.Emulated, replay:FILE, or --clock steady"});
+  return faults;
 }
 
 std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::HardwareUse& use,

@@ -30,8 +30,8 @@ struct LoggedLine {
   std::unique_ptr<LoggedLink> link;
 
   explicit LoggedLine(const std::string& file, std::size_t most_bytes = kPlenty) {
-    auto [near_end, far_end] = hw::link::make_memory_links();
-    auto log = ByteLog::create({file, most_bytes, [this] { return time; }}, near_end->name());
+    auto [near_end, far_end] = make_memory_ends();
+    auto log = ByteLog::create({file, most_bytes, [this] { return time; }}, "a device");
     if (!log) FAIL("no log: " << log.error().text());
     link = std::make_unique<LoggedLink>(std::move(near_end), std::move(*log));
     device = std::move(far_end);
@@ -79,7 +79,7 @@ TEST_CASE("the log of a link holds all that was read and written, with the times
   }
   CHECK(read_text(folder.file("bytes")) ==
         "# orca byte log 1\n"
-        "# memory (first end)\n"
+        "# a device\n"
         "0.000000 open\n"
         "0.000214 out  fa fb 03\n"
         "0.010214 in   fa\n"

@@ -24,7 +24,7 @@ struct FaultyLine {
   std::unique_ptr<FaultyLink> link;
 
   explicit FaultyLine(FaultPlan plan = {}) {
-    auto [near_end, far_end] = hw::link::make_memory_links();
+    auto [near_end, far_end] = make_memory_ends();
     plan.now = [this] { return time; };
     link = std::make_unique<FaultyLink>(std::move(near_end), std::move(plan));
     device = std::move(far_end);

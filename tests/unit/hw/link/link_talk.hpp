@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/memory_link.hpp"
 
 namespace orca::test {
 
@@ -22,6 +24,19 @@ using Bytes = std::vector<std::uint8_t>;
 /// Returns the characters of a text as bytes.
 inline Bytes bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
 inline std::string text_of(const Bytes& bytes) { return {bytes.begin(), bytes.end()}; }
+
+/// The two ends of a line in memory that nothing else of this process has.
+struct MemoryEnds {
+  std::unique_ptr<hw::link::MemoryLink> driver;
+  std::unique_ptr<hw::link::MemoryLink> device;
+};
+inline MemoryEnds make_memory_ends() {
+  static int number = 0;
+  const std::string name = "test_" + std::to_string(++number);
+  using Options = hw::link::MemoryOptions;
+  return {std::make_unique<hw::link::MemoryLink>(Options{.name = name, .end = Options::End::driver}),
+          std::make_unique<hw::link::MemoryLink>(Options{.name = name, .end = Options::End::device})};
+}
 
 /// Repeats a question until the answer is yes, at most 5 s.
 template <class Question>

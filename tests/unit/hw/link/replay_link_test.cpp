@@ -193,7 +193,7 @@ TEST_CASE("what a logged link has read, a replay of its log gives again in the s
   const auto now = [&] { return time; };
   std::vector<std::pair<TimePoint, Bytes>> seen;
   {
-    auto [near_end, device] = hw::link::make_memory_links();
+    auto [near_end, device] = make_memory_ends();
     auto log = hw::link::ByteLog::create({folder.file("log"), std::size_t{1} << 20, now}, "x");
     hw::link::LoggedLink link(std::move(near_end), std::move(*log));
     must_open(link);

@@ -62,6 +62,8 @@ class DriverFunctions {
   /// Returns the descriptor at which the device's bytes arrive; -1: none, or not now. The container looks at it before each
   /// wait.
   [[nodiscard]] virtual int descriptor() const { return -1; }
+  /// Returns whether input wakes the container, which then calls poll(): at the descriptor, or as the driver calls wake().
+  [[nodiscard]] virtual bool hears_input() const { return descriptor() >= 0; }
   /// Returns after how long without heard() the device has failed [s].
   [[nodiscard]] virtual Duration longest_silence() const { return Duration::max(); }
   /// Returns what was read from the line since open().
@@ -176,13 +178,15 @@ class HardwareContainer : public DriverFunctions, public EndpointList {
   void heard(TimePoint sent);
 
   [[nodiscard]] HardwareHost& host() const { return host_; }
+  /// Lets the container's strand look again at what is to be done.
+  /// @thread  any.
+  void wake();
 
  private:
   friend class HardwareLifecycle;
   friend class HardwareLoop;
 
   [[nodiscard]] Status check_active() const;
-  void wake();
 
   HardwareHost& host_;
   std::string line_name_;

@@ -59,7 +59,8 @@ class LineDriver : public HardwareContainer {
   [[nodiscard]] bool recovers() const final { return true; }
   [[nodiscard]] int descriptor() const final { return line_->descriptor(); }
   [[nodiscard]] TimePoint next_poll() const final;
-  Status keep_bytes();
+  [[nodiscard]] bool hears_input() const final { return rings_ || descriptor() >= 0; }
+  Status make_line();
 
   Param<std::string> device_;
   Param<std::string> byte_log_{*this,
@@ -69,8 +70,9 @@ class LineDriver : public HardwareContainer {
                                         "device=\"replay:FILE\" plays it back."}};
   const link::Line first_;
   std::unique_ptr<link::ByteLink> line_;
-  bool keeps_bytes_ = false;
+  bool is_made_ = false;  // for the clock of the run
   bool is_open_ = false;
+  bool rings_ = false;  // at input, where it has no descriptor
 };
 
 }  // namespace orca::hw

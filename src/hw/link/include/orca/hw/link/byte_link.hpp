@@ -87,6 +87,11 @@ class ByteLink {
   /// asked from time to time. It changes when the link is opened again.
   [[nodiscard]] virtual int descriptor() const = 0;
 
+  /// Lets a link without a descriptor call `ring` whenever read() may have something to say, from now until close().
+  /// @param ring  may be called from another thread, and does not block.
+  /// @return whether it will; false: as if nothing had been said.
+  virtual bool ring_at_input(std::function<void()> /*ring*/) { return false; }
+
   /// Returns what the link leads to, for people, in the form that make_link() reads where there is one.
   [[nodiscard]] virtual std::string name() const = 0;
 

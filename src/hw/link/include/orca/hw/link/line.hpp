@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 namespace orca::hw::link {
@@ -12,6 +13,7 @@ enum class Parity { none, even };
 struct Line {
   std::uint32_t baud = 9600;  ///< [bit/s]
   Parity parity = Parity::none;
+  std::chrono::microseconds pause{0};  ///< Time that the device needs between two bytes that it is sent [us].
 
   /// Returns the time that one byte takes [s].
   /// @pre  baud > 0

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "orca/hw/link/byte_link.hpp"
 #include "orca/hw/link/byte_log.hpp"
@@ -27,6 +28,7 @@ class LoggedLink final : public ByteLink {
   void discard_input() override;
   void discard_output() override;
   [[nodiscard]] int descriptor() const override { return link_->descriptor(); }
+  bool ring_at_input(std::function<void()> ring) override { return link_->ring_at_input(std::move(ring)); }
   [[nodiscard]] std::string name() const override { return link_->name(); }
   [[nodiscard]] Status set_line(const Line& line) override;
   [[nodiscard]] Status set_dtr(bool raised) override;

@@ -14,6 +14,7 @@ struct LinkOptions {
   Line line{};                   ///< Of a serial line, until set_line().
   NowFunction now = steady_now;  ///< The clock on which a recording is played.
   Duration connect_limit = 3s;   ///< For connections [s].
+  bool is_virtual = false;       ///< That clock is virtual: emulated:NAME is then memory:NAME.
 };
 
 /// Makes a link, closed, from a text as it stands in a graph. Nothing is opened or looked for yet.
@@ -26,6 +27,7 @@ struct LinkOptions {
 /// | tcp:scout.local:4000             | a connection; an IPv6 address stands in brackets: tcp:[::1]:4000 |
 /// | emulated:scout                   | the driver's side of an emulation, as a serial line; open() waits 10 s for it |
 /// | emulated:tcp:6665                | the same of one that listens on this machine, as a connection                 |
+/// | memory:scout                     | the driver's side of an emulation in this process; open() waits 10 s for it    |
 /// | pty:/tmp/scout                   | the device's side of a line, which the driver opens at that path |
 /// | listen:6665                      | the device's side of connections from this machine; listen:0.0.0.0:6665: from anywhere |
 /// | replay:run7.bytes                | a recording                                                     |
@@ -34,6 +36,10 @@ struct LinkOptions {
 /// @thread  any.
 [[nodiscard]] Result<std::unique_ptr<ByteLink>> make_link(std::string_view text,
                                                           const LinkOptions& options = {});
+
+/// Returns whether the link of that text works in virtual time: nothing at its other end has a clock of its own.
+/// @thread  pure function; any.
+[[nodiscard]] bool fits_virtual_time(std::string_view text);
 
 /// Returns the path of the device that a serial link leads to now, whatever it is called in the text, and the text itself of any
 /// other link, and of one that leads nowhere.

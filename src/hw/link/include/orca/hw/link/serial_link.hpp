@@ -66,6 +66,7 @@ class SerialLink final : public ByteLink {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
+  [[nodiscard]] Status write_paced(std::span<const std::uint8_t> bytes);
   [[nodiscard]] bool goes_on_waiting();
   [[nodiscard]] Result<std::string> locate() const;
   [[nodiscard]] Result<Descriptor> claim(const std::string& path);
