@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The driver of SICK lasers with the laser's emulation at the other end of a pseudo terminal: nothing of it is simulated.
+// The driver of SICK lasers with the laser's emulation at the other end of a line in memory, in virtual time; two cases at the end have a
+// pseudo terminal and real time.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "device_on_desk.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "temp_folder.hpp"
+#include "virtual_desk.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -25,7 +27,8 @@ using hw::link::Fault;
 
 namespace {
 
-using Laser = DeviceOnDesk<SickLmsFirmware, MirrorOnDesk>;
+using Laser = VirtualDevice<SickLmsFirmware, MirrorOnDesk>;
+using LaserInRealTime = DeviceOnDesk<SickLmsFirmware, MirrorOnDesk>;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -44,7 +47,8 @@ std::vector<double> ranges_of_place() {
   return ranges;
 }
 
-void show_place(Laser& laser) {
+template <class AnyLaser>
+void show_place(AnyLaser& laser) {
   laser.with([](SickLmsFirmware&, MirrorOnDesk& mirror) {
     mirror.show(-90.0 * kDegree, 0.25 * kDegree, ranges_of_place());
   });
@@ -53,6 +57,9 @@ void show_place(Laser& laser) {
 Words listen(const std::string& device, const Words& more = {}) {
   return Words{system_graph("sick_lms.xml"), "--set", "device=" + device} + more;
 }
+
+// The words for the laser in memory.
+Words in_memory(const Words& more = {}) { return listen("memory:lms", more); }
 
 Words recorded(const TempFolder& folder, const Words& more = {}) {
   return Words{"--record", folder.file("scans.csv") + "=laser.LaserRangeReadingsPush"} + more;
@@ -107,11 +114,13 @@ void check_ranges(const Scans& scans, std::size_t row, double angle, double reso
   }
 }
 
-bool sends(Laser& laser) {
+template <class AnyLaser>
+bool sends(AnyLaser& laser) {
   return laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { return firmware.sends_scans(); });
 }
 
-int scans_sent(Laser& laser) {
+template <class AnyLaser>
+int scans_sent(AnyLaser& laser) {
   return laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { return firmware.scans(); });
 }
 
@@ -121,34 +130,11 @@ std::uint32_t baud_of(Laser& laser) {
 
 }  // namespace
 
-TEST_CASE("scans arrive with the ranges that the mirror had, at the fastest rate, and stop at the end",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
-  show_place(laser);
-  const Run run = run_deployer(listen(device, recorded(folder, {"--until", "6 s"})), Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(run.says("connected to \"LMS200;30106;V02.30\" at 500000 baud"));
-  const Scans scans(folder);
-  REQUIRE(scans.rows.size() > 20);
-  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
-  CHECK(scans.value(1, "pose.x") == 0.1);
-  CHECK(scans.value(1, "pose.y") == -0.02);
-  CHECK(scans.value(1, "pose.z") == 0.3);
-  CHECK(scans.value(1, "pose.rotation.yaw") == Approx(90.0 * kDegree));
-  CHECK(scans.value(1, "max_range") == 32.0);
-  CHECK_FALSE(sends(laser));
-}
-
 TEST_CASE("a scan's time is that of its measurement, whatever the line takes", "[system][hardware]") {
   const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
+  Laser laser("lms", at_once());
   show_place(laser);
-  const Run run =
-      run_deployer(listen(device, recorded(folder, {"--until", "8 s", "--set", "rate=9600"})), Seconds(60));
+  const Run run = run_virtual(in_memory(recorded(folder, {"--until", "8 s", "--set", "rate=9600"})));
   INFO(run.err);
   const Scans scans(folder);
   REQUIRE(scans.rows.size() >= 2);
@@ -168,16 +154,14 @@ TEST_CASE("each angle and resolution that an LMS has is set, and the ranges are 
       GENERATE(Case{180, 1, "mm", 0.001}, Case{180, 0.5, "cm", 0.01}, Case{100, 1, "cm", 0.01},
                Case{100, 0.5, "mm", 0.001}, Case{100, 0.25, "mm", 0.001});
   const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
+  Laser laser("lms", at_once());
   show_place(laser);
   std::ostringstream angle_text, resolution_text;
   angle_text << "angle=" << angle << " deg";
   resolution_text << "resolution=" << resolution << " deg";
-  const Run run = run_deployer(
-      listen(device, recorded(folder, {"--until", "5 s", "--set", angle_text.str(), "--set",
-                                       resolution_text.str(), "--set", std::string("unit=") + unit})),
-      Seconds(60));
+  const Run run =
+      run_virtual(in_memory(recorded(folder, {"--until", "5 s", "--set", angle_text.str(), "--set",
+                                              resolution_text.str(), "--set", std::string("unit=") + unit})));
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   const Scans scans(folder);
@@ -198,60 +182,232 @@ TEST_CASE("an angle and a resolution that no LMS has are refused before anything
 TEST_CASE("the laser is found at each of its rates, and set to the wished one", "[system][hardware]") {
   const auto found = GENERATE(9600U, 19200U, 38400U, 500000U);
   const auto [wish, rate] = GENERATE(std::pair{"rate=38400", 38400U}, std::pair{"rate=0", 500000U});
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
   SickLmsSettings settings = at_once();
   settings.baud = found;
-  Laser laser(device, settings);
+  Laser laser("lms", settings);
   show_place(laser);
-  Subprocess program(deployer(listen(device, {"--set", wish})));
-  CHECK(program.wait_for_output("at " + std::to_string(rate) + " baud", Seconds(20 * kSlowdown)));
-  CHECK(eventually([&] { return scans_sent(laser) > 3; }));
-  CHECK(baud_of(laser) == rate);
+  (void)run_virtual(in_memory({"--set", wish}), [&, set = rate] {
+    CHECK(bench().until_log("at " + std::to_string(set) + " baud"));
+    CHECK(bench().until([&] { return scans_sent(laser) > 3; }));
+    CHECK(baud_of(laser) == set);
+  });
 }
 
 TEST_CASE("the configuration is written only if the unit differs, since that wears the laser's memory",
           "[system][hardware]") {
   const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
+  Laser laser("lms", at_once());
   show_place(laser);
   const auto writes = [&] {
     return laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { return firmware.writes(); });
   };
   for (int run = 0; run < 2; ++run) {
-    CHECK(run_deployer(listen(device, {"--until", "4 s"}), Seconds(60)).exit_code() == 0);
+    CHECK(run_virtual(in_memory({"--until", "4 s"})).exit_code() == 0);
     CHECK(writes() == 1);  // it had cm
   }
 }
 
 TEST_CASE("without a laser on the line nothing starts, and what to look at is said", "[system][hardware]") {
   const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
+  Laser laser("lms", at_once());
   laser.fall_silent(true);
-  const Run run = run_deployer(listen(device), Seconds(60));
+  const Run run = run_virtual(in_memory());
   CHECK(run.exit_code() == 3);
-  CHECK_THAT(run.err, Contains("no laser answers at serial:" + device +
-                               " at 38400, 9600, 19200, 500000 baud; is it switched on"));
+  CHECK_THAT(
+      run.err,
+      Contains("no laser answers at memory:lms at 38400, 9600, 19200, 500000 baud; is it switched on"));
 }
 
 TEST_CASE("a line that sends back what it is sent is not taken for a laser", "[system][hardware]") {
   const TempFolder folder;
-  const std::string device = folder.file("lms");
   SickLmsSettings settings;
   settings.power_up = 1h;
-  Laser laser(device, settings);
+  Laser laser("lms", settings);
   laser.echo(true);
-  const Run run = run_deployer(listen(device), Seconds(60));
+  const Run run = run_virtual(in_memory());
   CHECK(run.exit_code() == 3);
   CHECK(run.says("sends back what it is sent, and no laser answers"));
+}
+
+TEST_CASE("a laser that is unplugged while it scans is found first at the rate that it had",
+          "[system][hardware]") {
+  Laser laser("lms", at_once());
+  show_place(laser);
+  const Run run = run_virtual(in_memory(), [&] {
+    REQUIRE(bench().until([&] { return scans_sent(laser) > 3; }));
+    laser.unplug();
+    REQUIRE(bench().until_log("the other end of the line is closed"));
+    const TimePoint plugged_in = bench().now();
+    laser.plug_in();
+    REQUIRE(bench().until_log("it works again", 30s));
+    CHECK(bench().now() - plugged_in < 7s);  // all the other rates would take longer
+    const int before = scans_sent(laser);
+    CHECK(bench().until([&] { return scans_sent(laser) > before + 3; }));
+  });
+  CHECK(run.exit_code() == 0);
+  CHECK_FALSE(sends(laser));
+}
+
+TEST_CASE("a byte log of a laser whose rate was changed is played back", "[system][hardware]") {
+  const TempFolder folder;
+  const std::string log = folder.file("bytes");
+  {
+    Laser laser("lms", at_once());
+    show_place(laser);
+    const Run run = run_virtual(in_memory({"--until", "6 s", "--set", "lms.byte_log=" + log}));
+    INFO(run.err);
+    CHECK(run.says("at 500000 baud"));
+  }
+  const Run run =
+      run_deployer(listen("replay:" + log, recorded(folder, {"--until", "5 s"})) + virtual_clock());
+  INFO(run.err);
+  CHECK(run.says("connected to \"LMS200;30106;V02.30\" at 500000 baud"));
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 5);
+  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
+}
+
+TEST_CASE("a laser whose power was interrupted while it scans is found again and set again",
+          "[system][hardware]") {
+  Laser laser("lms", at_once());
+  show_place(laser);
+  (void)run_virtual(in_memory(), [&] {
+    REQUIRE(bench().until([&] { return scans_sent(laser) > 3; }));
+    laser.with([&](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.reset(laser.now()); });
+    CHECK_FALSE(sends(laser));
+    REQUIRE(bench().until_log("is it still connected and switched on?"));
+    REQUIRE(bench().until_log("it works again", 30s));
+    CHECK(bench().until([&] { return sends(laser); }));
+    CHECK(baud_of(laser) == 500000);
+  });
+}
+
+TEST_CASE("a laser that still sends scans from an earlier run is stopped first, set and started",
+          "[system][hardware]") {
+  const TempFolder folder;
+  Laser laser("lms", at_once());
+  show_place(laser);
+  (void)run_virtual(in_memory(), [&] {
+    REQUIRE(bench().until([&] { return scans_sent(laser) > 3; }));
+    laser.unplug();  // so it is never told to stop
+  });
+  laser.plug_in();
+  CHECK(sends(laser));
+  const Run run = run_virtual(
+      in_memory(recorded(folder, {"--until", "5 s", "--set", "resolution=1 deg", "--set", "rate=38400"})));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 5);
+  check_ranges(scans, scans.rows.size() - 1, 180.0, 1.0, 0.001);
+}
+
+TEST_CASE("a laser that refuses the password says so", "[system][hardware]") {
+  const TempFolder folder;
+  SickLmsSettings settings = at_once();
+  settings.password = "OTHER_PW";
+  Laser laser("lms", settings);
+  const Run run = run_virtual(in_memory());
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("does not accept the password SICK_LMS"));
+}
+
+TEST_CASE("a laser that refuses a rate works at the next slower one", "[system][hardware]") {
+  SickLmsSettings settings = at_once();
+  settings.rates = {9600, 19200, 38400};
+  Laser laser("lms", settings);
+  show_place(laser);
+  (void)run_virtual(in_memory(), [&] {
+    CHECK(bench().until_log("the line does not have 500000 baud: the laser refuses it"));
+    CHECK(bench().until([&] { return scans_sent(laser) > 3; }));
+    CHECK(baud_of(laser) == 38400);
+  });
+}
+
+TEST_CASE("a dirty window is reported once, and once again when it is clean", "[system][hardware]") {
+  Laser laser("lms", at_once());
+  show_place(laser);
+  const std::string dirty = "its window is dirty, clean it";
+  const Run run = run_virtual(in_memory(), [&] {
+    REQUIRE(bench().until([&] { return scans_sent(laser) > 3; }));
+    laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.set_status(0x90); });
+    REQUIRE(bench().until_log(dirty));
+    const int before = scans_sent(laser);
+    REQUIRE(bench().until([&] { return scans_sent(laser) > before + 10; }));
+    laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.set_status(0x10); });
+    CHECK(bench().until_log("the laser's status is good again"));
+  });
+  CHECK(run.err.find(dirty) == run.err.rfind(dirty));
+}
+
+TEST_CASE("with garbage between and inside its telegrams good scans still arrive, and no wrong one",
+          "[system][hardware]") {
+  const TempFolder folder;
+  hw::link::FaultPlan plan;
+  // A scan of 181 beams has 372 bytes: about one of four is damaged.
+  plan.out = {.drop = 0.0002, .flip = 0.0002, .insert = 0.0002, .duplicate = 0.0002};
+  plan.modes.byte_by_byte = true;
+  Laser laser(DeskLine("lms", plan), at_once());
+  show_place(laser);
+  const Run run = run_virtual(
+      in_memory(recorded(folder, {"--until", "12 s", "--set", "resolution=1 deg", "--set", "rate=38400"})));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(laser.faults(Fault::flip) + laser.faults(Fault::drop) > 0);
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 20);
+  for (std::size_t row = 0; row < scans.rows.size(); ++row) check_ranges(scans, row, 180.0, 1.0, 0.001);
+}
+
+TEST_CASE("when every telegram is damaged nothing starts, and the rates that were tried are said",
+          "[system][hardware]") {
+  const TempFolder folder;
+  hw::link::FaultPlan plan;
+  plan.out.flip = 1.0;
+  Laser laser(DeskLine("lms", plan), at_once());
+  const Run run = run_virtual(in_memory());
+  CHECK(run.exit_code() == 3);
+  CHECK(run.says("no laser answers at"));
+}
+
+TEST_CASE("an adapter that echoes what is sent does not disturb", "[system][hardware]") {
+  const TempFolder folder;
+  Laser laser("lms", at_once());
+  show_place(laser);
+  laser.echo(true);
+  const Run run = run_virtual(in_memory(recorded(folder, {"--until", "6 s"})));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 5);
+  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
+}
+
+TEST_CASE("scans arrive with the ranges that the mirror had, at the fastest rate, and stop at the end",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string device = folder.file("lms");
+  LaserInRealTime laser(device, at_once());
+  show_place(laser);
+  const Run run = run_deployer(listen(device, recorded(folder, {"--until", "6 s"})), Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("connected to \"LMS200;30106;V02.30\" at 500000 baud"));
+  const Scans scans(folder);
+  REQUIRE(scans.rows.size() > 20);
+  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
+  CHECK(scans.value(1, "pose.x") == 0.1);
+  CHECK(scans.value(1, "pose.y") == -0.02);
+  CHECK(scans.value(1, "pose.z") == 0.3);
+  CHECK(scans.value(1, "pose.rotation.yaw") == Approx(90.0 * kDegree));
+  CHECK(scans.value(1, "max_range") == 32.0);
+  CHECK_FALSE(sends(laser));
 }
 
 TEST_CASE("a laser that is unplugged while it scans comes back", "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
+  LaserInRealTime laser(device, at_once());
   show_place(laser);
   Subprocess program(deployer(listen(device)));
   REQUIRE(eventually([&] { return scans_sent(laser) > 3; }));
@@ -270,153 +426,4 @@ TEST_CASE("a laser that is unplugged while it scans comes back", "[system][hardw
   program.send(SIGINT);
   CHECK(finish(program, Seconds(20)).exit_code() == 0);
   CHECK_FALSE(sends(laser));
-}
-
-TEST_CASE("a byte log of a laser whose rate was changed is played back", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  const std::string log = folder.file("bytes");
-  {
-    Laser laser(device, at_once());
-    show_place(laser);
-    const Run run =
-        run_deployer(listen(device, {"--until", "6 s", "--set", "lms.byte_log=" + log}), Seconds(60));
-    INFO(run.err);
-    CHECK(run.says("at 500000 baud"));
-  }
-  const Run run = run_deployer(listen("replay:" + log, recorded(folder, {"--until", "5 s"})), Seconds(60));
-  INFO(run.err);
-  CHECK(run.says("connected to \"LMS200;30106;V02.30\" at 500000 baud"));
-  const Scans scans(folder);
-  REQUIRE(scans.rows.size() > 5);
-  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
-}
-
-TEST_CASE("a laser whose power was interrupted while it scans is found again and set again",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
-  show_place(laser);
-  Subprocess program(deployer(listen(device)));
-  REQUIRE(eventually([&] { return scans_sent(laser) > 3; }));
-  laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.reset(steady_now()); });
-  CHECK_FALSE(sends(laser));
-  REQUIRE(program.wait_for_output("is it still connected and switched on?", Seconds(20 * kSlowdown)));
-  REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));
-  CHECK(eventually([&] { return sends(laser); }));
-  CHECK(baud_of(laser) == 500000);
-}
-
-TEST_CASE("a laser that still sends scans from an earlier run is stopped first, set and started",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
-  show_place(laser);
-  {
-    Subprocess killed(deployer(listen(device, {"--in-process"})));
-    REQUIRE(eventually([&] { return scans_sent(laser) > 3; }));
-    killed.send(SIGKILL);
-    REQUIRE(killed.wait(Seconds(10)));
-  }
-  CHECK(sends(laser));
-  const Run run = run_deployer(listen(device, recorded(folder, {"--until", "5 s", "--set", "resolution=1 deg",
-                                                                "--set", "rate=38400"})),
-                               Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  const Scans scans(folder);
-  REQUIRE(scans.rows.size() > 5);
-  check_ranges(scans, scans.rows.size() - 1, 180.0, 1.0, 0.001);
-}
-
-TEST_CASE("a laser that refuses the password says so", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  SickLmsSettings settings = at_once();
-  settings.password = "OTHER_PW";
-  Laser laser(device, settings);
-  const Run run = run_deployer(listen(device), Seconds(60));
-  CHECK(run.exit_code() == 3);
-  CHECK(run.says("does not accept the password SICK_LMS"));
-}
-
-TEST_CASE("a laser that refuses a rate works at the next slower one", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  SickLmsSettings settings = at_once();
-  settings.rates = {9600, 19200, 38400};
-  Laser laser(device, settings);
-  show_place(laser);
-  Subprocess program(deployer(listen(device)));
-  CHECK(program.wait_for_output("the line does not have 500000 baud: the laser refuses it",
-                                Seconds(20 * kSlowdown)));
-  CHECK(eventually([&] { return scans_sent(laser) > 3; }));
-  CHECK(baud_of(laser) == 38400);
-}
-
-TEST_CASE("a dirty window is reported once, and once again when it is clean", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
-  show_place(laser);
-  Subprocess program(deployer(listen(device)));
-  REQUIRE(eventually([&] { return scans_sent(laser) > 3; }));
-  const std::string dirty = "its window is dirty, clean it";
-  laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.set_status(0x90); });
-  REQUIRE(program.wait_for_output(dirty, Seconds(20)));
-  const int before = scans_sent(laser);
-  REQUIRE(eventually([&] { return scans_sent(laser) > before + 10; }));
-  laser.with([](SickLmsFirmware& firmware, MirrorOnDesk&) { firmware.set_status(0x10); });
-  CHECK(program.wait_for_output("the laser's status is good again", Seconds(20)));
-  const std::string text = program.err();
-  CHECK(text.find(dirty) == text.rfind(dirty));
-}
-
-TEST_CASE("with garbage between and inside its telegrams good scans still arrive, and no wrong one",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  hw::link::FaultPlan plan;
-  // A scan of 181 beams has 372 bytes: about one of four is damaged.
-  plan.out = {.drop = 0.0002, .flip = 0.0002, .insert = 0.0002, .duplicate = 0.0002};
-  plan.modes.byte_by_byte = true;
-  Laser laser(DeskLine(device, plan), at_once());
-  show_place(laser);
-  const Run run = run_deployer(listen(device, recorded(folder, {"--until", "12 s", "--set",
-                                                                "resolution=1 deg", "--set", "rate=38400"})),
-                               Seconds(90));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(laser.faults(Fault::flip) + laser.faults(Fault::drop) > 0);
-  const Scans scans(folder);
-  REQUIRE(scans.rows.size() > 20);
-  for (std::size_t row = 0; row < scans.rows.size(); ++row) check_ranges(scans, row, 180.0, 1.0, 0.001);
-}
-
-TEST_CASE("when every telegram is damaged nothing starts, and the rates that were tried are said",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  hw::link::FaultPlan plan;
-  plan.out.flip = 1.0;
-  Laser laser(DeskLine(device, plan), at_once());
-  const Run run = run_deployer(listen(device), Seconds(60));
-  CHECK(run.exit_code() == 3);
-  CHECK(run.says("no laser answers at"));
-}
-
-TEST_CASE("an adapter that echoes what is sent does not disturb", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("lms");
-  Laser laser(device, at_once());
-  show_place(laser);
-  laser.echo(true);
-  const Run run = run_deployer(listen(device, recorded(folder, {"--until", "6 s"})), Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  const Scans scans(folder);
-  REQUIRE(scans.rows.size() > 5);
-  check_ranges(scans, scans.rows.size() - 1, 180.0, 0.5, 0.001);
 }
