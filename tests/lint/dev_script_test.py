@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("setup", "build", "run", "test", "bench", "lint", "docs")
+COMMANDS = ("setup", "build", "run", "quick", "test", "nightly", "bench", "lint", "docs")
 # Leaves a file in the folder of the project whenever it is built.
 SMALL_PROJECT = """cmake_minimum_required(VERSION 3.25)
 project(small NONE)
@@ -39,7 +39,7 @@ class DevScript(unittest.TestCase):
 
     def test_wrong_use_ends_with_2_and_says_what_was_wrong(self):
         for arguments, word in ((["biuld"], "biuld"), (["build", "relaese"], "relaese"), (["run"], "needs a graph"),
-                                (["run", "no/such.xml"], "no/such.xml")):
+                                (["run", "no/such.xml"], "no/such.xml"), (["nightly", "slwo"], "slwo")):
             answer = dev(*arguments)
             self.assertEqual((answer.returncode, answer.stdout), (2, ""), arguments)
             self.assertIn(word, answer.stderr)
