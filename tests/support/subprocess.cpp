@@ -40,6 +40,7 @@ Ending ending_from(int status, const rusage& usage, Clock::duration wall) {
   if (WIFSIGNALED(status)) ending.signal = WTERMSIG(status);
   ending.wall = wall;
   ending.cpu = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  ending.peak = static_cast<double>(usage.ru_maxrss) / 1024.0;
   return ending;
 }
 

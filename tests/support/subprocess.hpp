@@ -18,6 +18,7 @@ struct Ending {
   int signal = 0;      ///< 0 if it ended by itself.
   Seconds wall{0};     ///< From its start to its end.
   Seconds cpu{0};      ///< User and system time, including its reaped children.
+  double peak = 0.0;   ///< [MB] The most memory that it, or one of its reaped children, had.
 };
 
 /// A program under test, in a process group of its own. Its stdout and stderr are captured separately. The

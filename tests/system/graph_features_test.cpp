@@ -48,6 +48,25 @@ const Replacements kLateBound{
     {"<connect from=\"goto.MotionCmdPush\" to=\"fuser.motion\"/>", ""},
     {"<connect from=\"avoid.motion\" to=\"fuser.motion\"/>", ""}};
 
+// A robot with so many avoid behaviours that each gets what its laser and its odometry tell. @param params  of one of them, by its number.
+std::string crowded_graph(int avoiders, const std::function<std::string(int)>& params) {
+  std::ostringstream text;
+  text << "<graph name='crowd' version='1'>\n<hardware name='robot' type='orca.hw.Sim'><param name='world' "
+          "value='"
+       << source_file("sim/worlds/office.xml") << "'/><param name='robot' value='"
+       << source_file("sim/robots/pioneer_2dx.urdf") << "'/><param name='place' value='start'/></hardware>\n"
+       << "<component name='base' type='orca.RobotBaseServer' hardware='robot'/>\n"
+       << "<component name='laser' type='orca.LaserServer' hardware='robot'/>\n";
+  for (int i = 0; i < avoiders; ++i) {
+    const std::string name = "a" + std::to_string(i);
+    text << "<component name='" << name << "' type='orca.LaserAvoid' autonomous='true'>" << params(i)
+         << "</component>\n<connect from='laser.LaserRangeReadingsPush' to='" << name
+         << ".laser'/>\n<connect from='base.OdometryPush' to='" << name << ".odometry' queue='256'/>\n";
+  }
+  text << "</graph>\n";
+  return text.str();
+}
+
 }  // namespace
 
 TEST_CASE("behaviours that are only candidates of the fuser drive the robot to its goal", "[system][graph]") {
@@ -197,4 +216,30 @@ TEST_CASE("two things to do at once, and --json where it means nothing, are refu
     CHECK(run.out.empty());
     CHECK(run.err.starts_with("command line: error C"));
   }
+}
+
+TEST_CASE("ten thousand components of shipped plugins are checked in 250 MB", "[system][graph]") {
+  const TempFolder folder;
+  const std::string graph = folder.write("crowd.xml", crowded_graph(9998, [](int) { return std::string(); }));
+  const Run run = run_deployer({graph, "--check"}, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("no errors; 10000 components, 19996 connections"));
+  WARN("checked in " << run.ending.cpu.count() << " s of processor time and " << run.ending.peak << " MB");
+  if (!kSanitized) CHECK(run.ending.peak < 250.0);
+  CHECK(run.ending.cpu.count() < 6.0 * kSlowCode);  // 1.5 s on an idle machine
+}
+
+TEST_CASE("among thousands of components that all differ --check finds the one that refuses its parameters",
+          "[system][graph]") {
+  const TempFolder folder;
+  const auto params = [](int i) {
+    if (i == 2400) return std::string("<param name='stop_distance' value='3 m'/>");
+    return "<param name='margin' value='" + std::to_string(0.05 + 1e-5 * i) + " m'/>";
+  };
+  const std::string graph = folder.write("crowd.xml", crowded_graph(2500, params));
+  const Run run = run_deployer({graph, "--check"}, Seconds(60));
+  CHECK(run.exit_code() == 2);
+  CHECK_THAT(run.err, Catch::Contains("G062: component \"a2400\": parameter \"stop_distance\""));
+  CHECK(split_lines(run.err).size() == 1);
 }

@@ -147,6 +147,7 @@ std::optional<std::vector<host::TimedChange>> plan_changes(const Options& option
                                                            xml::Diagnostics& said) {
   std::vector<graph::PlannedChange> planned = first.changes;
   planned.insert(planned.end(), options.changes.begin(), options.changes.end());
+  if (planned.empty() && first.graph) return std::vector<host::TimedChange>{};
   std::ranges::stable_sort(planned, {}, &graph::PlannedChange::at);
   std::vector<host::TimedChange> changes;
   std::optional<graph::Graph> before = first.graph;  // nothing if one of the graphs so far is wrong

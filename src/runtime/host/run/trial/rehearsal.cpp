@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "orca/host/last_words.hpp"
@@ -20,9 +21,12 @@ using graph::ComponentFault;
 using plugin::TrialLine;
 using plugin::TrialResult;
 
-constexpr Duration kLimit = 10s;       // of one trial: as long as the whole system has to come up
-constexpr std::size_t kMostEnds = 50;  // of the copy, by its components
-constexpr int kMostHangs = 2;          // each costs kLimit
+constexpr Duration kLimit = 10s;        // of one trial: as long as the whole system has to come up
+constexpr std::size_t kMostEnds = 50;   // of the copy, by its components
+constexpr int kMostHangs = 2;           // each costs kLimit
+constexpr std::size_t kMostAlike = 50;  // of components that differ in their names and partners only
+constexpr std::size_t kMostAtOnce =
+    1000;  // in one copy, so that ten thousand do not take ten thousand's memory
 
 // A fault on its way out of the copy. Its three texts contain no zeros, because they come from XML and from C++.
 std::string packed(const ComponentFault& fault) {
@@ -59,7 +63,10 @@ class Rehearsal {
   }
 
   /// Configures the components one after the other. Runs as the executive's main task.
-  void configure(const std::vector<std::string>& names, const std::set<std::string>& doubtful) {
+  /// @param down  those that did not come up in earlier trials.
+  void configure(const std::vector<std::string>& names, const std::set<std::string>& doubtful,
+                 std::set<std::string> down) {
+    down_ = std::move(down);
     for (const std::string& name : names)
       configure(*components_.at(name), doubtful.contains(name) || !can_come_up(name));
     line_.end();
@@ -91,22 +98,25 @@ class Rehearsal {
   // Returns whether all components are up that must be up before this one.
   bool can_come_up(const std::string& name) const {
     const std::vector<std::string>& before = start_after_.at(name);
-    return std::ranges::all_of(before, [&](const std::string& other) { return up_.contains(other); });
+    return std::ranges::none_of(before, [&](const std::string& other) { return down_.contains(other); });
   }
 
   void configure(ComponentInstance& component, bool doubtful) {
     step(component.name(), Hook::configure);
     start(component);
     const auto left_init = [&] { return component.state() != ComponentState::init; };
+    ComponentFault found{component.name(), "", ""};  // without a text: it is down, and that is no fault
     if (!wait_until_holds(executive_, *changed_, executive_.now() + kLimit, left_init)) {
-      if (!doubtful) line_.find(packed({component.name(), "", "configure() did not return within 10 s"}));
+      if (!doubtful) found.text = "configure() did not return within 10 s";
     } else if (!component.has_failed()) {
-      up_.insert(component.name());
+      return;
     } else if (const std::optional<Error> error = component.refusal(); error && counts(*error, doubtful)) {
       Error placed = *error;
       placed.param.clear();
-      line_.find(packed({component.name(), error->param, placed.text()}));
+      found = {component.name(), error->param, placed.text()};
     }
+    down_.insert(component.name());
+    line_.find(packed(found));
   }
 
   // Without threads or memory nothing can be tried, which the start of the system will report.
@@ -126,43 +136,106 @@ class Rehearsal {
   QuietRun quiet_{executive_, "trial", graph_.seed.value_or(1), [this] { changed_->notify(); }, missions_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
-  std::set<std::string> up_;
+  std::set<std::string> down_;
   bool sound_ = true;
+};
+
+// Returns a graph of these components and what they are connected to: of partners that are not among them, at most kMostAlike at
+// each port.
+graph::Graph part_of(const graph::Graph& graph, const std::vector<std::string>& names) {
+  const std::set<std::string> tried(names.begin(), names.end());
+  std::set<std::string> wanted = tried;
+  std::map<std::string, std::size_t> partners;  // by port
+  graph::Graph part;
+  part.seed = graph.seed;
+  part.hardware = graph.hardware;
+  for (const graph::Edge& edge : graph.edges) {
+    const bool has_from = tried.contains(edge.from.component);
+    const bool has_to = tried.contains(edge.to.component);
+    if (!has_from && !has_to) continue;
+    const bool is_between = has_from && has_to;
+    if (!is_between && ++partners[(has_from ? edge.from : edge.to).text()] > kMostAlike) continue;
+    wanted.insert({edge.from.component, edge.to.component});
+    part.edges.push_back(edge);
+  }
+  for (const graph::ComponentNode& node : graph.components)
+    if (wanted.contains(node.name)) part.components.push_back(node);
+  return part;
+}
+
+// What is to be tried in one copy of the process.
+struct Turn {
+  std::vector<std::string> names;
+  const std::set<std::string>& doubtful;
+  const std::set<std::string>& down;
 };
 
 // Nothing of it is ever destroyed, because the copy of the process ends here. Its components are fibers whatever the clock: one
 // is configured at a time, and ten thousand threads would cost more than everything else.
-void play(const graph::Graph& graph, const graph::Candidates& candidates, PluginCatalogue& catalogue,
-          ClockKind clock, TrialLine& line) {
+void play(const graph::Graph& graph, const Turn& turn, PluginCatalogue& catalogue, ClockKind clock,
+          TrialLine& line) {
   LastWords::leave_copy();
   Result<std::unique_ptr<Executive>> made = make_executive({clock, Backend::fiber});
   if (!made) return;
   Executive& executive = *std::move(made).value().release();
-  auto& rehearsal = *new Rehearsal(graph, catalogue, executive, line);
+  const graph::Graph& part = *new graph::Graph(part_of(graph, turn.names));
+  auto& rehearsal = *new Rehearsal(part, catalogue, executive, line);
   if (rehearsal.connect_all())
-    executive.run([&] { rehearsal.configure(candidates.names, candidates.doubtful); });
+    executive.run([&] { rehearsal.configure(turn.names, turn.doubtful, turn.down); });
+}
+
+// Returns the components that are to be tried: all, but not more than kMostAlike of a kind.
+std::vector<std::string> without_more_of_a_kind(const graph::Graph& graph,
+                                                const std::vector<std::string>& names) {
+  std::map<std::string, std::vector<std::string>> ports;  // connected ones, by component
+  for (const graph::Edge& edge : graph.edges) {
+    ports[edge.from.component].push_back(edge.from.port);
+    ports[edge.to.component].push_back(edge.to.port);
+  }
+  using Kind = std::tuple<std::string, std::string, std::string, graph::Params, std::vector<std::string>>;
+  std::map<Kind, std::size_t> seen;
+  const std::set<std::string> wanted(names.begin(), names.end());
+  std::set<std::string> surplus;
+  for (const graph::ComponentNode& node : graph.components)
+    if (wanted.contains(node.name) &&
+        ++seen[{node.type, node.hardware, node.process, node.params, ports[node.name]}] > kMostAlike)
+      surplus.insert(node.name);
+  std::vector<std::string> kept = names;
+  std::erase_if(kept, [&](const std::string& name) { return surplus.contains(name); });
+  return kept;
 }
 
 // The trials of one graph, and what they have found.
 class Trials {
  public:
-  explicit Trials(const graph::Candidates& all) : all_(all), left_(all) {}
+  Trials(const graph::Graph& graph, const graph::Candidates& all)
+      : all_(all), left_(without_more_of_a_kind(graph, all.names)) {}
 
-  /// Returns the components that are still to be tried, together.
-  [[nodiscard]] const graph::Candidates& left() const { return left_; }
+  [[nodiscard]] bool has_more() const { return !left_.empty(); }
 
-  /// Takes the findings of a trial. Returns whether another one without its culprit makes sense.
+  /// Returns what is to be tried next.
+  [[nodiscard]] Turn next() const {
+    const auto end = left_.begin() + static_cast<std::ptrdiff_t>(std::min(left_.size(), kMostAtOnce));
+    return {{left_.begin(), end}, all_.doubtful, down_};
+  }
+
+  /// Takes the findings of the trial of next(). Returns whether another one makes sense, without its culprit if it had one.
   bool take(const TrialResult& tried) {
     for (const std::string& bytes : tried.findings) add(unpacked(bytes));
     const bool ended_early =
         tried.ending != TrialResult::Ending::well && tried.ending != TrialResult::Ending::silent;
-    if (!ended_early || tried.last_step.empty()) return false;
+    if (!ended_early) {
+      left_.erase(left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(next().names.size()));
+      return has_more();
+    }
+    if (tried.last_step.empty()) return false;
     const ComponentFault culprit = unpacked(tried.last_step);  // its text is the hook
     if (tried.ending == TrialResult::Ending::too_long) ++hangs_;
     if (tried.ending != TrialResult::Ending::effect && !all_.doubtful.contains(culprit.component))
       add({culprit.component, "", culprit.text + " " + tried.text});
     if (culprit.text == to_string(Hook::constructor)) return false;  // each trial makes all objects
-    std::erase(left_.names, culprit.component);
+    std::erase(left_, culprit.component);
+    down_.insert(culprit.component);
     return ++ends_ < kMostEnds && hangs_ < kMostHangs;
   }
 
@@ -174,10 +247,14 @@ class Trials {
   }
 
  private:
-  void add(ComponentFault fault) { faults_.insert_or_assign(fault.component, fault); }
+  void add(const ComponentFault& fault) {
+    down_.insert(fault.component);
+    if (!fault.text.empty()) faults_.insert_or_assign(fault.component, fault);
+  }
 
   const graph::Candidates& all_;
-  graph::Candidates left_;
+  std::vector<std::string> left_;
+  std::set<std::string> down_;  // did not come up
   std::map<std::string, ComponentFault> faults_;
   std::size_t ends_ = 0;
   int hangs_ = 0;
@@ -193,10 +270,10 @@ std::vector<ComponentFault> rehearse(const graph::Graph& graph, const graph::Can
 #else
   constexpr bool kPossible = true;
 #endif
-  Trials trials(candidates);
-  for (bool more = kPossible && !candidates.names.empty(); more;)
+  Trials trials(graph, candidates);
+  for (bool more = kPossible && trials.has_more(); more;)
     more = trials.take(
-        plugin::run_trial([&](TrialLine& line) { play(graph, trials.left(), catalogue, clock, line); },
+        plugin::run_trial([&](TrialLine& line) { play(graph, trials.next(), catalogue, clock, line); },
                           kLimit, plugin::Effects::none, give_up));
   return trials.faults();
 }

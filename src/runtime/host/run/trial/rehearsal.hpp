@@ -10,7 +10,8 @@ namespace orca::host {
 
 /// Calls configure() of components in a copy of this process: their code is loaded, the ports are connected and all
 /// hardware is closed. No other hook is called. A component that ends the copy, or does not return, is reported too,
-/// and the others are tried again without it. The trial of a component ends where it would leave a trace outside the
+/// and the others are tried again without it. Of components that differ only in their names and in who is at the other ends
+/// of their connections, 50 are tried. The trial of a component ends where it would leave a trace outside the
 /// copy; what comes after that is left to the start of the system.
 ///
 /// Under ThreadSanitizer, which can follow neither fibers nor the threads of a copied process, nothing is tried.
