@@ -70,7 +70,9 @@ LAYERS = (
     Layer("hw_framing", ("src/hw/framing",), ("orca/hw/framing/",)),  # emulators use it too
     Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
-    Layer("hw_driver", ("src/hw/driver",), ("orca/hw/arrivals.hpp", "orca/hw/base_figures.hpp", "orca/hw/base_odometry.hpp", "orca/hw/laser_place.hpp", "orca/hw/line_driver.hpp", "orca/hw/line_frames.hpp", "orca/hw/robot_figures.hpp"),
+    Layer("hw_driver", ("src/hw/driver",), tuple(f"orca/hw/{name}.hpp" for name in (
+        "arrivals", "base_driver", "base_figures", "base_odometry", "base_senses", "laser_driver", "laser_place", "line_driver", "line_frames", "line_session",
+        "robot_figures")),
           ("hw_framing", "hw_link", "geometry_objects", "xml", *DEVICE), ("eigen", "fmt")),
     Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),
     Layer("nomad_scout_driver", ("src/hw/nomad_scout/driver",), (), ("hw_nomad_scout", *DRIVER), ("fmt",)),

@@ -46,8 +46,8 @@ class Page(unittest.TestCase):
         """A driver that never gives up on a silent device, and takes frames with a wrong checksum, does not pass."""
         source = reader.folder / "owl.cpp"
         text = source.read_text()
-        self.assertIn("return scans_wanted() ? Duration(1s) : Duration::max();", text)
-        source.write_text(text.replace("return scans_wanted() ? Duration(1s) : Duration::max();", "return Duration::max();"))
+        self.assertIn("return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();", text)
+        source.write_text(text.replace("return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();", "return Duration::max();"))
         reader.out = ""
         with self.assertRaisesRegex(AssertionError, "silent: .* readings in 5 s; nobody said that the device is silent"):
             reader.run("cmake --build build\nctest --test-dir build --verbose\n")

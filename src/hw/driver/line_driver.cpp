@@ -6,7 +6,6 @@
 #include "orca/hw/link/byte_log.hpp"
 #include "orca/hw/link/logged_link.hpp"
 #include "orca/hw/link/make_link.hpp"
-#include "orca/idl/sensing.hpp"
 
 namespace orca::hw {
 
@@ -26,35 +25,9 @@ std::vector<HardwareFault> LineDriver::prepare_line() {
   return {};
 }
 
-idl::Drive LineDriver::describe_wheels() const {
-  const DriveLimits& limits = motion()->limits();
-  idl::Drive drive;
-  drive.name("wheels");
-  drive.port(*device_);
-  drive.type(limits.type);
-  drive.max_speed(limits.max_speed);
-  drive.max_steer_speed(limits.max_turn_rate);
-  drive.steer_gain(limits.steer_gain);
-  drive.big_turn_angle(limits.big_turn_angle);
-  drive.big_turn_speed(limits.big_turn_speed);
-  return drive;
-}
-
-std::vector<idl::Sensor> LineDriver::describe_senses() const {
-  std::vector<idl::Sensor> all;
-  for (const SensorEndpoint* const endpoint : sensors()) {
-    const std::string type(endpoint->type().name);
-    if (type == object_type<idl::LaserRangeReadings>().name ||
-        type == object_type<idl::SonarRangeReadings>().name)
-      continue;
-    idl::Sensor sensor;
-    sensor.name(type);
-    sensor.port(*device_);
-    sensor.type(type);
-    sensor.update_interval(to_seconds(endpoint->period()));
-    all.push_back(sensor);
-  }
-  return all;
+void LineDriver::log_connected(const std::string& device, std::uint32_t rate) const {
+  const std::string at = has_rate() && rate != 0 ? " at " + std::to_string(rate) + " baud" : "";
+  host().write_log(log::Level::info, "connected to " + device + at);
 }
 
 Status LineDriver::open() {
@@ -64,7 +37,8 @@ Status LineDriver::open() {
   is_open_ = *opening == link::Opening::done;
   if (!is_open_) return ok();
   rings_ = line_->ring_at_input([this] { wake(); });
-  return begin(host().now());
+  session_ = &session();
+  return session_->begin(host().now());
 }
 
 // A graph that is only checked has no clock and writes no file, so the line is made when it is opened for the first time.
@@ -86,9 +60,14 @@ Status LineDriver::make_line() {
 }
 
 Result<bool> LineDriver::probe() {
-  if (is_open_) return advance(host().now());
-  if (Status opened = open(); !opened.ok()) return opened.error();
-  return false;
+  if (!is_open_) {
+    if (Status opened = open(); !opened.ok()) return opened.error();
+    return false;
+  }
+  Result<bool> done = session_->advance(host().now());
+  if (!done || !*done) return done;
+  if (Status met = meet(); !met.ok()) return met.error();
+  return true;
 }
 
 void LineDriver::close() {

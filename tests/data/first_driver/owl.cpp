@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // [driver]
-#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/framing/byte_reader.hpp"
 #include "orca/hw/framing/checksums.hpp"
-#include "orca/hw/laser_place.hpp"
-#include "orca/hw/line_driver.hpp"
+#include "orca/hw/laser_driver.hpp"
 #include "orca/hw/line_frames.hpp"
-#include "orca/idl/sensing.hpp"
-#include "orca/idl/time.hpp"
 
 namespace {
 
@@ -35,7 +31,7 @@ constexpr std::uint8_t kStart = 0xA5;
 constexpr std::size_t kHead = 4, kCheck = 2, kLongestContent = 256;  // [bytes]
 constexpr std::uint8_t kName = 'v', kScan = 's';                     // kinds
 
-Finding look(Bytes bytes) {
+Finding look_for(Bytes bytes) {
   if (bytes[0] != kStart) return {Finding::Kind::nothing, 0};
   if (bytes.size() < kHead) return {Finding::Kind::need_more, 0};
   ByteReader head(bytes.subspan(2));
@@ -49,123 +45,101 @@ Finding look(Bytes bytes) {
   return {Finding::Kind::frame, whole};
 }
 
-/// An Owl, a made-up laser with 61 beams over half a circle, ten times a second.
-class Owl final : public orca::hw::LineDriver {
+/// The conversation with an Owl.
+class OwlSession final : public orca::hw::LineSession {
  public:
-  explicit Owl(orca::hw::HardwareHost& host) : LineDriver(host, "/dev/ttyUSB0", {.baud = 115200}) {}
+  using Take = std::function<void(Bytes scan, TimePoint sent)>;
 
-  // Before anything starts: what is wrong with the parameters, and what it offers.
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    for (const orca::HardwareFault& fault : place_.read()) faults.push_back(fault);
-    if (faults.empty()) add_sensor(scans_);
-    return faults;
-  }
+  OwlSession(orca::hw::link::ByteLink& link, Take take) : link_(link), take_(std::move(take)) {}
 
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::LaserSensor laser;
-    laser.name("owl");
-    laser.port(device());
-    laser.type("LaserRangeReadings");
-    laser.update_interval(0.1);
-    laser.mount(orca::level_frame(place_.place(), place_.height()));
-    laser.number(kBeams);
-    laser.angle_start(first_angle());
-    laser.angle_increment(step());
-    laser.min_range(kMinRange);
-    laser.max_range(kMaxRange);
-    orca::idl::Robot robot;
-    robot.name("owl");
-    robot.laser_sensors().push_back(laser);
-    return robot;
-  }
-
- protected:
   // The line is open: ask who is there, again until it answers.
   Status begin(TimePoint now) override {
     named_ = false;
-    return ask_name(now);
+    begun_ = asked_ = now;
+    return ask('V');
   }
   Result<bool> advance(TimePoint now) override {
     if (Status read = receive(now); !read.ok()) return read.error();
     if (named_) return true;
     if (now - begun_ > 2s)
       return orca::fail(orca::Code::deadline_exceeded, "nobody answers as an Owl does; is it switched on?");
-    if (now - asked_ > 300ms)
-      if (Status asked = ask(now, 'V'); !asked.ok()) return asked.error();
+    if (now < next()) return false;
+    asked_ = now;
+    if (Status asked = ask('V'); !asked.ok()) return asked.error();
     return false;
   }
-  [[nodiscard]] TimePoint next_step() const override { return asked_ + 300ms; }
-
-  // Somebody wants scans, or nobody any more.
-  Status start() override { return ask(host().now(), 'S'); }
-  void stop() override { (void)ask(host().now(), 'Q'); }
-  void take_leave() override { stop(); }
-
-  // Called when something has come, and at next_turn().
-  Status poll() override { return receive(host().now()); }
-  [[nodiscard]] TimePoint next_turn() const override { return looked_ + 100ms; }
-  // While it scans. An Owl that nobody uses says nothing.
-  [[nodiscard]] Duration longest_silence() const override {
-    return scans_wanted() ? Duration(1s) : Duration::max();
-  }
-
+  [[nodiscard]] TimePoint next() const override { return named_ ? orca::kForever : asked_ + 300ms; }
   [[nodiscard]] orca::hw::LineCounts counts() const override {
     return orca::hw::counts_of(frames_.statistics());
   }
-  Status drive(const orca::hw::DriveSetpoint& /*setpoint*/) override {
-    return orca::fail(orca::Code::failed_precondition, "a laser does not move");
-  }
 
- private:
-  static constexpr std::uint32_t kBeams = 61;
-  static constexpr double kMinRange = 0.05, kMaxRange = 8.0;  // [m]
-  [[nodiscard]] double first_angle() const { return -place_.sense() * 0.5 * std::numbers::pi; }
-  [[nodiscard]] double step() const { return place_.sense() * std::numbers::pi / (kBeams - 1); }
-  [[nodiscard]] bool scans_wanted() const { return state() == orca::hw::HardwareState::active; }
-
-  Status ask_name(TimePoint now) {
-    begun_ = now;
-    return ask(now, 'V');
-  }
-  Status ask(TimePoint now, char what) {
-    asked_ = now;
+  Status ask(char what) {
     const auto byte = static_cast<std::uint8_t>(what);
-    return line().write({&byte, 1});
+    return link_.write({&byte, 1});
   }
-
   Status receive(TimePoint now) {
-    looked_ = now;
-    return frames_.read(line(), now, [this](const orca::hw::framing::Frame& frame, TimePoint sent) {
-      heard(sent);
+    return frames_.read(link_, now, [this](const orca::hw::framing::Frame& frame, TimePoint sent) {
       const Bytes content = frame.bytes.subspan(kHead, frame.bytes.size() - kHead - kCheck);
       if (frame.bytes[1] == kName) named_ = true;
-      if (frame.bytes[1] == kScan && content.size() == 2 * kBeams) publish(content, sent);
+      if (frame.bytes[1] == kScan) take_(content, sent);
     });
   }
 
-  void publish(Bytes content, TimePoint sent) {
-    auto scan = scans_.loan();
-    scan->ranges().clear();
-    for (ByteReader reader(content); reader.remaining() > 0;) {
-      const std::uint16_t millimetres = reader.u16();  // 0: nothing is there
-      scan->ranges().push_back(millimetres == 0 ? std::numeric_limits<double>::infinity()
-                                                : 0.001 * millimetres);
-    }
-    scan->min_range(kMinRange);
-    scan->max_range(kMaxRange);
-    scan->pose(orca::level_pose(place_.place(), place_.height(), sent));
-    scan->stamp(orca::to_time_value(sent));
-    scan->angle_start(first_angle());
-    scan->angle_increment(step());
-    scans_.publish(std::move(scan));
+ private:
+  orca::hw::link::ByteLink& link_;
+  const Take take_;
+  orca::hw::LineFrames frames_{{look_for, kHead + kLongestContent + kCheck}};
+  bool named_ = false;
+  TimePoint begun_{}, asked_{};
+};
+
+/// An Owl, a made-up laser with 61 beams over half a circle, ten times a second.
+class Owl final : public orca::hw::LaserDriver {
+ public:
+  explicit Owl(orca::hw::HardwareHost& host)
+      : LaserDriver(host, {.baud = 115200}, {.vendor = "nobody", .model = "Owl"}) {}
+
+ protected:
+  [[nodiscard]] Scans scans() const override {
+    return {.beams = kBeams,
+            .first_angle = -0.5 * std::numbers::pi,
+            .increment = std::numbers::pi / (kBeams - 1),
+            .min_range = 0.05,
+            .max_range = 8.0,
+            .period = 100ms};
+  }
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line(), [this](Bytes scan, TimePoint sent) { take(scan, sent); });
+    return *session_;
   }
 
-  orca::hw::LaserPlace place_{*this, "its middle beam"};
-  orca::hw::SensorHW<orca::idl::LaserRangeReadings> scans_{100ms};
-  orca::hw::LineFrames frames_{{look, kHead + kLongestContent + kCheck}};
-  bool named_ = false;
-  TimePoint begun_{}, asked_{}, looked_{};
+  // Somebody wants scans, or nobody any more.
+  Status start() override { return session_->ask('S'); }
+  void stop() override { (void)session_->ask('Q'); }
+  void take_leave() override { stop(); }
+
+  // Called when something has come, and now and then.
+  Status look(TimePoint now) override { return session_->receive(now); }
+  // An Owl that nobody uses says nothing.
+  [[nodiscard]] Duration longest_silence() const override {
+    return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();
+  }
+
+ private:
+  static constexpr std::size_t kBeams = 61;
+
+  void take(Bytes scan, TimePoint sent) {
+    if (scan.size() != 2 * kBeams) return;
+    heard(sent);
+    std::vector<double> ranges;
+    for (ByteReader reader(scan); reader.remaining() > 0;) {
+      const std::uint16_t millimetres = reader.u16();  // 0: nothing is there
+      ranges.push_back(millimetres == 0 ? std::numeric_limits<double>::infinity() : 0.001 * millimetres);
+    }
+    publish(ranges, sent, 0.0);
+  }
+
+  std::optional<OwlSession> session_;
 };
 
 }  // namespace

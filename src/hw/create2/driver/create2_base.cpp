@@ -9,14 +9,11 @@
 #include "create2_senses.hpp"
 #include "create2_session.hpp"
 #include "orca/hardware.hpp"
-#include "orca/hw/base_figures.hpp"
-#include "orca/hw/line_driver.hpp"
-#include "orca/hw/line_frames.hpp"
+#include "orca/hw/base_driver.hpp"
 
 namespace {
 
 using orca::Duration;
-using orca::Result;
 using orca::Status;
 using orca::TimePoint;
 using orca::hw::DriveSetpoint;
@@ -34,66 +31,48 @@ const std::vector<std::uint32_t> kRates{115200, 19200};
 /// It enters safe mode, in which its motors may run, with the first command to move, and is in passive mode before and when nobody
 /// uses it. It leaves safe mode by itself when a wheel hangs, at a cliff and at a charger. It has no watchdog: when the
 /// line breaks while it drives, it drives on until its bumper, which it does not heed, or a cliff.
-class Create2Base final : public orca::hw::LineDriver {
+class Create2Base final : public orca::hw::BaseDriver {
  public:
   explicit Create2Base(orca::hw::HardwareHost& host)
-      : LineDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()}) {}
+      : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
+                   {.name = "Create",
+                    .usual = {.max_speed = 0.3,
+                              .max_turn_rate = 1.5,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 0.1},
+                    .top_speed = kMaxWheelSpeed,
+                    .top_turn_rate = kMaxTurnRate,
+                    .in_file = {{"Create 2", orca::idl::DIFFERENTIAL, kWheelBase}}}) {}
 
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read({"Create 2", orca::idl::DIFFERENTIAL, kWheelBase}))
-      faults.push_back(std::move(fault));
-    if (orca::hw::any_refuses(faults)) return faults;
-    senses_.describe(base_.traits());
-    for (orca::hw::SensorEndpoint* const sensor : senses_.endpoints()) add_sensor(*sensor);
-    motion_.emplace(base_.within({.max_speed = *max_speed_,
-                                  .max_turn_rate = *max_turn_rate_,
-                                  .steer_gain = 2.0,
-                                  .big_turn_angle = std::numbers::pi / 3.0,
-                                  .big_turn_speed = 0.1}),
-                    base_.max_command_age());
-    set_motion(*motion_);
-    return faults;
+ protected:
+  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+    senses_.emplace(figures().traits());
+    return senses_->endpoints();
   }
 
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::Robot robot;
-    robot.name(*name_);
+  void describe(orca::idl::Robot& robot) const override {
     robot.vendor("iRobot");
     robot.model("Create 2");
     robot.radius(kRadius);
     robot.bumper_radius(kRadius);
-    base_.describe(robot);
-    robot.drives().push_back(describe_wheels());
-    robot.sensors() = describe_senses();
-    return robot;
+    figures().describe(robot);
   }
 
- protected:
-  Status begin(TimePoint now) override {
-    session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()});
-    return session_->begin(now);
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line(), kRates);
+    return *session_;
   }
 
-  Result<bool> advance(TimePoint now) override {
-    Result<bool> done = session_->advance(now);
-    if (!done || !*done) return done;
-    host().write_log(orca::log::Level::info,
-                     "connected to a Create 2" +
-                         (has_rate() ? " at " + std::to_string(session_->rate()) + " baud" : std::string()));
-    senses_.connect();
+  Status meet() override {
+    log_connected("a Create 2", session_->rate());
+    senses_->connect();
     rest();
-    return true;
+    return orca::ok();
   }
 
-  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
   [[nodiscard]] TimePoint next_turn() const override {
     return powered_ || say_again_ < stops_until_ ? say_again_ : orca::kForever;
   }
-  [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return orca::hw::counts_of(session_->statistics());
-  }
-  [[nodiscard]] Duration longest_silence() const override { return 1s; }
 
   void stop() override {
     (void)session_->send(drive_wheels({}));
@@ -130,22 +109,22 @@ class Create2Base final : public orca::hw::LineDriver {
 
   void take(const Sensors& sensors, TimePoint stamp) {
     heard(stamp);
-    senses_.take(sensors, stamp);
-    if (state() != orca::hw::HardwareState::active) return;
+    senses_->take(sensors, stamp);
+    if (!is_active()) return;
     guard();
-    senses_.publish();
+    senses_->publish();
   }
 
   // Stops the base where it cannot go on. What needs a person needs an operator to go on.
   void guard() {
-    const std::vector<orca::hw::Obstruction::Pressed> pressed = senses_.pressed();
+    const std::vector<orca::hw::Obstruction::Pressed> pressed = senses_->pressed();
     if (!pressed.empty()) last_cliff_ = host().now();
-    motion_->press(pressed);
-    if (senses_.is_stalled()) motion_->obstruct("its motors draw too much current");
-    if (senses_.wheel_hangs()) hold("a wheel hangs; put it down on the floor");
-    if (powered_ && senses_.is_at_charger()) hold("it is connected to its charger; take it off");
-    if (senses_.mode() == Mode::safe) was_safe_ = powered_;
-    if (!was_safe_ || senses_.mode() == Mode::safe) return;
+    motion()->press(pressed);
+    if (senses_->is_stalled()) motion()->obstruct("its motors draw too much current");
+    if (senses_->wheel_hangs()) hold("a wheel hangs; put it down on the floor");
+    if (powered_ && senses_->is_at_charger()) hold("it is connected to its charger; take it off");
+    if (senses_->mode() == Mode::safe) was_safe_ = powered_;
+    if (!was_safe_ || senses_->mode() == Mode::safe) return;
     was_safe_ = false;  // at a cliff; the next command to move takes it into safe mode again
     if (host().now() - last_cliff_ > kCliffTime)
       hold("it has left safe mode; was one of its buttons pressed?");
@@ -158,7 +137,7 @@ class Create2Base final : public orca::hw::LineDriver {
       say_again_ = host().now();
     }
     rest();
-    motion_->hold(reason + ", then orcactl estop --release");
+    await_person(reason);
   }
 
   // Whether it is told what its wheels are to do.
@@ -167,23 +146,13 @@ class Create2Base final : public orca::hw::LineDriver {
   // Safe mode is asked for again until it is there, but not to stand.
   Status say(const DriveSetpoint& setpoint) {
     say_again_ = host().now() + kSayAgain;
-    if (!setpoint.stands() && senses_.mode() != Mode::safe)
+    if (!setpoint.stands() && senses_->mode() != Mode::safe)
       if (Status safe = session_->send(encode(Order::safe)); !safe.ok()) return safe;
-    return session_->send(drive_wheels(wheel_speeds(base_.calibration().to_controller(setpoint.velocity))));
+    return session_->send(
+        drive_wheels(wheel_speeds(figures().calibration().to_controller(setpoint.velocity))));
   }
 
-  orca::Param<std::string> name_{*this, "name", "Create", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.3, {.unit = "m/s", .min = 0.0, .max = kMaxWheelSpeed, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this,
-      "max_turn_rate",
-      1.5,
-      {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
-  orca::hw::BaseFigures base_{*this};
-
-  Create2Senses senses_;
-  std::optional<orca::hw::MotionHW> motion_;
+  std::optional<Create2Senses> senses_;
   std::optional<Create2Session> session_;
   bool powered_ = false;   // it was told to move since it was connected, stopped or held
   bool was_safe_ = false;  // it has entered safe mode since then

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "orca/geometry/arc.hpp"
-#include "orca/geometry/objects/plane.hpp"
-#include "orca/idl/time.hpp"
 
 namespace orca::hw::create2 {
 namespace {
@@ -18,13 +16,18 @@ struct Place {
 };
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::array<Place, 2> kBumpers{{{"left", 45.0 * kDegree}, {"right", -45.0 * kDegree}}};
 constexpr std::array<Place, 4> kCliffs{{{"cliff left", 60.0 * kDegree},
                                         {"cliff front left", 20.0 * kDegree},
                                         {"cliff front right", -20.0 * kDegree},
                                         {"cliff right", -60.0 * kDegree}}};
 
 }  // namespace
+
+Create2Senses::Create2Senses(const SenseTraits& traits)
+    : odometry_(kPeriod, traits), bumpers_(kPeriod, kRadius), battery_(kPeriod) {
+  bumpers_.add("left", 45.0 * kDegree);
+  bumpers_.add("right", -45.0 * kDegree);
+}
 
 void Create2Senses::connect() {
   wheels_.forget();
@@ -38,6 +41,9 @@ void Create2Senses::take(const Sensors& sensors, TimePoint stamp) {
   sensors_ = sensors;
   stamp_ = stamp;
   if (!since_) since_ = stamp;
+  const BumpsAndDrops touched = sensors.bumps_and_drops.value_or(BumpsAndDrops{});
+  bumpers_.take(0, touched.bump_left);
+  bumpers_.take(1, touched.bump_right);
   if (!sensors.left_counts || !sensors.right_counts) return;
   const Travel2 step = wheels_.add(*sensors.left_counts, *sensors.right_counts);
   pose_ = along_arc(pose_, step);
@@ -49,7 +55,7 @@ void Create2Senses::publish() {
   if (++frames_ < kFramesPerReading) return;
   frames_ = 0;
   publish_odometry();
-  publish_bumpers();
+  bumpers_.publish(stamp_);
   publish_battery();
 }
 
@@ -60,41 +66,21 @@ void Create2Senses::publish_odometry() {
   odometry_.publish(pose_, velocity, stamp_);
 }
 
-void Create2Senses::publish_bumpers() {
-  const BumpsAndDrops touched = sensors_.bumps_and_drops.value_or(BumpsAndDrops{});
-  auto object = bumpers_.loan();
-  for (const Place& bumper : kBumpers) {
-    const Vec2 place = kRadius * direction(bumper.direction);
-    object->pressed().push_back(&bumper == &kBumpers[0] ? touched.bump_left : touched.bump_right);
-    object->names().push_back(bumper.name);
-    object->poses().push_back(level_frame({place.x, place.y, bumper.direction}, 0.0));
-  }
-  object->stamp(to_time_value(stamp_));
-  bumpers_.publish(std::move(object));
-}
-
 void Create2Senses::publish_battery() {
   if (!sensors_.voltage) return;
-  auto object = battery_.loan();
-  object->name("drive");
-  object->voltage(*sensors_.voltage);
-  object->current(std::nan(""));
-  object->charge(state_of_charge(sensors_).value_or(std::nan("")));
   const ChargingState charging = sensors_.charging_state.value_or(ChargingState::not_charging);
-  object->charging(charging == ChargingState::full || charging == ChargingState::trickle ||
-                   charging == ChargingState::reconditioning);
-  object->stamp(to_time_value(stamp_));
-  battery_.publish(std::move(object));
+  hw::publish_battery(battery_,
+                      {.voltage = *sensors_.voltage,
+                       .charge = state_of_charge(sensors_).value_or(std::nan("")),
+                       .charging = charging == ChargingState::full || charging == ChargingState::trickle ||
+                                   charging == ChargingState::reconditioning},
+                      stamp_);
 }
 
 std::vector<Obstruction::Pressed> Create2Senses::pressed() const {
-  const BumpsAndDrops touched = sensors_.bumps_and_drops.value_or(BumpsAndDrops{});
-  std::vector<Obstruction::Pressed> all;
-  const auto add = [&](const Place& place) { all.push_back({direction(place.direction), place.name}); };
-  if (touched.bump_left) add(kBumpers[0]);
-  if (touched.bump_right) add(kBumpers[1]);
+  std::vector<Obstruction::Pressed> all = bumpers_.pressed();
   for (std::size_t i = 0; i < kCliffs.size(); ++i)
-    if (sensors_.cliffs[i].value_or(false)) add(kCliffs[i]);
+    if (sensors_.cliffs[i].value_or(false)) all.push_back({direction(kCliffs[i].direction), kCliffs[i].name});
   return all;
 }
 

@@ -9,11 +9,9 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/base_odometry.hpp"
+#include "orca/hw/base_senses.hpp"
 #include "orca/hw/create2/odometry.hpp"
 #include "orca/hw/create2/sensors.hpp"
-#include "orca/hw/endpoints.hpp"
-#include "orca/idl/navigation.hpp"
-#include "orca/idl/sensing.hpp"
 
 namespace orca::hw::create2 {
 
@@ -27,12 +25,10 @@ inline constexpr Duration kPeriod = 45ms;  ///< Between two readings: so many fr
 /// Thread contract: not synchronised; the container's strand.
 class Create2Senses {
  public:
-  Create2Senses() : odometry_(kPeriod), bumpers_(kPeriod), battery_(kPeriod) {}
-  /// @pre  nothing has been published.
-  void describe(const SenseTraits& traits) { odometry_.describe(traits); }
+  explicit Create2Senses(const SenseTraits& traits);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints() {
-    return {&odometry_.endpoint(), &battery_, &bumpers_};
+    return {&odometry_.endpoint(), &battery_, &bumpers_.endpoint()};
   }
 
   /// Begins anew with a robot. The pose goes on from where it was.
@@ -52,11 +48,10 @@ class Create2Senses {
 
  private:
   void publish_odometry();
-  void publish_bumpers();
   void publish_battery();
 
   BaseOdometry odometry_;
-  SensorHW<idl::BumperReadings> bumpers_;
+  BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
 
   EncoderOdometry wheels_;

@@ -2,14 +2,11 @@
 #include "create2_session.hpp"
 
 #include <array>
-#include <string>
-#include <utility>
 
 namespace orca::hw::create2 {
 namespace {
 
 constexpr Duration kFrameTime = 250ms;  // until the first frame of a stream; it takes 15 ms
-constexpr int kTries = 3;               // at each rate
 constexpr int kFirstFrames = 4;         // until what is reported is surely of after the start command
 constexpr double kSlowByte = 0.0002;    // [s] a line with slower bytes does not carry all packets
 
@@ -42,15 +39,10 @@ std::span<const std::uint8_t> packets_for(const link::ByteLink& link) {
 
 }  // namespace
 
-Create2Session::Create2Session(link::ByteLink& link, std::vector<std::uint32_t> rates)
-    : link_(link), rates_(std::move(rates)) {}
-
 Status Create2Session::begin(TimePoint now) {
-  rate_ = 0;
-  tries_ = 0;
   found_ = false;
   mode_offset_ = 0;
-  if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
+  if (Status set = search_.begin(); !set.ok()) return set;
   return call(now);
 }
 
@@ -60,7 +52,7 @@ Status Create2Session::call(TimePoint now) {
   good_frames_ = 0;
   link_.discard_input();
   frames_ = LineFrames(kProtocol);
-  if (tries_ > 0)
+  if (!search_.is_first_call())
     for (int i = 0; i < 4; ++i)
       if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
   if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
@@ -77,28 +69,16 @@ Result<bool> Create2Session::advance(TimePoint now) {
   if (Status read = receive(now, meet); !read.ok()) return read.error();
   if (found_) return true;
   if (now < deadline_) return false;
-  if (Status tried = try_again(now); !tried.ok()) return tried.error();
+  const Result<bool> called = search_.next();
+  if (!called) return called.error();
+  if (!*called) return nobody();
+  if (Status sent = call(now); !sent.ok()) return sent.error();
   return false;
 }
 
-Status Create2Session::try_again(TimePoint now) {
-  if (++tries_ >= kTries) {
-    tries_ = 0;
-    if (++rate_ == rates_.size()) {
-      rate_ = 0;
-      return nobody();
-    }
-    if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set;
-  }
-  return call(now);
-}
-
 Error Create2Session::nobody() const {
-  std::string rates;
-  for (const std::uint32_t rate : rates_) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
-  const std::string where = link_.name() + (rates_.size() > 1 ? " at " + rates + " baud" : "");
   return fail(Code::not_found,
-              "no Create 2 answers at " + where +
+              "no Create 2 answers at " + search_.where() +
                   "; press its Clean button, for it may sleep; is its battery charged, and is "
                   "this its serial port?");
 }

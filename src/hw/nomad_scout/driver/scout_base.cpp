@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <deque>
 #include <numbers>
 #include <optional>
@@ -9,9 +8,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
-#include "orca/hw/base_figures.hpp"
-#include "orca/hw/line_driver.hpp"
-#include "orca/hw/line_frames.hpp"
+#include "orca/hw/base_driver.hpp"
 #include "orca/hw/nomad_scout/command.hpp"
 #include "scout_senses.hpp"
 #include "scout_session.hpp"
@@ -19,7 +16,6 @@
 namespace {
 
 using orca::Duration;
-using orca::Result;
 using orca::Status;
 using orca::TimePoint;
 using orca::hw::DriveSetpoint;
@@ -34,75 +30,63 @@ const std::vector<std::uint32_t> kRates{38400, 19200, 9600, 4800};
 // The front first, and never two neighbours one after the other behind it.
 constexpr std::array<std::uint8_t, kSonars> kSonarOrder{0, 2, 15, 1, 14, 3, 13, 4, 12, 5, 11, 6, 10, 7, 9, 8};
 
-Duration as_duration(double seconds) { return Duration(std::llround(1e9 * seconds)); }
-
 /// A Nomad Scout or Super Scout: a base on two wheels with 16 sonars and a ring of bumpers.
 ///
 /// It is asked for its state, again and again. Its motors get power with the first command to move, not before, and lose it
 /// when nobody uses the base and it stands. After a fault they stay off until an operator lets the base move again.
-class ScoutBase final : public orca::hw::LineDriver {
+class ScoutBase final : public orca::hw::BaseDriver {
  public:
   explicit ScoutBase(orca::hw::HardwareHost& host)
-      : LineDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()}) {}
+      : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
+                   {.name = "Scout",
+                    .usual = {.max_speed = 0.5,
+                              .max_turn_rate = 1.5,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 1.0},
+                    .top_speed = kMaxSpeed,
+                    .top_turn_rate = kMaxTurnRate,
+                    .in_file = {{"Nomad Scout", orca::idl::DIFFERENTIAL, kTrack}}}) {}
 
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read({"Nomad Scout", orca::idl::DIFFERENTIAL, kTrack}))
-      faults.push_back(std::move(fault));
-    if (orca::hw::any_refuses(faults)) return faults;
-    senses_.emplace(track(), kSonars * as_duration(*sonar_interval_));
-    senses_->describe(base_.traits());
-    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(base_.within({.max_speed = *max_speed_,
-                                  .max_turn_rate = *max_turn_rate_,
-                                  .steer_gain = 2.0,
-                                  .big_turn_angle = std::numbers::pi / 3.0,
-                                  .big_turn_speed = 1.0}),
-                    base_.max_command_age());
-    set_motion(*motion_);
-    return faults;
+ protected:
+  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+    senses_.emplace(track(), kSonars * orca::from_seconds(*sonar_interval_), figures().traits());
+    return senses_->endpoints();
   }
 
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::Robot robot;
-    robot.name(*name_);
+  void describe(orca::idl::Robot& robot) const override {
     robot.vendor("Nomadics");
     robot.model("SuperScout");
     robot.radius(kRadius);
     robot.bumper_radius(kBumperRadius);
-    base_.describe(robot);
-    robot.drives().push_back(describe_wheels());
+    figures().describe(robot);
     robot.drives().back().speed_change(acceleration());
-    robot.sensors() = describe_senses();
     robot.sonar_rings().push_back(senses_->describe_sonars());
-    return robot;
   }
 
- protected:
-  Status begin(TimePoint now) override {
-    session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()});
-    return session_->begin(now);
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line(), kRates);
+    return *session_;
   }
 
-  Result<bool> advance(TimePoint now) override {
-    Result<bool> done = session_->advance(now);
-    if (!done || !*done) return done;
-    meet(now);
-    return true;
+  // Its settings may be those of others, and its wheels may turn.
+  Status meet() override {
+    log_connected("a Nomad Scout", session_->rate());
+    rest();
+    const bool turns = !(session_->first().state.speeds == Wheels{});
+    limp_due_ = turns;
+    chores_ = {turns ? orca::hw::nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
+               set_accelerations({.left = acceleration(), .right = acceleration()})};
+    senses_->connect();
+    next_question_ = host().now();
+    return orca::ok();
   }
 
-  [[nodiscard]] TimePoint next_step() const override { return session_->deadline(); }
   [[nodiscard]] TimePoint next_turn() const override {
-    return session_->is_free() ? next_question_ : session_->deadline();
+    return session_->is_free() ? next_question_ : session_->next();
   }
-  [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return orca::hw::counts_of(session_->statistics());
-  }
-  [[nodiscard]] Duration longest_silence() const override { return 1s; }
-
   Status start() override {
     senses_->await_sonars(host().now());
-    chores_.push_back(start_sonars(as_duration(*sonar_interval_), kSonarOrder));
+    chores_.push_back(start_sonars(orca::from_seconds(*sonar_interval_), kSonarOrder));
     return go_on();
   }
 
@@ -141,20 +125,6 @@ class ScoutBase final : public orca::hw::LineDriver {
   }
 
  private:
-  // The robot has answered. Its settings may be those of others, and its wheels may turn.
-  void meet(TimePoint now) {
-    host().write_log(orca::log::Level::info,
-                     "connected to a Nomad Scout" +
-                         (has_rate() ? " at " + std::to_string(session_->rate()) + " baud" : std::string()));
-    rest();
-    const bool turns = !(session_->first().state.speeds == Wheels{});
-    limp_due_ = turns;
-    chores_ = {turns ? orca::hw::nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
-               set_accelerations({.left = acceleration(), .right = acceleration()})};
-    senses_->connect();
-    next_question_ = now;
-  }
-
   // From now on it is told nothing that moves it.
   void rest() {
     powered_ = false;
@@ -170,8 +140,8 @@ class ScoutBase final : public orca::hw::LineDriver {
     heard(answer.stamp);
     note(answer.type);
     senses_->take(answer.state, answer.stamp, wish_.velocity.forward);
-    if (state() != orca::hw::HardwareState::active) return orca::ok();
-    motion_->press(senses_->pressed());
+    if (!is_active()) return orca::ok();
+    motion()->press(senses_->pressed());
     senses_->publish();
     return orca::ok();
   }
@@ -199,12 +169,12 @@ class ScoutBase final : public orca::hw::LineDriver {
     say_again_ = host().now() + kSayAgain;
     if (setpoint.at_once) return ask(orca::hw::nomad_scout::stop());
     return ask(orca::hw::nomad_scout::drive(
-        wheels_of(base_.calibration().to_controller(setpoint.velocity), track())));
+        wheels_of(figures().calibration().to_controller(setpoint.velocity), track())));
   }
 
-  [[nodiscard]] double acceleration() const { return base_.within(*max_acceleration_); }
+  [[nodiscard]] double acceleration() const { return figures().within(*max_acceleration_); }
   [[nodiscard]] double track() const {
-    const orca::hw::RobotFigures* const file = base_.figures();
+    const orca::hw::RobotFigures* const file = figures().figures();
     return file != nullptr && *track_ == kTrack ? file->wheels->track : *track_;
   }
 
@@ -213,14 +183,6 @@ class ScoutBase final : public orca::hw::LineDriver {
     return session_->ask(packet, host().now());
   }
 
-  orca::Param<std::string> name_{*this, "name", "Scout", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .max = kMaxSpeed, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this,
-      "max_turn_rate",
-      1.5,
-      {.unit = "rad/s", .min = 0.0, .max = kMaxTurnRate, .text = "Greatest turn rate."}};
   orca::Param<double> max_acceleration_{
       *this,
       "max_acceleration",
@@ -245,10 +207,8 @@ class ScoutBase final : public orca::hw::LineDriver {
                "hear the "
                "one before it, which fires in another direction; with 16 sonars above 0.015, SonarAvoid has "
                "forgotten an echo before the next one comes."}};
-  orca::hw::BaseFigures base_{*this};
 
   std::optional<ScoutSenses> senses_;
-  std::optional<orca::hw::MotionHW> motion_;
   std::optional<ScoutSession> session_;
   std::deque<Packet> chores_;  // settings that it is still to be told
   bool powered_ = false;       // the motors

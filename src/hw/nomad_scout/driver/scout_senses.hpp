@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/hw/base_odometry.hpp"
-#include "orca/hw/endpoints.hpp"
+#include "orca/hw/base_senses.hpp"
 #include "orca/hw/nomad_scout/odometry.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
-#include "orca/idl/hardware.hpp"
-#include "orca/idl/navigation.hpp"
-#include "orca/idl/sensing.hpp"
 
 namespace orca::hw::nomad_scout {
 
@@ -31,12 +26,7 @@ class ScoutSenses {
  public:
   /// @param track  [m] between the wheels.
   /// @param cycle  [s] in which all sonars fire once.
-  ScoutSenses(double track, Duration cycle);
-  /// @pre  nothing has been published.
-  void describe(const SenseTraits& traits) {
-    odometry_.describe(traits);
-    sonar_errors_ = traits.sonars;
-  }
+  ScoutSenses(double track, Duration cycle, const SenseTraits& traits);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   [[nodiscard]] idl::SonarRing describe_sonars() const;
@@ -45,7 +35,7 @@ class ScoutSenses {
   void connect();
 
   /// Notes that the sonars are told to fire. Until each has, their ranges say nothing and are not published.
-  void await_sonars(TimePoint now) { sonars_published_ = now + cycle_; }
+  void await_sonars(TimePoint now) { sonars_.await_round(now); }
 
   /// Takes a state.
   /// @param stamp    when the robot sent it.
@@ -55,28 +45,17 @@ class ScoutSenses {
   void publish();
 
   /// Returns the bumpers that are pressed, for MotionHW::press().
-  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const { return bumpers_.pressed(); }
   /// Returns whether the wheels turn.
   [[nodiscard]] bool moves() const { return !(state_.speeds == Wheels{}); }
   /// Returns whether the controller's clock has gone back: it was switched off and on.
   [[nodiscard]] bool has_restarted(const State& next) const;
 
  private:
-  static constexpr std::size_t kBits = 24;  // of the bumpers
-
-  void take_touches(unsigned bits, double forward);
-  void take_sonars(const SonarRanges& ranges);
-  void publish_odometry();
-  void publish_sonars();
-  void publish_bumpers();
-  void publish_battery();
-
   const double track_;
-  const Duration cycle_;
   BaseOdometry odometry_;
-  RangeErrorGuess sonar_errors_;
-  SensorHW<idl::SonarRangeReadings> sonar_;
-  SensorHW<idl::BumperReadings> bumpers_;
+  BaseSonars sonars_;
+  BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
 
   ScoutOdometry wheels_;
@@ -85,10 +64,6 @@ class ScoutSenses {
   Pose2 pose_;          // in the frame of the odometry
   State state_;         // the last one
   TimePoint stamp_{};
-  TimePoint sonars_published_{};             // last; ahead of now while the first round is awaited
-  SonarRanges ranges_{};                     // [m] limited to what a sonar hears
-  std::array<TimePoint, kSonars> stamps_{};  // of each
-  std::array<Vec2, kBits> outwards_{};       // of each pressed switch
 };
 
 }  // namespace orca::hw::nomad_scout

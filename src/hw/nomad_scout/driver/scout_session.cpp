@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <utility>
 
 namespace orca::hw::nomad_scout {
 namespace {
@@ -20,17 +19,16 @@ Duration line_time(double bytes, const link::ByteLink& link) {
 
 }  // namespace
 
-ScoutSession::ScoutSession(link::ByteLink& link, std::vector<std::uint32_t> rates)
-    : link_(link), rates_(std::move(rates)) {}
-
 Status ScoutSession::begin(TimePoint now) {
-  rate_ = 0;
-  tries_ = 0;
   refusals_ = 0;
   heard_ = false;
   first_.reset();
+  if (Status set = search_.begin(); !set.ok()) return set;
+  return call(now);
+}
+
+Status ScoutSession::call(TimePoint now) {
   frames_ = LineFrames(kProtocol);
-  if (Status set = link_.set_line({.baud = rates_[0]}); !set.ok()) return set;
   link_.discard_input();
   return ask(get_state(), now);
 }
@@ -40,35 +38,20 @@ Result<bool> ScoutSession::advance(TimePoint now) {
   if (Status heard = receive(now, meet); !heard.ok()) return heard.error();
   if (first_) return true;
   if (asked_) return false;
-  if (Status tried = try_again(now); !tried.ok()) return tried.error();
+  const Result<bool> called = search_.next();
+  if (!called) return called.error();
+  if (!*called) return nobody();
+  if (Status asked = call(now); !asked.ok()) return asked.error();
   return false;
 }
 
-// Nothing has answered in time.
-Status ScoutSession::try_again(TimePoint now) {
-  if (++tries_ >= kTries) {
-    tries_ = 0;
-    if (++rate_ == rates_.size()) {
-      rate_ = 0;
-      return nobody();
-    }
-    if (Status set = link_.set_line({.baud = rates_[rate_]}); !set.ok()) return set;
-  }
-  link_.discard_input();
-  frames_ = LineFrames(kProtocol);
-  return ask(get_state(), now);
-}
-
 Error ScoutSession::nobody() const {
-  std::string rates;
-  for (const std::uint32_t rate : rates_) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
-  const std::string where = link_.name() + (rates_.size() > 1 ? " at " + rates + " baud" : "");
   if (heard_)
     return fail(Code::not_found,
-                where +
+                search_.where() +
                     " sends back what it is sent, and nothing else: no robot, but a loop; is "
                     "the cable plugged into the robot, and is the robot switched on?");
-  return fail(Code::not_found, "no Scout answers at " + where +
+  return fail(Code::not_found, "no Scout answers at " + search_.where() +
                                    "; is it switched on, is this its serial port, and is the cable crossed "
                                    "as it needs?");
 }

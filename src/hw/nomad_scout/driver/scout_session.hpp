@@ -10,7 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/line_frames.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
 
 namespace orca::hw::nomad_scout {
@@ -30,20 +30,21 @@ struct Answer {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  Nomadic Technologies, Nomad host protocol.
-class ScoutSession {
+class ScoutSession final : public LineSession {
  public:
   using Take = std::function<void(const Answer&)>;
 
   /// @param link   outlives the object.
-  /// @param rates  [baud] to be tried, in this order; one that the link ignores is enough for a connection.
-  ScoutSession(link::ByteLink& link, std::vector<std::uint32_t> rates);
+  /// @param rates  [baud] to be tried, in this order.
+  ScoutSession(link::ByteLink& link, const std::vector<std::uint32_t>& rates)
+      : link_(link), search_(link, rates) {}
 
-  /// Begins anew with the first rate. @pre  the link is open.
-  Status begin(TimePoint now);
-  /// Goes on with the search for the robot.
-  /// @return whether it has answered.
-  /// @errors  not_found if nothing answers at any rate, with what to do; data_loss if it is another robot; those of the link.
-  Result<bool> advance(TimePoint now);
+  Status begin(TimePoint now) override;
+  /// @errors  those of LineSession; data_loss if it is another robot.
+  Result<bool> advance(TimePoint now) override;
+  /// Returns when the command that waits for its answer has waited too long; kForever if none waits.
+  [[nodiscard]] TimePoint next() const override { return asked_ ? deadline_ : kForever; }
+  [[nodiscard]] LineCounts counts() const override { return counts_of(frames_.statistics()); }
 
   /// Returns what the robot answered first. @pre  it has been found.
   [[nodiscard]] const Answer& first() const { return *first_; }
@@ -54,8 +55,6 @@ class ScoutSession {
 
   /// Returns whether a command may be sent: the last one was answered, or had waited too long when receive() was called.
   [[nodiscard]] bool is_free() const { return !asked_; }
-  /// Returns when the command that waits for its answer has waited too long; kForever if none waits.
-  [[nodiscard]] TimePoint deadline() const { return asked_ ? deadline_ : kForever; }
   /// Sends a command, whose answer is awaited. One that was asked before is not awaited any more, but its answer is taken if
   /// it comes.
   /// @errors  those of ByteLink::write().
@@ -64,21 +63,18 @@ class ScoutSession {
   Status tell(const Packet& packet) { return link_.write(packet.view()); }
 
   /// Returns the rate of the line [baud].
-  [[nodiscard]] std::uint32_t rate() const { return rates_[rate_]; }
-  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
+  [[nodiscard]] std::uint32_t rate() const { return search_.rate(); }
 
  private:
   Status read(TimePoint now, const Take& take);
   Status take_frame(const framing::Frame& frame, TimePoint stamp, const Take& take);
-  Status try_again(TimePoint now);
   Status take_refusal();
+  Status call(TimePoint now);
   [[nodiscard]] Error nobody() const;
 
   link::ByteLink& link_;
-  const std::vector<std::uint32_t> rates_;
+  RateSearch search_;
   LineFrames frames_{kProtocol};
-  std::size_t rate_ = 0;
-  int tries_ = 0;       // at this rate
   bool heard_ = false;  // a packet, at whatever rate
   std::optional<Answer> first_;
   std::optional<Type> asked_{};  // awaits its answer

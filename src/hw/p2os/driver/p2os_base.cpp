@@ -8,9 +8,7 @@
 
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
-#include "orca/hw/base_figures.hpp"
-#include "orca/hw/line_driver.hpp"
-#include "orca/hw/line_frames.hpp"
+#include "orca/hw/base_driver.hpp"
 #include "orca/hw/p2os/config.hpp"
 #include "orca/hw/p2os/gripper.hpp"
 #include "orca/hw/p2os/model.hpp"
@@ -39,49 +37,16 @@ const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 ///
 /// Its motors get power with the first command to move, not before, and lose it when nobody uses the base. After a fault they stay
 /// off until an operator lets the base move again.
-class P2osBase final : public orca::hw::LineDriver {
+class P2osBase final : public orca::hw::BaseDriver {
  public:
   explicit P2osBase(orca::hw::HardwareHost& host)
-      : LineDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()}) {}
-
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    const ModelChoice choice = choose_model(*model_name_);
-    if (!choice.is_known)
-      faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
-    const Model& model = choice.model;
-    for (orca::HardwareFault& fault :
-         base_.read({std::string(model.name), orca::idl::DIFFERENTIAL, 2.0 * model.half_track}))
-      faults.push_back(std::move(fault));
-    if (has_gripper() && choice.model.name.find("PeopleBot") != std::string_view::npos)
-      faults.push_back(
-          {"robot",
-           "its gripper is that of a PeopleBot, which is at ports that this driver does not know; only "
-           "grippers of Pioneers are known"});
-    if (base_.figures() != nullptr && !fits_packet(base_.figures()->bumpers))
-      faults.push_back({"robot", "a Pioneer tells of at most 7 bumpers in front and 7 in the rear"});
-    if (orca::hw::any_refuses(faults)) return faults;
-    model_ = &choice.model;
-    declare_endpoints();
-    return faults;
-  }
-
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::Robot robot;
-    robot.name(*name_);
-    robot.vendor("ActivMedia");
-    robot.model(std::string(model_->name));
-    robot.radius(model_->radius);
-    robot.bumper_radius(model_->radius);
-    robot.length(model_->length);
-    robot.width(model_->width);
-    base_.describe(robot);
-    robot.drives().push_back(describe_wheels());
-    robot.sensors() = describe_senses();
-    if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
-    if (gripper_) robot.actuators().push_back(describe_gripper());
-    return robot;
-  }
+      : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
+                   {.name = "Pioneer",
+                    .usual = {.max_speed = 0.5,
+                              .max_turn_rate = 1.5,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 0.3},
+                    .in_file = orca::hw::BaseFigures::Expected{}}) {}
 
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> learned() const override {
     if (!session_) return {};
@@ -91,26 +56,84 @@ class P2osBase final : public orca::hw::LineDriver {
   }
 
  protected:
-  Status begin(TimePoint now) override {
-    if (!session_)
-      session_.emplace(line(), has_rate() ? kRates : std::vector<std::uint32_t>{kRates.front()}, *speed_up_);
-    return session_->begin(now);
+  [[nodiscard]] orca::hw::BaseFigures::Expected expected() const override {
+    const Model& model = choose_model(*model_name_).model;
+    return {std::string(model.name), orca::idl::DIFFERENTIAL, 2.0 * model.half_track};
   }
 
-  Result<bool> advance(TimePoint now) override {
-    Result<bool> done = session_->advance(now);
-    if (!done || !*done) return done;
-    meet();
-    return true;
+  void check(std::vector<orca::HardwareFault>& faults) override {
+    const ModelChoice choice = choose_model(*model_name_);
+    model_ = &choice.model;
+    if (!choice.is_known)
+      faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
+    if (has_gripper() && model_->name.find("PeopleBot") != std::string_view::npos)
+      faults.push_back(
+          {"robot",
+           "its gripper is that of a PeopleBot, which is at ports that this driver does not know; only "
+           "grippers of Pioneers are known"});
+    if (!fits_packet(bumpers()))
+      faults.push_back({"robot", "a Pioneer tells of at most 7 bumpers in front and 7 in the rear"});
   }
 
-  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
+  // Of some models the limits are not known.
+  [[nodiscard]] orca::hw::DriveLimits limits() const override {
+    orca::hw::DriveLimits limits = BaseDriver::limits();
+    limits.max_speed = within(limits.max_speed, model_->max_speed);
+    limits.max_turn_rate = within(limits.max_turn_rate, model_->max_turn_rate);
+    return limits;
+  }
+
+  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+    senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()}, figures().traits());
+    remarks_.emplace(!model_->sonar_poses.empty());
+    if (has_gripper()) {
+      gripper_.emplace(Gripper::Driver{
+          .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(command); },
+          .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
+      add_actuator(*gripper_);
+    }
+    return senses_->endpoints();
+  }
+
+  void describe(orca::idl::Robot& robot) const override {
+    robot.vendor("ActivMedia");
+    robot.model(std::string(model_->name));
+    robot.radius(model_->radius);
+    robot.bumper_radius(model_->radius);
+    robot.length(model_->length);
+    robot.width(model_->width);
+    figures().describe(robot);
+    if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
+    if (gripper_) robot.actuators().push_back(describe_gripper());
+  }
+
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line(), orca::hw::rates_of(line(), kRates), *speed_up_);
+    return *session_;
+  }
+
+  Status meet() override {
+    const Identity& robot = session_->identity();
+    const ModelChoice choice = choose_model(robot.subclass);
+    is_known_ = choice.is_known;
+    if (!choice.is_known) {
+      warn(stranger());
+    } else if (&choice.model != model_) {
+      warn("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
+           std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
+    }
+    log_connected(orca::in_quotes(robot.name) + " (" + robot.robot_class + " " + robot.subclass + ")",
+                  session_->rate());
+    if (const std::string& trouble = session_->rate_trouble(); !trouble.empty())
+      host().write_log(orca::log::Level::info,
+                       "it stays at " + std::to_string(session_->rate()) + " baud: " + trouble);
+    senses_->connect(choice.is_known ? choice.model : *model_);
+    say_again_every_ = kSayAgain;
+    if (session_->config()) take(*session_->config());
+    return orca::ok();
+  }
+
   [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
-  [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return orca::hw::counts_of(session_->statistics());
-  }
-  [[nodiscard]] Duration longest_silence() const override { return 1s; }
-
   Status start() override {
     remarks_->start(host().now());
     return send({encode(Command::sonar, 1)});
@@ -152,31 +175,12 @@ class P2osBase final : public orca::hw::LineDriver {
  private:
   using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
 
-  void declare_endpoints() {
-    senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()});
-    senses_->describe(base_.traits());
-    remarks_.emplace(!model_->sonar_poses.empty());
-    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(base_.within({.max_speed = within(*max_speed_, model_->max_speed),
-                                  .max_turn_rate = within(*max_turn_rate_, model_->max_turn_rate),
-                                  .steer_gain = 2.0,
-                                  .big_turn_angle = std::numbers::pi / 3.0,
-                                  .big_turn_speed = 0.3}),
-                    base_.max_command_age());
-    set_motion(*motion_);
-    if (!has_gripper()) return;
-    gripper_.emplace(Gripper::Driver{
-        .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(command); },
-        .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
-    add_actuator(*gripper_);
-  }
-
   [[nodiscard]] std::vector<double> bumpers() const {
-    return base_.figures() != nullptr ? base_.figures()->bumpers : Senses::usual_bumpers(*model_);
+    return figures().figures() != nullptr ? figures().figures()->bumpers : Senses::usual_bumpers(*model_);
   }
 
   [[nodiscard]] double bumper_radius() const {
-    return base_.figures() != nullptr ? base_.figures()->bumper_radius : model_->radius;
+    return figures().figures() != nullptr ? figures().figures()->bumper_radius : model_->radius;
   }
 
   [[nodiscard]] static bool fits_packet(const std::vector<double>& bumpers) {
@@ -186,12 +190,12 @@ class P2osBase final : public orca::hw::LineDriver {
   }
 
   [[nodiscard]] bool has_gripper() const {
-    return base_.figures() != nullptr && base_.figures()->gripper.has_value();
+    return figures().figures() != nullptr && figures().figures()->gripper.has_value();
   }
 
   [[nodiscard]] orca::idl::Actuator describe_gripper() const {
     orca::idl::Actuator gripper;
-    gripper.name(*base_.figures()->gripper);
+    gripper.name(*figures().figures()->gripper);
     gripper.port(device());
     return gripper;
   }
@@ -207,7 +211,6 @@ class P2osBase final : public orca::hw::LineDriver {
     return send({encode_gripper(up ? GripperAction::up : GripperAction::down)});
   }
 
-  // Of some models the limit is not known.
   [[nodiscard]] static double within(double wish, double limit) {
     return limit > 0.0 ? std::min(wish, limit) : wish;
   }
@@ -216,29 +219,6 @@ class P2osBase final : public orca::hw::LineDriver {
     std::string names;
     for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
     return names;
-  }
-
-  // The robot has said what it is.
-  void meet() {
-    const Identity& robot = session_->identity();
-    const ModelChoice choice = choose_model(robot.subclass);
-    const auto log = [this](const std::string& text) { host().write_log(orca::log::Level::warning, text); };
-    is_known_ = choice.is_known;
-    if (!choice.is_known) {
-      log(stranger());
-    } else if (&choice.model != model_) {
-      log("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
-          std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
-    }
-    host().write_log(orca::log::Level::info, "connected to " + orca::in_quotes(robot.name) + " (" +
-                                                 robot.robot_class + " " + robot.subclass + ") at " +
-                                                 std::to_string(session_->rate()) + " baud");
-    if (const std::string& trouble = session_->rate_trouble(); !trouble.empty())
-      host().write_log(orca::log::Level::info,
-                       "it stays at " + std::to_string(session_->rate()) + " baud: " + trouble);
-    senses_->connect(choice.is_known ? choice.model : *model_);
-    say_again_every_ = kSayAgain;
-    if (session_->config()) take(*session_->config());
   }
 
   [[nodiscard]] bool may_drive() const { return is_known_ || *drive_unknown_; }
@@ -254,11 +234,11 @@ class P2osBase final : public orca::hw::LineDriver {
   void take(const Config& config) {
     if (config.watchdog > Duration{0})
       say_again_every_ = std::clamp<Duration>(config.watchdog / kChances, kSayAgainSoonest, kSayAgain);
-    tell(remarks_->take(config, motion_->limits()));
+    tell(remarks_->take(config, motion()->limits()));
   }
 
   void tell(const std::vector<std::string>& remarks) {
-    for (const std::string& remark : remarks) host().write_log(orca::log::Level::warning, remark);
+    for (const std::string& remark : remarks) warn(remark);
   }
 
   void take(const Received& packet) {
@@ -268,7 +248,7 @@ class P2osBase final : public orca::hw::LineDriver {
     if (!sip) return;  // its checksum was good, but it is cut short
     heard(packet.stamp);
     senses_->take(*sip, packet.stamp);
-    if (state() != orca::hw::HardwareState::active) return;
+    if (!is_active()) return;
     guard(*sip);
     tell(remarks_->take(*sip, host().now()));
     senses_->publish();
@@ -276,8 +256,8 @@ class P2osBase final : public orca::hw::LineDriver {
 
   // Stops the base where it cannot go on. The motors lose their power with the red button, and get it back only for an operator.
   void guard(const Sip& sip) {
-    motion_->press(senses_->pressed());
-    if (sip.left_stall || sip.right_stall) motion_->obstruct("its motors are stalled");
+    motion()->press(senses_->pressed());
+    if (sip.left_stall || sip.right_stall) motion()->obstruct("its motors are stalled");
     if (sip.emergency_stop) hold("its emergency button is pressed; release it");
     const bool had_time = powered_ && host().now() - powered_at_ > kPowerTime;
     if (had_time && !sip.motors_enabled)
@@ -288,12 +268,12 @@ class P2osBase final : public orca::hw::LineDriver {
 
   void hold(const std::string& reason) {
     powered_ = false;
-    motion_->hold(reason + ", then orcactl estop --release");
+    await_person(reason);
   }
 
   Status say(const DriveSetpoint& setpoint) {
     if (setpoint.stands() && setpoint.at_once) return send({encode(Command::estop), encode(Command::stop)});
-    const orca::Twist2 velocity = base_.calibration().to_controller(setpoint.velocity);
+    const orca::Twist2 velocity = figures().calibration().to_controller(setpoint.velocity);
     return send({encode_speed(velocity.forward), encode_turn_rate(velocity.turn_rate)});
   }
 
@@ -306,11 +286,6 @@ class P2osBase final : public orca::hw::LineDriver {
 
   orca::Param<std::string> model_name_{
       *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
-  orca::Param<std::string> name_{*this, "name", "Pioneer", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
   orca::Param<bool> drive_unknown_{
       *this,
       "drive_unknown",
@@ -324,11 +299,9 @@ class P2osBase final : public orca::hw::LineDriver {
                               {.text = "Whether a robot at 9600 or 19200 baud is told to send at 38400; "
                                        "false where something between has "
                                        "a fixed rate, as a radio modem may."}};
-  orca::hw::BaseFigures base_{*this};
 
   const Model* model_ = nullptr;
   std::optional<Senses> senses_;
-  std::optional<orca::hw::MotionHW> motion_;
   std::optional<Gripper> gripper_;
   std::optional<Session> session_;
   std::optional<Remarks> remarks_;

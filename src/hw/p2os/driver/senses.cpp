@@ -6,10 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
-#include "orca/geometry/objects/plane.hpp"
-#include "orca/geometry/objects/ranges.hpp"
 #include "orca/hw/p2os/gripper.hpp"
 #include "orca/idl/time.hpp"
 
@@ -37,51 +34,44 @@ std::vector<double> Senses::usual_bumpers(const Model& model) {
   return all;
 }
 
-Senses::Senses(const Model& model, const Extras& extras)
+Senses::Senses(const Model& model, const Extras& extras, const SenseTraits& traits)
     : model_(model),
       units_(&model),
-      bumper_ring_(named(extras.bumpers)),
-      bumper_radius_(extras.bumper_radius),
       has_gripper_(extras.has_gripper),
-      odometry_(kPeriod),
-      sonar_(kPeriod),
-      bumpers_(kPeriod),
+      odometry_(kPeriod, traits),
+      sonars_({.min_range = kShortestRange,
+               .max_range = kLongestRange,
+               .half_lobe = kHalfLobe,
+               .errors = traits.sonars},
+              kPeriod),
+      bumpers_(kPeriod, extras.bumper_radius),
       battery_(kPeriod),
       gripper_(kPeriod),
       wheels_(model.distance_unit) {
   find_sonars();
-  ranges_.assign(sonars_.size(), kLongestRange);
-  stamps_.resize(sonars_.size());
+  add_bumpers(extras.bumpers);
 }
 
 void Senses::find_sonars() {
   for (std::size_t i = 0; i < model_.sonar_poses.size(); ++i) {
     const bool is_absent = (model_.absent_sonars >> i & 1U) != 0;
-    places_.push_back(is_absent ? kNowhere : sonars_.size());
-    if (!is_absent) sonars_.push_back(model_.sonar_poses[i]);
+    places_.push_back(is_absent ? kNowhere : sonars_.count());
+    if (!is_absent) sonars_.add(model_.sonar_poses[i], kSonarHeight);
   }
 }
 
 std::vector<SensorEndpoint*> Senses::endpoints() {
   std::vector<SensorEndpoint*> all{&odometry_.endpoint(), &battery_};
-  if (!sonars_.empty()) all.push_back(&sonar_);
-  if (!bumper_ring_.empty()) all.push_back(&bumpers_);
+  if (sonars_.count() > 0) all.push_back(&sonars_.endpoint());
+  if (bumpers_.count() > 0) all.push_back(&bumpers_.endpoint());
   if (has_gripper_) all.push_back(&gripper_);
   return all;
 }
 
 std::optional<idl::SonarRing> Senses::describe_sonars() const {
-  if (sonars_.empty()) return std::nullopt;
-  idl::SonarRing ring;
-  ring.name("sonars");
-  ring.type("SonarRangeReadings");
-  ring.update_interval(to_seconds(kPeriod));
-  ring.number(static_cast<std::uint32_t>(sonars_.size()));
-  ring.angle_sonar0(sonars_.front().yaw);
-  ring.half_lobe(kHalfLobe);
+  if (sonars_.count() == 0) return std::nullopt;
+  idl::SonarRing ring = sonars_.describe("sonars");
   ring.scale_factor(model_.range_unit);
-  ring.min_range(kShortestRange);
-  ring.max_range(kLongestRange);
   return ring;
 }
 
@@ -89,7 +79,7 @@ void Senses::connect(const Model& units) {
   units_ = &units;
   wheels_ = WheelOdometry(units.distance_unit);
   heading_offset_.reset();
-  std::ranges::fill(ranges_, kLongestRange);
+  sonars_.forget();
 }
 
 void Senses::take(const Sip& sip, TimePoint stamp) {
@@ -100,17 +90,18 @@ void Senses::take(const Sip& sip, TimePoint stamp) {
   pose_ = {pose_.x + step.x, pose_.y + step.y, wrapped(sip.heading + *heading_offset_)};
   for (const SonarEcho& echo : sip.echoes) {
     const std::size_t place = echo.index < places_.size() ? places_[echo.index] : kNowhere;
-    if (place == kNowhere) continue;
-    ranges_[place] = std::min(echo.range, kLongestRange);
-    stamps_[place] = stamp;
+    if (place != kNowhere) sonars_.take(place, echo.range, stamp);
   }
+  for (std::size_t i = 0; i < bits_.size(); ++i)
+    bumpers_.take(
+        i, (((bits_[i].is_front ? sip.front_bumpers : sip.rear_bumpers) >> bits_[i].number) & 1U) != 0);
 }
 
 void Senses::publish() {
   publish_odometry();
   publish_battery();
-  if (!ranges_.empty() && !sip_.echoes.empty()) publish_sonars();
-  if (!bumper_ring_.empty()) publish_bumpers();
+  if (sonars_.count() > 0 && !sip_.echoes.empty()) sonars_.publish(stamp_);
+  if (bumpers_.count() > 0) bumpers_.publish(stamp_);
   if (has_gripper_ && sip_.ports) publish_gripper();
 }
 
@@ -120,45 +111,14 @@ void Senses::publish_odometry() {
   odometry_.publish(pose_, velocity, stamp_);
 }
 
-void Senses::publish_sonars() {
-  auto object = sonar_.loan();
-  object->ranges().assign(ranges_.begin(), ranges_.end());
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    object->poses().push_back(level_frame(sonars_[i], kSonarHeight));
-    object->stamps().push_back(to_time_value(stamps_[i]));
-  }
-  object->min_range(kShortestRange);
-  object->max_range(kLongestRange);
-  object->half_lobe(kHalfLobe);
-  object->pose(level_pose({}, kSonarHeight, stamp_));
-  set_uncertainty(*object, sonar_errors_);
-  sonar_.publish(std::move(object));
-}
-
-void Senses::publish_bumpers() {
-  auto object = bumpers_.loan();
-  for (const Bumper& bumper : bumper_ring_) {
-    const Vec2 out = direction(bumper.direction);
-    object->pressed().push_back(is_pressed(bumper));
-    object->names().push_back(bumper.name);
-    object->poses().push_back(
-        level_frame({bumper_radius_ * out.x, bumper_radius_ * out.y, bumper.direction}, 0.0));
-  }
-  object->stamp(to_time_value(stamp_));
-  bumpers_.publish(std::move(object));
-}
-
 void Senses::publish_battery() {
-  auto object = battery_.loan();
-  object->name("drive");
-  object->voltage(sip_.tail.real_battery_voltage.value_or(sip_.battery_voltage));
-  object->current(std::nan(""));
   const std::optional<std::uint8_t>& percent = sip_.tail.state_of_charge;
-  object->charge(percent ? std::min(0.01 * *percent, 1.0) : std::nan(""));
   const int charge = sip_.tail.charge_state.value_or(0);
-  object->charging(charge > 0 && charge < 255);
-  object->stamp(to_time_value(stamp_));
-  battery_.publish(std::move(object));
+  hw::publish_battery(battery_,
+                      {.voltage = sip_.tail.real_battery_voltage.value_or(sip_.battery_voltage),
+                       .charge = percent ? std::min(0.01 * *percent, 1.0) : std::nan(""),
+                       .charging = charge > 0 && charge < 255},
+                      stamp_);
 }
 
 // Paddles that have closed on nothing press on each other, so only the beams tell that something is between them.
@@ -180,33 +140,20 @@ void Senses::publish_gripper() {
   gripper_.publish(std::move(object));
 }
 
-std::vector<Obstruction::Pressed> Senses::pressed() const {
-  std::vector<Obstruction::Pressed> all;
-  for (const Bumper& bumper : bumper_ring_)
-    if (is_pressed(bumper)) all.push_back({direction(bumper.direction), bumper.name});
-  return all;
-}
-
 // The controller counts them clockwise: in front from the left to the right, behind from the right to the left.
-std::vector<Senses::Bumper> Senses::named(std::vector<double> directions) {
+void Senses::add_bumpers(std::vector<double> directions) {
   const auto from_the_left = [](double direction) {
     const double clockwise = 0.5 * std::numbers::pi - direction;
     return clockwise < 0.0 ? clockwise + 2.0 * std::numbers::pi : clockwise;
   };
   std::ranges::sort(directions, {}, from_the_left);
-  std::vector<Bumper> all;
   unsigned front = 0;
   unsigned rear = 0;
   for (const double direction : directions) {
     const bool is_front = std::abs(direction) < 0.5 * std::numbers::pi;
-    const unsigned bit = is_front ? front++ : rear++;
-    all.push_back({direction, is_front, bit, (is_front ? "front " : "rear ") + std::to_string(bit + 1)});
+    bits_.push_back({is_front, is_front ? front++ : rear++});
+    bumpers_.add((is_front ? "front " : "rear ") + std::to_string(bits_.back().number + 1), direction);
   }
-  return all;
-}
-
-bool Senses::is_pressed(const Bumper& bumper) const {
-  return (((bumper.is_front ? sip_.front_bumpers : sip_.rear_bumpers) >> bumper.bit) & 1U) != 0;
 }
 
 }  // namespace orca::hw::p2os

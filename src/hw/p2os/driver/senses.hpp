@@ -7,13 +7,10 @@
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/hw/base_odometry.hpp"
-#include "orca/hw/endpoints.hpp"
+#include "orca/hw/base_senses.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "orca/hw/p2os/odometry.hpp"
 #include "orca/hw/p2os/sip.hpp"
-#include "orca/idl/hardware.hpp"
-#include "orca/idl/navigation.hpp"
-#include "orca/idl/sensing.hpp"
 
 namespace orca::hw::p2os {
 
@@ -33,12 +30,7 @@ class Senses {
   /// @source  AriaCoda, ArBumpers: they share an arc of 135 degrees in front, and one in the rear.
   [[nodiscard]] static std::vector<double> usual_bumpers(const Model& model);
 
-  Senses(const Model& model, const Extras& extras);
-  /// @pre  nothing has been published.
-  void describe(const SenseTraits& traits) {
-    odometry_.describe(traits);
-    sonar_errors_ = traits.sonars;
-  }
+  Senses(const Model& model, const Extras& extras, const SenseTraits& traits);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
   /// Returns the description of the sonars; nothing if there are none.
@@ -54,38 +46,31 @@ class Senses {
   void publish();
 
   /// Returns the bumpers that are pressed, for MotionHW::press().
-  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const { return bumpers_.pressed(); }
   /// Returns the units that connect() was given.
   [[nodiscard]] const Model& units() const { return *units_; }
 
  private:
   void publish_odometry();
-  void publish_sonars();
-  void publish_bumpers();
   void publish_battery();
   void publish_gripper();
 
-  struct Bumper {
-    double direction;  // [rad]
+  // Where the controller tells of a bumper.
+  struct Bit {
     bool is_front;
-    unsigned bit;
-    std::string name;
+    unsigned number;
   };
-  [[nodiscard]] static std::vector<Bumper> named(std::vector<double> directions);
-  [[nodiscard]] bool is_pressed(const Bumper& bumper) const;
+  void add_bumpers(std::vector<double> directions);
   void find_sonars();
 
   const Model& model_;
   const Model* units_;
-  const std::vector<Bumper> bumper_ring_;
-  const double bumper_radius_;
   const bool has_gripper_;
-  std::vector<Pose2> sonars_;        // that are there
-  std::vector<std::size_t> places_;  // of each that the controller counts, among them
   BaseOdometry odometry_;
-  RangeErrorGuess sonar_errors_;
-  SensorHW<idl::SonarRangeReadings> sonar_;
-  SensorHW<idl::BumperReadings> bumpers_;
+  BaseSonars sonars_;                // that are there
+  std::vector<std::size_t> places_;  // of each that the controller counts, among them
+  BaseBumpers bumpers_;
+  std::vector<Bit> bits_;  // of each
   SensorHW<idl::Battery> battery_;
   SensorHW<idl::GripperState> gripper_;
 
@@ -94,8 +79,6 @@ class Senses {
   Pose2 pose_;                            // in the frame of the odometry
   Sip sip_;                               // the last one
   TimePoint stamp_{};
-  std::vector<double> ranges_;     // [m] the latest of each sonar
-  std::vector<TimePoint> stamps_;  // of each
 };
 
 }  // namespace orca::hw::p2os

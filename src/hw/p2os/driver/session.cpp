@@ -223,9 +223,7 @@ Status Session::call_again(TimePoint now) {
 }
 
 Error Session::nobody() const {
-  std::string rates;
-  for (const std::uint32_t rate : rates_) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
-  const std::string where = link_.name() + (rates_.size() > 1 ? " at " + rates + " baud" : "");
+  const std::string where = hw::where(link_, rates_);
   if (is_lost_at_change_)
     return fail(
         Code::not_found,

@@ -11,7 +11,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/line_frames.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/p2os/command.hpp"
 #include "orca/hw/p2os/config.hpp"
 #include "orca/hw/p2os/sync.hpp"
@@ -36,7 +36,7 @@ struct Received {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  Pioneer 2 operations manual, "Connecting"; order of rates and times of public drivers.
-class Session {
+class Session final : public hw::LineSession {
  public:
   /// The rate [baud] that public drivers change to: their parameters name it for all models.
   static constexpr std::uint32_t kFastRate = 38400;
@@ -46,15 +46,11 @@ class Session {
   /// @param speeds_up  whether a slower rate may be changed to kFastRate.
   Session(link::ByteLink& link, std::vector<std::uint32_t> rates, bool speeds_up = true);
 
-  /// Begins anew. @pre  the link is open.
-  Status begin(TimePoint now);
-
-  /// Goes on with the handshake.
-  /// @return whether it is done: the robot is known, and sends packets.
-  /// @errors  not_found if nothing answers at any rate, with what to do; those of the link.
-  Result<bool> advance(TimePoint now);
-  /// Returns when advance() has something to do, even if nothing comes.
-  [[nodiscard]] TimePoint next() const { return deadline_; }
+  Status begin(TimePoint now) override;
+  /// It also sends packets then.
+  Result<bool> advance(TimePoint now) override;
+  [[nodiscard]] TimePoint next() const override { return deadline_; }
+  [[nodiscard]] LineCounts counts() const override { return counts_of(frames_.statistics()); }
 
   /// Reads what there is and hands out the packets. @pre  the handshake is done.
   /// @errors  those of the link.
@@ -72,7 +68,6 @@ class Session {
   [[nodiscard]] std::uint32_t rate() const { return rate_; }
   /// Returns why the rate is not kFastRate; empty: it is, or there is no need.
   [[nodiscard]] const std::string& rate_trouble() const { return rate_trouble_; }
-  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   enum class Step {

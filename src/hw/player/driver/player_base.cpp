@@ -11,7 +11,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/hardware.hpp"
-#include "orca/hw/line_driver.hpp"
+#include "orca/hw/base_driver.hpp"
 #include "orca/hw/player/payload.hpp"
 #include "player_senses.hpp"
 #include "player_session.hpp"
@@ -37,60 +37,54 @@ constexpr double kSamePlace = 0.01;    // [m] and [rad]
 /// Data come by themselves, as they arise. The motors get power with the first command to move, not before, and lose it when nobody uses the
 /// base. After a fault they stay off until an operator lets the base move again. What must be known before the connection, the shape of
 /// the robot and of its laser, are parameters; if the server says something else, that is told.
-class PlayerBase final : public orca::hw::LineDriver {
+class PlayerBase final : public orca::hw::BaseDriver {
  public:
-  explicit PlayerBase(orca::hw::HardwareHost& host) : LineDriver(host, "tcp:localhost:6665") {}
+  explicit PlayerBase(orca::hw::HardwareHost& host)
+      : BaseDriver(host, "tcp:localhost:6665", {},
+                   {.name = "Player",
+                    .usual = {.max_speed = 0.5,
+                              .max_turn_rate = 1.5,
+                              .steer_gain = 1.0,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 0.3}}) {}
 
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    uses_ = read_uses(*uses_text_, faults);
-    if (!faults.empty()) return faults;
+ protected:
+  void check(std::vector<orca::HardwareFault>& faults) override { uses_ = read_uses(*uses_text_, faults); }
+
+  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
     senses_.emplace(uses_, PlayerRobotShape{.radius = *radius_, .sonar_range = *sonar_range_});
-    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(orca::hw::DriveLimits{.max_speed = *max_speed_,
-                                          .max_turn_rate = *max_turn_rate_,
-                                          .steer_gain = 1.0,
-                                          .big_turn_angle = std::numbers::pi / 3.0,
-                                          .big_turn_speed = 0.3},
-                    orca::from_seconds(*max_command_age_));
-    set_motion(*motion_);
-    return faults;
+    return senses_->endpoints();
   }
 
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::Robot robot;
-    robot.name(*name_);
+  void describe(orca::idl::Robot& robot) const override {
     robot.vendor("Player");
     robot.model("position2d");
     robot.radius(*radius_);
     robot.bumper_radius(*radius_);
     robot.length(*length_);
     robot.width(*width_);
-    robot.drives().push_back(describe_wheels());
     if (used_as(Part::laser)) robot.laser_sensors().push_back(describe_laser());
-    return robot;
   }
 
- protected:
-  Status begin(TimePoint now) override {
-    session_.emplace(line(), uses_, orca::from_seconds(*patience_));
-    return session_->begin(now);
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line(), uses_, orca::from_seconds(*patience_));
+    return *session_;
   }
 
-  Result<bool> advance(TimePoint now) override {
-    Result<bool> done = session_->advance(now);
-    if (!done || !*done) return done;
-    if (Status met = meet(); !met.ok()) return met.error();
-    return true;
+  // What an earlier client has told the base may still go on.
+  Status meet() override {
+    const PlayerRobotFacts& facts = session_->facts();
+    log_connected("a Player server " + orca::in_quotes(orca::printable(facts.version)) +
+                  " with a base of its driver " + orca::in_quotes(facts.driver));
+    for (const std::string& shortcoming : facts.shortcomings) warn(shortcoming);
+    compare_shape(facts);
+    is_scan_compared_ = false;
+    senses_->connect(facts);
+    powered_ = false;
+    return say({});
   }
 
-  [[nodiscard]] TimePoint next_step() const override { return session_->next(); }
   [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
-  [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return session_ ? session_->counts() : orca::hw::LineCounts{};
-  }
-  [[nodiscard]] Duration longest_silence() const override { return 1s; }
-
   void stop() override {
     (void)say({});
     (void)switch_motors(false);
@@ -143,20 +137,6 @@ class PlayerBase final : public orca::hw::LineDriver {
     return laser;
   }
 
-  // The server has opened all that it has. What an earlier client has told the base may still go on.
-  Status meet() {
-    const PlayerRobotFacts& facts = session_->facts();
-    host().write_log(orca::log::Level::info,
-                     "connected to a Player server " + orca::in_quotes(orca::printable(facts.version)) +
-                         " with a base of its driver " + orca::in_quotes(facts.driver));
-    for (const std::string& shortcoming : facts.shortcomings) warn(shortcoming);
-    compare_shape(facts);
-    is_scan_compared_ = false;
-    senses_->connect(facts);
-    powered_ = false;
-    return say({});
-  }
-
   void compare_shape(const PlayerRobotFacts& facts) {
     if (facts.base) {
       compare("length", *length_, facts.base->size.length);
@@ -187,8 +167,6 @@ class PlayerBase final : public orca::hw::LineDriver {
     std::snprintf(text, sizeof text, "%.4g", number);
     return text;
   }
-
-  void warn(const std::string& text) { host().write_log(orca::log::Level::warning, text); }
 
   void take(const Message& message, TimePoint now) {
     const Address& from = message.header.address;
@@ -238,20 +216,18 @@ class PlayerBase final : public orca::hw::LineDriver {
     pass_on(Result<LaserScan>(as_laser(ranger->ranges, config, otherwise)), now);
   }
 
-  [[nodiscard]] bool is_active() const { return state() == orca::hw::HardwareState::active; }
-
   void take_state(const Message& message, TimePoint now) {
     const Result<Position2dState> state = decode<Position2dState>(message.payload);
     if (!state || !senses_->take(*state, now, is_active())) return session_->note_bad();
     heard(now);
-    if (state->stall && is_active()) motion_->obstruct("its motors are stalled");
+    if (state->stall && is_active()) motion()->obstruct("its motors are stalled");
   }
 
   void take_bumpers(const Message& message, TimePoint now) {
     const Result<BumperState> bumpers = decode<BumperState>(message.payload);
     if (!bumpers || !senses_->take(*bumpers, applied_.velocity.forward, now, is_active()))
       return session_->note_bad();
-    if (is_active()) motion_->press(senses_->pressed());
+    if (is_active()) motion()->press(senses_->pressed());
   }
 
   template <class Data>
@@ -289,7 +265,6 @@ class PlayerBase final : public orca::hw::LineDriver {
     return session_->send(kPosition2dMotorPower, encode(Switch{on}), uses_.front().index);
   }
 
-  orca::Param<std::string> name_{*this, "name", "Player", {.text = "Name of this robot, one word."}};
   orca::Param<std::string> uses_text_{
       *this,
       "uses",
@@ -298,15 +273,6 @@ class PlayerBase final : public orca::hw::LineDriver {
            "What of the robot is used beside its base, with blanks between. Each is the device 0 of the "
            "interface of its name, or another one: sonar=ranger:0 laser=ranger:1, as the simulator Stage has "
            "them, laser=laser:1, base=position2d:1."}};
-  orca::Param<double> max_speed_{
-      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Greatest speed."}};
-  orca::Param<double> max_turn_rate_{
-      *this, "max_turn_rate", 1.5, {.unit = "rad/s", .min = 0.0, .text = "Greatest turn rate."}};
-  orca::Param<double> max_command_age_{
-      *this,
-      "max_command_age",
-      0.2,
-      {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}};
   orca::Param<double> patience_{
       *this,
       "patience",
@@ -341,7 +307,6 @@ class PlayerBase final : public orca::hw::LineDriver {
 
   std::vector<Use> uses_;  // the base first
   std::optional<PlayerSenses> senses_;
-  std::optional<orca::hw::MotionHW> motion_;
   std::optional<PlayerSession> session_;
   bool powered_ = false;                  // the motors
   bool is_scan_compared_ = false;         // with what the parameters say

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <string>
 
-#include "orca/base/portable_math.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -33,31 +32,31 @@ double distance(double range, double longest) { return range >= 0.0 && range < l
 PlayerSenses::PlayerSenses(const std::vector<Use>& uses, const PlayerRobotShape& shape)
     : shape_(shape),
       odometry_(kDataPeriod),
-      sonar_(kDataPeriod),
+      sonars_({.max_range = shape.sonar_range, .half_lobe = kHalfLobe, .cycle = kSonarCycle}, kDataPeriod),
       laser_(kDataPeriod),
-      bumpers_(kDataPeriod),
+      bumpers_(kDataPeriod, shape.radius),
       battery_(kDataPeriod),
-      endpoints_{&odometry_} {
+      endpoints_{&odometry_.endpoint()} {
   const auto add = [&](Part part, SensorEndpoint& endpoint) {
     if (std::ranges::count(uses, part, &Use::part) > 0) endpoints_.push_back(&endpoint);
   };
-  add(Part::sonar, sonar_);
+  add(Part::sonar, sonars_.endpoint());
   add(Part::laser, laser_);
-  add(Part::bumper, bumpers_);
+  add(Part::bumper, bumpers_.endpoint());
   add(Part::power, battery_);
 }
 
 void PlayerSenses::connect(const PlayerRobotFacts& facts) {
   server_zero_.reset();
-  touched_.clear();
+  bumpers_.clear();
   learn(facts);
 }
 
 void PlayerSenses::learn(const PlayerRobotFacts& facts) {
   facts_ = facts;
-  const std::size_t sonars = facts_.sonars ? facts_.sonars->poses.size() : 0;
-  ranges_.assign(sonars, shape_.sonar_range);
-  stamps_.assign(sonars, TimePoint{});
+  sonars_.clear();
+  if (!facts_.sonars) return;
+  for (const Pose3& place : facts_.sonars->poses) sonars_.add(plane_pose(place), place.z);
 }
 
 bool PlayerSenses::take(const Position2dState& state, TimePoint stamp, bool publish) {
@@ -65,44 +64,16 @@ bool PlayerSenses::take(const Position2dState& state, TimePoint stamp, bool publ
   const Pose2 told{state.pose.x, state.pose.y, state.pose.yaw};
   if (!server_zero_) server_zero_ = pose_ * inverse(told);
   pose_ = *server_zero_ * told;
-  if (!publish) return true;
-  auto object = odometry_.loan();
-  object->x(pose_.x);
-  object->y(pose_.y);
-  object->steer_angle(pose_.yaw);
-  object->translational_velocity(state.velocity.x);
-  object->steering_velocity(state.velocity.yaw);
-  object->stamp(to_time_value(stamp));
-  odometry_.publish(std::move(object));
+  if (publish) odometry_.publish(pose_, {state.velocity.x, 0.0, state.velocity.yaw}, stamp);
   return true;
 }
 
-// Which sonars have fired since the last message is not said. A range that has changed was measured now, and one that has not at most a
-// whole cycle ago.
+// Which sonars have fired since the last message is not said.
 bool PlayerSenses::take(const SonarRanges& ranges, TimePoint stamp, bool publish) {
-  if (ranges.ranges.size() != ranges_.size()) return false;
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const double range = distance(ranges.ranges[i], shape_.sonar_range);
-    stamps_[i] = range != ranges_[i] ? stamp : std::max(stamps_[i], stamp - kSonarCycle);
-    ranges_[i] = range;
-  }
-  if (publish && !ranges_.empty()) publish_sonars(stamp);
+  if (ranges.ranges.size() != sonars_.count()) return false;
+  sonars_.take_all(stamp, [&](std::size_t i) { return distance(ranges.ranges[i], shape_.sonar_range); });
+  if (publish && sonars_.count() > 0) sonars_.publish(stamp);
   return true;
-}
-
-void PlayerSenses::publish_sonars(TimePoint stamp) {
-  auto object = sonar_.loan();
-  object->ranges().assign(ranges_.begin(), ranges_.end());
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const Pose3& pose = facts_.sonars->poses[i];
-    object->poses().push_back(level_frame(plane_pose(pose), pose.z));
-    object->stamps().push_back(to_time_value(stamps_[i]));
-  }
-  object->min_range(0.0);
-  object->max_range(shape_.sonar_range);
-  object->half_lobe(kHalfLobe);
-  object->pose(level_pose({}, ranges_.empty() ? 0.0 : facts_.sonars->poses[0].z, stamp));
-  sonar_.publish(std::move(object));
 }
 
 bool PlayerSenses::take(const LaserScan& scan, TimePoint stamp, bool publish) {
@@ -126,54 +97,25 @@ bool PlayerSenses::take(const LaserScan& scan, TimePoint stamp, bool publish) {
   return true;
 }
 
-Vec2 PlayerSenses::outwards(std::size_t bumper) const {
-  return direction(2.0 * std::numbers::pi * static_cast<double>(bumper) /
-                   static_cast<double>(touched_.size()));
-}
-
 bool PlayerSenses::take(const BumperState& bumpers, double forward, TimePoint stamp, bool publish) {
-  touched_.resize(bumpers.pressed.size());
-  touched_at_.resize(bumpers.pressed.size());
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const bool is_new = bumpers.pressed[i] != 0 && touched_[i] == 0;
-    if (is_new) touched_at_[i] = forward != 0.0 ? Vec2{std::copysign(1.0, forward), 0.0} : outwards(i);
-    touched_[i] = bumpers.pressed[i] != 0 ? 1 : 0;
-  }
-  if (publish) publish_bumpers(stamp);
+  const std::size_t count = bumpers.pressed.size();
+  if (count != bumpers_.count()) bumpers_.clear();
+  for (std::size_t i = bumpers_.count(); i < count; ++i)
+    bumpers_.add("bumper " + std::to_string(i + 1),
+                 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count));
+  for (std::size_t i = 0; i < count; ++i) bumpers_.take(i, bumpers.pressed[i] != 0, {forward, 0.0});
+  if (publish) bumpers_.publish(stamp);
   return true;
-}
-
-void PlayerSenses::publish_bumpers(TimePoint stamp) {
-  auto object = bumpers_.loan();
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const Vec2 out = touched_[i] != 0 ? touched_at_[i] : outwards(i);
-    object->pressed().push_back(touched_[i]);
-    object->names().push_back("bumper " + std::to_string(i + 1));
-    object->poses().push_back(
-        level_frame({shape_.radius * out.x, shape_.radius * out.y, portable::atan2(out.y, out.x)}, 0.0));
-  }
-  object->stamp(to_time_value(stamp));
-  bumpers_.publish(std::move(object));
 }
 
 bool PlayerSenses::take(const PowerState& power, TimePoint stamp, bool publish) {
   if (!publish) return true;
-  auto object = battery_.loan();
-  object->name("drive");
-  object->voltage(power.voltage ? *power.voltage : std::nan(""));
-  object->current(std::nan(""));
-  object->charge(power.charge ? std::clamp(0.01 * *power.charge, 0.0, 1.0) : std::nan(""));
-  object->charging(power.charging.value_or(0) == 1);
-  object->stamp(to_time_value(stamp));
-  battery_.publish(std::move(object));
+  publish_battery(battery_,
+                  {.voltage = power.voltage ? *power.voltage : std::nan(""),
+                   .charge = power.charge ? std::clamp(0.01 * *power.charge, 0.0, 1.0) : std::nan(""),
+                   .charging = power.charging.value_or(0) == 1},
+                  stamp);
   return true;
-}
-
-std::vector<Obstruction::Pressed> PlayerSenses::pressed() const {
-  std::vector<Obstruction::Pressed> all;
-  for (std::size_t i = 0; i < touched_.size(); ++i)
-    if (touched_[i] != 0) all.push_back({touched_at_[i], "bumper " + std::to_string(i + 1)});
-  return all;
 }
 
 }  // namespace orca::hw::player

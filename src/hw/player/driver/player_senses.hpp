@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
-#include "orca/hw/endpoints.hpp"
+#include "orca/hw/base_odometry.hpp"
+#include "orca/hw/base_senses.hpp"
 #include "orca/hw/player/bumper.hpp"
 #include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/message.hpp"
 #include "orca/hw/player/position2d.hpp"
 #include "orca/hw/player/power.hpp"
 #include "orca/hw/player/sonar.hpp"
-#include "orca/idl/navigation.hpp"
-#include "orca/idl/sensing.hpp"
 #include "player_session.hpp"
 
 namespace orca::hw::player {
@@ -53,29 +52,21 @@ class PlayerSenses {
   bool take(const PowerState& power, TimePoint stamp, bool publish);
 
   /// Returns the bumpers that are pressed, for MotionHW::press().
-  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const { return bumpers_.pressed(); }
 
  private:
-  void publish_sonars(TimePoint stamp);
-  void publish_bumpers(TimePoint stamp);
-  [[nodiscard]] Vec2 outwards(std::size_t bumper) const;
-
   const PlayerRobotShape shape_;
-  SensorHW<idl::Odometry> odometry_;
-  SensorHW<idl::SonarRangeReadings> sonar_;
+  BaseOdometry odometry_;
+  BaseSonars sonars_;
   SensorHW<idl::LaserRangeReadings> laser_;
-  SensorHW<idl::BumperReadings> bumpers_;
+  BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
   std::vector<SensorEndpoint*> endpoints_;
 
   PlayerRobotFacts facts_;
   Pose2 pose_;  // in the frame of the odometry
   std::optional<Pose2>
-      server_zero_;             // where the server's odometry begins, in that frame; nothing: not heard yet
-  std::vector<double> ranges_;  // [m] of the sonars
-  std::vector<TimePoint> stamps_;  // when they were measured
-  std::vector<std::uint8_t> touched_;
-  std::vector<Vec2> touched_at_;  // outwards, of each that is touched
+      server_zero_;  // where the server's odometry begins, in that frame; nothing: not heard yet
 };
 
 }  // namespace orca::hw::player

@@ -11,8 +11,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/line_counts.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/player/geometry.hpp"
 #include "orca/hw/player/message_reader.hpp"
 #include "orca/hw/player/ranger.hpp"
@@ -41,7 +40,7 @@ struct PlayerRobotFacts {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  Player 3.1 server and its client library libplayerc.
-class PlayerSession {
+class PlayerSession final : public LineSession {
  public:
   /// A function that takes a message, and when its first byte came.
   using Take = std::function<void(const Message&, TimePoint sent)>;
@@ -51,16 +50,16 @@ class PlayerSession {
   /// @param patience  [s] for the answer when a device is opened, whose driver starts then, and for the first answers of all drivers.
   PlayerSession(link::ByteLink& link, std::vector<Use> wishes, Duration patience);
 
-  /// Begins anew. @pre  the link has just been opened: what it has brought since is not dropped, for that is the banner.
-  Status begin(TimePoint now);
-
-  /// Goes on until all is open.
-  /// @return whether it is.
+  /// What the line has brought since it was opened is not dropped, for that is the banner.
+  Status begin(TimePoint now) override;
+  /// @return whether all is open.
   /// @errors  not_found if nothing or something else than a Player server speaks, or if there is no base; unavailable if the base is refused;
   ///          deadline_exceeded if a request gets no answer; each with what to do. Those of the link and of MessageReader.
-  Result<bool> advance(TimePoint now);
-  /// Returns when advance() has something to do, even if nothing comes.
-  [[nodiscard]] TimePoint next() const { return deadline_; }
+  Result<bool> advance(TimePoint now) override;
+  [[nodiscard]] TimePoint next() const override { return deadline_; }
+  [[nodiscard]] LineCounts counts() const override {
+    return {.frames = messages_ - bad_, .bad_checksums = bad_};
+  }
 
   /// Reads what there is and hands out the messages.
   /// @errors  those of the link and of MessageReader.
@@ -76,7 +75,6 @@ class PlayerSession {
 
   /// Counts a message that could not be read.
   void note_bad() { ++bad_; }
-  [[nodiscard]] LineCounts counts() const { return {.frames = messages_ - bad_, .bad_checksums = bad_}; }
   [[nodiscard]] const PlayerRobotFacts& facts() const { return facts_; }
 
  private:

@@ -8,8 +8,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/arrivals.hpp"
-#include "orca/hw/line_counts.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/rplidar/receiver.hpp"
 #include "orca/hw/rplidar/request.hpp"
 
@@ -30,7 +29,7 @@ enum class ScanMode {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  SLAMTEC, "RPLIDAR Interface Protocol and Application Notes", for the A1 and A2; DTR: the vendor's SDK.
-class RplidarSession {
+class RplidarSession final : public LineSession {
  public:
   /// A function that takes a point, and when it was measured.
   using Take = std::function<void(const Point&, TimePoint stamp)>;
@@ -40,13 +39,11 @@ class RplidarSession {
   /// @param link  outlives the object.
   RplidarSession(link::ByteLink& link, ScanMode mode);
 
-  /// Begins anew, with a motor that stands. @pre  the link is open.
-  Status begin(TimePoint now);
-  /// Goes on with that.
-  /// @return whether the scanner is known and well.
-  /// @errors  not_found if it does not answer, failed_precondition if it reports an error after a reset, too, or does not know the
-  ///          wished mode, each with what to do; those of the link.
-  Result<bool> advance(TimePoint now);
+  /// The motor stands from then on.
+  Status begin(TimePoint now) override;
+  /// @errors  those of LineSession; failed_precondition if the scanner reports an error after a reset, too, or does not know the
+  ///          wished mode, each with what to do.
+  Result<bool> advance(TimePoint now) override;
   /// Asks for a scan. Points come when the motor turns evenly. @pre  advance() has returned true.
   Status scan(TimePoint now);
   /// Ends the scan and stops the motor, as far as the line still works.
@@ -54,8 +51,8 @@ class RplidarSession {
   /// Reads what there is, hands out the points, and goes on with the request for a scan.
   /// @errors  deadline_exceeded if no scan or no point comes, with what to do; those of the link.
   Status receive(TimePoint now, const Take& take);
-  /// Returns when advance() or receive() has something to do, even if nothing comes.
-  [[nodiscard]] TimePoint next() const { return deadline_; }
+  /// Also when receive() has something to do.
+  [[nodiscard]] TimePoint next() const override { return deadline_; }
 
   [[nodiscard]] const DeviceInfo& info() const { return info_; }
   [[nodiscard]] const Health& health() const { return health_; }
@@ -65,8 +62,7 @@ class RplidarSession {
   [[nodiscard]] bool scans() const { return step_ == Step::flow; }
   /// Returns when the first byte left the scanner of what brought the last points. @pre  points have come.
   [[nodiscard]] TimePoint sent() const { return sent_; }
-  /// Returns what was counted since begin().
-  [[nodiscard]] LineCounts counts() const;
+  [[nodiscard]] LineCounts counts() const override;
 
  private:
   enum class Step { quiet, info, health, boot, rates, done, hush, scan, spin, flow };

@@ -242,9 +242,7 @@ Status Session::give_up(TimePoint now) {
 }
 
 Error Session::nobody() const {
-  std::string rates;
-  for (const std::uint32_t rate : kRates) rates += (rates.empty() ? "" : ", ") + std::to_string(rate);
-  const std::string where = link_.name() + (has_rate_ ? " at " + rates + " baud" : "");
+  const std::string where = hw::where(link_, rates_of(link_, {kRates.begin(), kRates.end()}));
   if (own_.statistics().frames > 0)
     return fail(Code::not_found,
                 where +

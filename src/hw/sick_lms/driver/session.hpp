@@ -9,9 +9,8 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/arrivals.hpp"
-#include "orca/hw/framing/scanner.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_frames.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/sick_lms/reply.hpp"
 #include "orca/hw/sick_lms/request.hpp"
 
@@ -40,21 +39,18 @@ struct Received {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  LMS2xx telegram listing; order of requests and times of public drivers.
-class Session {
+class Session final : public hw::LineSession {
  public:
   /// @param link      outlives the object.
   /// @param has_rate  whether the link has a rate; a connection has none.
   Session(link::ByteLink& link, const Wishes& wishes, bool has_rate);
 
-  /// Begins anew. @pre  the link is open.
-  Status begin(TimePoint now);
-  /// Goes on with that.
-  /// @return whether the laser is set and waits for send(request_mode(...)).
-  /// @errors  not_found if nothing answers at any rate, failed_precondition if the laser refuses what it must not refuse, each with
-  ///          what to do; those of the link.
-  Result<bool> advance(TimePoint now);
-  /// Returns when advance() has something to do, even if nothing comes.
-  [[nodiscard]] TimePoint next() const { return deadline_; }
+  Status begin(TimePoint now) override;
+  /// Also sets the laser, which then waits for send(request_mode(...)).
+  /// @errors  those of LineSession; failed_precondition if the laser refuses what it must not refuse.
+  Result<bool> advance(TimePoint now) override;
+  [[nodiscard]] TimePoint next() const override { return deadline_; }
+  [[nodiscard]] LineCounts counts() const override { return counts_of(scanner_.statistics()); }
 
   /// Reads what there is and hands out the telegrams.
   /// @errors  those of the link.
@@ -64,7 +60,6 @@ class Session {
   Status send(const Telegram& request) { return link_.write(request.view()); }
 
   /// Returns type and version, as the laser names itself. @pre  advance() has returned true, as for the rest.
-  [[nodiscard]] const framing::Statistics& statistics() const { return scanner_.statistics(); }
   [[nodiscard]] const std::string& type() const { return type_; }
   [[nodiscard]] const Configuration& configuration() const { return configuration_; }
   /// Returns the rate of the line [baud].

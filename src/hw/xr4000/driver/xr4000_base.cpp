@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -8,9 +7,7 @@
 #include <vector>
 
 #include "orca/hardware.hpp"
-#include "orca/hw/base_figures.hpp"
-#include "orca/hw/line_driver.hpp"
-#include "orca/hw/line_frames.hpp"
+#include "orca/hw/base_driver.hpp"
 #include "orca/hw/xr4000/request.hpp"
 #include "xr4000_senses.hpp"
 #include "xr4000_session.hpp"
@@ -33,8 +30,6 @@ constexpr Duration kAfterRefusal = 50ms;  // in which the next state says why
 constexpr int kRefusals = 20;             // of N_SetAxes one after the other until we give up
 constexpr Axes kHardest{kMaxAcceleration, kMaxAcceleration, kMaxTurnAcceleration};
 
-Duration as_duration(double seconds) { return Duration(std::llround(1e9 * seconds)); }
-
 /// A Nomad XR4000, a round base that drives in every direction, with 48 sonars and bumpers. The driver talks to an agent on the
 /// robot's computer, which calls the robot's client library (docs/hardware/xr4000.md).
 ///
@@ -42,70 +37,68 @@ Duration as_duration(double seconds) { return Duration(std::llround(1e9 * second
 /// fed no more, so that they go limp. After a fault they stay so until an operator lets the base move again.
 ///
 /// Infrared readings are not published: no public source says how the library's count becomes a distance.
-class Xr4000Base final : public orca::hw::LineDriver {
+class Xr4000Base final : public orca::hw::BaseDriver {
  public:
-  explicit Xr4000Base(orca::hw::HardwareHost& host) : LineDriver(host, "/dev/ttyUSB0", {.baud = 115200}) {}
+  explicit Xr4000Base(orca::hw::HardwareHost& host)
+      : BaseDriver(host, "/dev/ttyUSB0", {.baud = 115200},
+                   {.name = "Nomad",
+                    .usual = {.max_speed = 0.5,
+                              .max_turn_rate = 0.5,
+                              .steer_gain = 1.0,
+                              .big_turn_angle = std::numbers::pi / 3.0,
+                              .big_turn_speed = 0.1,
+                              .type = orca::idl::HOLONOMIC},
+                    .top_speed = 0.001 * kMaxSpeed,
+                    .top_turn_rate = 0.001 * kMaxTurnRate,
+                    .in_file = {{"Nomad XR4000", orca::idl::HOLONOMIC}}}) {}
 
-  std::vector<orca::HardwareFault> prepare() override {
-    std::vector<orca::HardwareFault> faults = prepare_line();
-    for (orca::HardwareFault& fault : base_.read({"Nomad XR4000", orca::idl::HOLONOMIC}))
-      faults.push_back(std::move(fault));
-    if (orca::hw::any_refuses(faults)) return faults;
-    senses_.emplace(as_duration(*sonar_cycle_),
-                    XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)});
-    senses_->describe(base_.traits());
-    for (orca::hw::SensorEndpoint* const sensor : senses_->endpoints()) add_sensor(*sensor);
-    motion_.emplace(base_.within({.max_speed = *max_speed_,
-                                  .max_turn_rate = *max_turn_rate_,
-                                  .steer_gain = 1.0,
-                                  .big_turn_angle = std::numbers::pi / 3.0,
-                                  .big_turn_speed = 0.1,
-                                  .type = orca::idl::HOLONOMIC}),
-                    base_.max_command_age());
-    set_motion(*motion_);
-    return faults;
+ protected:
+  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+    senses_.emplace(orca::from_seconds(*sonar_cycle_),
+                    XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)},
+                    figures().traits());
+    return senses_->endpoints();
   }
 
-  [[nodiscard]] orca::idl::Robot description() const override {
-    orca::idl::Robot robot;
-    robot.name(*name_);
+  void describe(orca::idl::Robot& robot) const override {
     robot.vendor("Nomadic Technologies");
     robot.model("XR4000");
     robot.radius(*radius_);
     robot.bumper_radius(*radius_);
-    if (*radius_ == kBodyRadius) base_.describe(robot);
-    robot.drives().push_back(describe_wheels());
-    robot.drives().back().speed_change(base_.within(*max_acceleration_));
-    robot.sonar_rings().push_back(senses_->describe_sonars(device()));
-    return robot;
+    if (*radius_ == kBodyRadius) figures().describe(robot);
+    robot.drives().back().speed_change(figures().within(*max_acceleration_));
+    robot.sonar_rings().push_back(senses_->describe_sonars());
   }
 
- protected:
-  Status begin(TimePoint now) override {
-    session_.emplace(line());
-    return session_->begin(now);
+  orca::hw::LineSession& session() override {
+    if (!session_) session_.emplace(line());
+    return *session_;
   }
 
-  Result<bool> advance(TimePoint now) override {
-    Result<bool> done = session_->advance(now);
-    if (!done || !*done) return done;
-    meet(now);
-    return true;
+  // The robot's settings may be those of others, and its axes may move.
+  Status meet() override {
+    log_connected("the agent of an XR4000");
+    rest();
+    wants_stop_ = true;
+    refusals_ = 0;
+    complaint_.clear();
+    senses_->connect();
+    has_timer_ = false;
+    const TimePoint now = host().now();
+    questions_ = {{Type::get_state, kReadingPeriod, now},
+                  {Type::get_bumper, kReadingPeriod, now},
+                  {Type::get_sonar, kReadingPeriod, now}};
+    if (senses_->has_battery()) questions_.push_back({Type::get_battery, kBatteryPeriod, now});
+    return orca::ok();
   }
 
-  [[nodiscard]] TimePoint next_step() const override { return session_->deadline(); }
   [[nodiscard]] TimePoint next_turn() const override {
-    if (!session_->is_free()) return session_->deadline();
+    if (!session_->is_free()) return session_->next();
     TimePoint next = powered_ ? feed_at_ : orca::kForever;
     if (must_say()) next = std::min(next, say_at_);
     for (const Question& question : questions_) next = std::min(next, question.next);
     return next;
   }
-  [[nodiscard]] orca::hw::LineCounts counts() const override {
-    return orca::hw::counts_of(session_->statistics());
-  }
-  [[nodiscard]] Duration longest_silence() const override { return 1s; }
-
   void stop() override {
     const bool brakes = powered_ || senses_->moves();
     rest();
@@ -149,21 +142,6 @@ class Xr4000Base final : public orca::hw::LineDriver {
     TimePoint next{};
   };
 
-  // The agent has answered. The robot's settings may be those of others, and its axes may move.
-  void meet(TimePoint now) {
-    host().write_log(orca::log::Level::info, "connected to the agent of an XR4000");
-    rest();
-    wants_stop_ = true;
-    refusals_ = 0;
-    complaint_.clear();
-    senses_->connect();
-    has_timer_ = false;
-    questions_ = {{Type::get_state, kReadingPeriod, now},
-                  {Type::get_bumper, kReadingPeriod, now},
-                  {Type::get_sonar, kReadingPeriod, now}};
-    if (senses_->has_battery()) questions_.push_back({Type::get_battery, kBatteryPeriod, now});
-  }
-
   // From now on it is told nothing that moves it, and its motion timer is not fed.
   void rest() {
     powered_ = false;
@@ -195,7 +173,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
           "its axes report a motion error; is a wheel blocked, or a motor too hot? If the error "
           "stays, switch the robot off and on");
     brake_what_moves();
-    if (state() != orca::hw::HardwareState::active) return orca::ok();
+    if (!is_active()) return orca::ok();
     guard();
     senses_->publish_state();
     return orca::ok();
@@ -221,7 +199,7 @@ class Xr4000Base final : public orca::hw::LineDriver {
     rest();
     brakes_ = was_powered;
     wants_stop_ = true;
-    motion_->hold(reason + ", then orcactl estop --release");
+    await_person(reason);
   }
 
   // Axes that are not ready refuse; the next state says why.
@@ -252,13 +230,12 @@ class Xr4000Base final : public orca::hw::LineDriver {
 
   // A sensor that fails gives no readings, and says so once.
   Status take_readings(const Message& answer, TimePoint stamp) {
-    const bool is_active = state() == orca::hw::HardwareState::active;
-    const Status taken = senses_->take(answer, stamp, wish_.velocity, is_active);
-    if (is_active) motion_->press(senses_->pressed());
+    const Status taken = senses_->take(answer, stamp, wish_.velocity, is_active());
+    if (is_active()) motion()->press(senses_->pressed());
     const std::string complaint = taken.ok() ? "" : taken.error().text();
     if (!taken.ok() && complaint != complaint_) {
       complaint_ = complaint;
-      host().write_log(orca::log::Level::warning, "a sensor gives nothing: " + complaint);
+      warn("a sensor gives nothing: " + complaint);
     }
     return orca::ok();
   }
@@ -302,28 +279,15 @@ class Xr4000Base final : public orca::hw::LineDriver {
   // An emergency brakes with all that the axes can, and so harder than the library's stop mode.
   [[nodiscard]] Frame drive_axes(const DriveSetpoint& setpoint) const {
     return orca::hw::xr4000::drive(
-        speeds_of(base_.calibration().to_controller(setpoint.velocity)),
+        speeds_of(figures().calibration().to_controller(setpoint.velocity)),
         setpoint.at_once ? kHardest
-                         : accelerations_of(base_.within(*max_acceleration_), *max_turn_acceleration_));
+                         : accelerations_of(figures().within(*max_acceleration_), *max_turn_acceleration_));
   }
 
   [[nodiscard]] bool is_ready() const {
     return (senses_->status() & (kEmergencyStop | kJoystick | kMotionError)) == 0;
   }
 
-  orca::Param<std::string> name_{*this, "name", "Nomad", {.text = "Name of this robot, one word."}};
-  orca::Param<double> max_speed_{*this,
-                                 "max_speed",
-                                 0.5,
-                                 {.unit = "m/s",
-                                  .min = 0.0,
-                                  .max = 0.001 * kMaxSpeed,
-                                  .text = "Greatest speed, in whatever direction."}};
-  orca::Param<double> max_turn_rate_{
-      *this,
-      "max_turn_rate",
-      0.5,
-      {.unit = "rad/s", .min = 0.0, .max = 0.001 * kMaxTurnRate, .text = "Greatest turn rate."}};
   orca::Param<double> max_acceleration_{*this,
                                         "max_acceleration",
                                         0.5,
@@ -365,10 +329,8 @@ class Xr4000Base final : public orca::hw::LineDriver {
        .text = "Voltage of one count of the battery; measure it. 0: not known, and no battery is reported."}};
   orca::Param<std::int64_t> battery_channel_{
       *this, "battery_channel", 0, {.min = 0, .max = 3, .text = "Channel of the battery that is reported."}};
-  orca::hw::BaseFigures base_{*this};
 
   std::optional<XrSenses> senses_;
-  std::optional<orca::hw::MotionHW> motion_;
   std::optional<XrSession> session_;
   bool has_timer_ = false;  // it has accepted its time-out
   std::vector<Question> questions_;

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/base_odometry.hpp"
-#include "orca/hw/endpoints.hpp"
+#include "orca/hw/base_senses.hpp"
 #include "orca/hw/xr4000/answers.hpp"
 #include "orca/hw/xr4000/odometry.hpp"
-#include "orca/idl/hardware.hpp"
-#include "orca/idl/navigation.hpp"
-#include "orca/idl/sensing.hpp"
 
 namespace orca::hw::xr4000 {
 
@@ -36,17 +32,12 @@ class XrSenses {
   };
 
   /// @param cycle  [s] in which all sonars fire once.
-  XrSenses(Duration cycle, const BatteryScale& scale);
-  /// @pre  nothing has been published.
-  void describe(const SenseTraits& traits) {
-    odometry_.describe(traits);
-    sonar_errors_ = traits.sonars;
-  }
+  XrSenses(Duration cycle, const BatteryScale& scale, const SenseTraits& traits);
 
   [[nodiscard]] std::vector<SensorEndpoint*> endpoints();
 
-  /// Returns what the sonars are, for clients that ask what the robot has. @param port  the line, as the graph names it.
-  [[nodiscard]] idl::SonarRing describe_sonars(const std::string& port) const;
+  /// Returns what the sonars are, for clients that ask what the robot has.
+  [[nodiscard]] idl::SonarRing describe_sonars() const;
 
   /// Begins anew with a robot. The pose goes on from where it was.
   void connect();
@@ -64,7 +55,7 @@ class XrSenses {
 
   [[nodiscard]] bool has_battery() const { return scale_.volts_per_count > 0.0; }
   /// Returns the bumpers that are pressed, for MotionHW::press().
-  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const { return bumpers_.pressed(); }
   /// Returns whether the axes move.
   [[nodiscard]] bool moves() const { return !(state_.speeds == Axes{}); }
   /// Returns the bits of the axes' status.
@@ -73,28 +64,17 @@ class XrSenses {
   [[nodiscard]] bool has_restarted(const State& next) const;
 
  private:
-  void take_sonars(const SonarReadings& readings, TimePoint stamp);
   void take_touches(const BumperReadings& readings, const Twist2& told);
-  void publish_sonars(TimePoint stamp);
-  void publish_bumpers(TimePoint stamp);
-  void publish_battery(const BatteryReadings& readings, TimePoint stamp);
 
-  const Duration cycle_;
   const BatteryScale scale_;
   BaseOdometry odometry_;
-  RangeErrorGuess sonar_errors_;
-  SensorHW<idl::SonarRangeReadings> sonar_;
-  SensorHW<idl::BumperReadings> bumpers_;
+  BaseSonars sonars_;
+  BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
 
   IntegratorOdometry integrator_;
   State state_;  // the last one
   TimePoint stamp_{};
-  SonarReadings ranges_{};
-  TimePoint sonars_published_{};             // last
-  std::array<TimePoint, kSonars> stamps_{};  // of each
-  BumperReadings touches_{};
-  std::array<Vec2, kSwitches> outwards_{};  // of each pressed switch
 };
 
 }  // namespace orca::hw::xr4000

@@ -7,7 +7,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/line_frames.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/xr4000/answers.hpp"
 
 namespace orca::hw::xr4000 {
@@ -19,7 +19,7 @@ namespace orca::hw::xr4000 {
 ///
 /// Thread contract: not synchronised; the container's strand.
 /// @source  docs/hardware/xr4000.md
-class XrSession {
+class XrSession final : public LineSession {
  public:
   /// A function that takes an answer, and when its first byte arrived. The answer is valid only during the call.
   using Take = std::function<void(const Message& answer, TimePoint stamp)>;
@@ -27,13 +27,12 @@ class XrSession {
   /// @param link  outlives the object.
   explicit XrSession(link::ByteLink& link) : link_(link) {}
 
-  /// Begins anew. @pre  the link is open.
-  Status begin(TimePoint now);
-  /// Goes on with the search for the agent.
-  /// @return whether it has answered.
-  /// @errors  not_found if nothing answers, with what to do; unavailable if it is an agent of another version or robot, or if its
-  /// library has failed; those of the link.
-  Result<bool> advance(TimePoint now);
+  Status begin(TimePoint now) override;
+  /// @errors  those of LineSession; unavailable if it is an agent of another version or robot, or if its library has failed.
+  Result<bool> advance(TimePoint now) override;
+  /// Returns when the last request has waited too long for its answer; kForever if it was answered.
+  [[nodiscard]] TimePoint next() const override { return asked_ ? deadline_ : kForever; }
+  [[nodiscard]] LineCounts counts() const override { return counts_of(frames_.statistics()); }
 
   /// Reads what there is and hands out the answers. @pre  the agent has been found.
   /// @errors  those of the link.
@@ -41,15 +40,11 @@ class XrSession {
 
   /// Returns whether requests may be sent: the last one was answered, or had waited too long when receive() was called.
   [[nodiscard]] bool is_free() const { return !asked_; }
-  /// Returns when the last request has waited too long for its answer; kForever if it was answered.
-  [[nodiscard]] TimePoint deadline() const { return asked_ ? deadline_ : kForever; }
   /// Sends a request, whose answer is awaited, behind those of the requests before it.
   /// @errors  those of ByteLink::write().
   Status ask(const Frame& request, TimePoint now);
   /// Sends a request whose answer is of no interest.
   Status tell(const Frame& request) { return link_.write(request.view()); }
-
-  [[nodiscard]] const framing::Statistics& statistics() const { return frames_.statistics(); }
 
  private:
   Status meet(const Message& answer);

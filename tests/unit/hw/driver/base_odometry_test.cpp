@@ -25,8 +25,7 @@ Pose2 published(BaseOdometry& odometry) {
 // Returns where a base ends whose controller counts an arc in small steps.
 Pose2 end_of(const Calibration& calibration, const Travel2& counted) {
   constexpr int kSteps = 1000;
-  BaseOdometry odometry(std::chrono::milliseconds(100));
-  odometry.describe({.calibration = calibration});
+  BaseOdometry odometry(std::chrono::milliseconds(100), {.calibration = calibration});
   Pose2 pose;
   odometry.publish(pose, {}, TimePoint{});
   for (int i = 0; i < kSteps; ++i) {
@@ -80,8 +79,7 @@ TEST_CASE("what a calibrated base is told, and what it tells of its velocity, ag
 TEST_CASE("odometry whose errors are guessed tells how uncertain it is, and otherwise that it is not known",
           "[hw][odometry]") {
   const auto covariance_after = [](const SenseTraits& traits) {
-    BaseOdometry odometry(std::chrono::milliseconds(100));
-    odometry.describe(traits);
+    BaseOdometry odometry(std::chrono::milliseconds(100), traits);
     odometry.publish({}, {}, TimePoint{});
     for (int i = 1; i <= 100; ++i) odometry.publish({0.02 * i, 0.0, 0.0}, {}, TimePoint{});
     return object_cast<idl::Odometry>(odometry.endpoint().latest())->covariance();

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "orca/base/time.hpp"
 #include "orca/component/param.hpp"
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/endpoints.hpp"
@@ -14,12 +13,7 @@
 
 namespace orca::hw {
 
-/// Returns whether one of them is more than a warning.
-[[nodiscard]] inline bool any_refuses(const std::vector<HardwareFault>& faults) {
-  return !std::ranges::all_of(faults, &HardwareFault::only_warns);
-}
-
-/// The parameters that the drivers of all bases have: the robot's file, for how long a command holds, and how far the base goes.
+/// The parameters of a base of which the robot's file says more: the file, and how far the base goes.
 ///
 /// Thread contract: the driver's.
 class BaseFigures {
@@ -33,9 +27,6 @@ class BaseFigures {
              .text =
                  "The robot's file, which the simulator reads, too: it limits speeds beside the parameters, "
                  "and says how large the robot is. Empty: what the driver knows of such robots."}),
-        max_command_age_(
-            owner, "max_command_age", 0.2,
-            {.unit = "s", .min = 0.02, .max = 1.0, .text = "Age of a command at which the base stops."}),
         distance_scale_(
             owner, "distance_scale", 1.0,
             {.min = 0.5,
@@ -66,7 +57,6 @@ class BaseFigures {
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
-  [[nodiscard]] Duration max_command_age() const { return from_seconds(*max_command_age_); }
   [[nodiscard]] Calibration calibration() const { return {*distance_scale_, *turn_scale_}; }
   /// Returns the calibration, and how wrong the senses are as far as the file guesses it.
   [[nodiscard]] SenseTraits traits() const;
@@ -77,7 +67,6 @@ class BaseFigures {
 
  private:
   Param<std::string> file_;
-  Param<double> max_command_age_;
   Param<double> distance_scale_;
   Param<double> turn_scale_;
   std::optional<RobotFigures> figures_;

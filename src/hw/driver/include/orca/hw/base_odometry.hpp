@@ -42,14 +42,10 @@ struct SenseTraits {
 class BaseOdometry {
  public:
   /// @param period  from reading to reading [s].
-  explicit BaseOdometry(Duration period) : endpoint_(period) {}
+  explicit BaseOdometry(Duration period, const SenseTraits& traits = {})
+      : endpoint_(period), calibration_(traits.calibration), uncertainty_(traits.odometry) {}
 
   [[nodiscard]] SensorEndpoint& endpoint() { return endpoint_; }
-  /// @pre  nothing has been published.
-  void describe(const SenseTraits& traits) {
-    calibration_ = traits.calibration;
-    uncertainty_ = traits.odometry;
-  }
 
   /// Passes a reading on.
   /// @param pose      as the controller counts it, without jumps, from 0 at first. Without calibration it is passed on as it is. What was
@@ -61,7 +57,7 @@ class BaseOdometry {
   [[nodiscard]] Pose2 calibrated(const Pose2& counted);
 
   SensorHW<idl::Odometry> endpoint_;
-  Calibration calibration_;
+  const Calibration calibration_;
   std::optional<OdometryUncertainty> uncertainty_;
   Pose2 counted_;  // the last one
   Pose2 pose_;     // calibrated

@@ -8,14 +8,14 @@
 
 #include "orca/component/param.hpp"
 #include "orca/hw/container.hpp"
+#include "orca/hw/line_session.hpp"
 #include "orca/hw/link/byte_link.hpp"
-#include "orca/idl/hardware.hpp"
 
 namespace orca::hw {
 
 /// A driver of a device at the end of one line (thesis 10.2). It opens the line that the parameter `device` names, keeps a log of
 /// its bytes if `byte_log` names a file, and opens it again when the device has failed and may have come back. A driver adds
-/// what is said over the line.
+/// a session, which knows what is said over the line.
 ///
 /// Thread contract: as HardwareContainer. What is protected runs on the container's strand.
 class LineDriver : public HardwareContainer {
@@ -35,18 +35,20 @@ class LineDriver : public HardwareContainer {
   /// Returns whether the line has a rate, as a serial one has.
   [[nodiscard]] bool has_rate() const { return line_->byte_time() > 0.0; }
 
-  /// Returns the description of a base's wheels, by its limits. @pre  it has a motion endpoint.
-  [[nodiscard]] idl::Drive describe_wheels() const;
-  /// Describes each of its sensors by the object that it delivers and the time between two: odometry, bumpers, battery. Those that
-  /// have a description of their own are left out: lasers, and rings of sonars.
-  [[nodiscard]] std::vector<idl::Sensor> describe_senses() const;
+  /// Returns the session, which is made the first time. Called each time when the line has been opened.
+  virtual LineSession& session() = 0;
+  /// Takes note of the device, which the session has found.
+  /// @errors  of the device, if it is of no use.
+  virtual Status meet() { return ok(); }
+  /// Writes to the log that the device is connected. @param rate  of the line [baud], which is told if it has one.
+  void log_connected(const std::string& device, std::uint32_t rate = 0) const;
+  void warn(const std::string& text) const { host().write_log(log::Level::warning, text); }
+  [[nodiscard]] LineCounts counts() const override {
+    return session_ != nullptr ? session_->counts() : LineCounts{};
+  }
 
-  /// Begins to find out what is at the other end. @pre  the line has just been opened.
-  virtual Status begin(TimePoint now) = 0;
-  /// Goes on with that, as DriverFunctions::probe().
-  virtual Result<bool> advance(TimePoint now) = 0;
-  /// Returns when advance() has something to do, even if nothing comes. @pre  begin() was called.
-  [[nodiscard]] virtual TimePoint next_step() const = 0;
+  /// Returns when the session has something to do, even if nothing comes, as long as it does not know the device.
+  [[nodiscard]] virtual TimePoint next_step() const { return session_->next(); }
   /// Returns when poll() has something to do, even if nothing comes.
   [[nodiscard]] virtual TimePoint next_turn() const = 0;
   /// Says the last thing before the line is closed; also after a fault, when the line may still work.
@@ -70,6 +72,7 @@ class LineDriver : public HardwareContainer {
                                         "device=\"replay:FILE\" plays it back."}};
   const link::Line first_;
   std::unique_ptr<link::ByteLink> line_;
+  LineSession* session_ = nullptr;
   bool is_made_ = false;  // for the clock of the run
   bool is_open_ = false;
   bool rings_ = false;  // at input, where it has no descriptor
