@@ -3,21 +3,6 @@
 
 namespace orca::sim {
 
-std::string_view to_string(Realism realism) {
-  switch (realism) {
-    case Realism::ideal: return "ideal";
-    case Realism::nominal: return "nominal";
-    case Realism::harsh: return "harsh";
-  }
-  return "unknown";
-}
-
-std::optional<Realism> realism_from(std::string_view word) {
-  for (const Realism r : {Realism::ideal, Realism::nominal, Realism::harsh})
-    if (word == to_string(r)) return r;
-  return std::nullopt;
-}
-
 ErrorLevels error_levels(Realism realism) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   switch (realism) {

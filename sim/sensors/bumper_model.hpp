@@ -7,7 +7,7 @@
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/readings.hpp"
-#include "orca/sim/sensors.hpp"
+#include "orca/sim/robot_model.hpp"
 
 namespace orca::sim::detail {
 

@@ -8,7 +8,7 @@
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
-#include "orca/sim/sensors.hpp"
+#include "orca/sim/robot_model.hpp"
 #include "tick_span.hpp"
 
 namespace orca::sim::detail {

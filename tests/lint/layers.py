@@ -30,7 +30,7 @@ PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
 BATCH = "src/runtime/batch"
-SIM_MODEL = ("geometry", "xml", "base")
+SIM_MODEL = ("robot_file", "geometry", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
 SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
@@ -47,6 +47,7 @@ LAYERS = (
     Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
+    Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base")),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
     Layer("patterns_endpoints", ("src/patterns/endpoints", *(f"src/patterns/include/orca/patterns/{name}" for name in (
@@ -73,7 +74,7 @@ LAYERS = (
     Layer("hw_driver", ("src/hw/driver",), tuple(f"orca/hw/{name}.hpp" for name in (
         "arrivals", "base_driver", "base_figures", "base_odometry", "base_senses", "laser_driver", "laser_place", "line_driver", "line_frames", "line_session",
         "robot_figures")),
-          ("hw_framing", "hw_link", "geometry_objects", "xml", *DEVICE), ("eigen", "fmt")),
+          ("hw_framing", "hw_link", "geometry_objects", "robot_file", "xml", *DEVICE), ("eigen", "fmt")),
     Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),
     Layer("nomad_scout_driver", ("src/hw/nomad_scout/driver",), (), ("hw_nomad_scout", *DRIVER), ("fmt",)),
     Layer("p2os_driver", ("src/hw/p2os/driver",), (), ("hw_p2os", *DRIVER), ("fmt",)),
@@ -100,7 +101,7 @@ LAYERS = (
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
-        "event", "figures", "floor", "gripper_order", "guesses", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "sensors", "shape", "snapshot", "walker", "world_model")),
+        "event", "figures", "floor", "gripper_order", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),
     Layer("sim_rays", ("sim/rays",), ("orca/sim/caster.hpp",), SIM_RAYS, ("eigen", "fmt"), module="sim"),
     Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),

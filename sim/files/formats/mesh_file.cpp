@@ -9,14 +9,15 @@
 #include <utility>
 
 #include "orca/base/input_file.hpp"
-#include "values.hpp"
+#include "orca/robot_file/values.hpp"
 
 namespace orca::sim {
 namespace detail {
 namespace {
 
 bool near_enough(const Vec3& p) {
-  return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
+  return std::fabs(p.x) <= robot_file::values::kFarthest && std::fabs(p.y) <= robot_file::values::kFarthest &&
+         std::fabs(p.z) <= robot_file::values::kFarthest;
 }
 
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }

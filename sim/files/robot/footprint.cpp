@@ -88,12 +88,6 @@ std::pair<double, double> height_range_of(const std::vector<Part>& parts) {
   return range;
 }
 
-Pose2 SonarRing::transducer(std::size_t k) const {
-  const double angle = angles.empty() ? first_angle + static_cast<double>(k) * pitch : angles[k];
-  const Vec2 p = positions.empty() ? radius * direction(angle) : positions[k];
-  return center * Pose2{p.x, p.y, angle};
-}
-
 const SonarRing* RobotModel::sonar(std::string_view ring) const {
   const auto found = std::ranges::find(sonars, ring, &SonarRing::name);
   return found == sonars.end() ? nullptr : &*found;

@@ -4,36 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codes.hpp"
 #include "footprint.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
-#include "orca/xml/names.hpp"
-#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
 namespace {
 
 constexpr double kUpright = 1.0 - 1e-9;
-
-std::vector<std::string> names_of(const xml::Element& robot, std::string_view kind) {
-  std::vector<std::string> names;
-  for (const xml::Element& e : robot.children())
-    if (const xml::Attribute* name = e.attribute("name"); name != nullptr && e.name() == kind)
-      names.push_back(name->value);
-  return names;
-}
-
-// Reports an attribute that names none of the things.
-void check_name(const std::vector<std::string>& names, const xml::Attributes& e, const char* attribute) {
-  const xml::Attribute* a = e.readable(attribute);
-  if (a == nullptr || std::ranges::find(names, a->value) != names.end()) return;
-  e.error_at(attribute, robot_codes::kUnknownName,
-             std::string("there is no ") + attribute + " " + in_quotes(a->value) +
-                 xml::did_you_mean(xml::nearest_name(a->value, names)));
-}
 
 void mount_turret(Turret& turret, const UrdfBody& body, const xml::Attributes& e) {
   const auto found = body.joints.find(turret.joint);
@@ -120,13 +100,6 @@ void mount_gripper(RobotModel& model, const UrdfBody& body, const UrdfJoint* tur
 }
 
 }  // namespace
-
-void check_mounts(const xml::Element& robot, const xml::Element& orca, xml::Reporter& reporter) {
-  if (const xml::Element* turret = only_child(orca, "turret"))
-    check_name(names_of(robot, "joint"), {*turret, kRobotFile, reporter}, "joint");
-  const std::vector<std::string> links = names_of(robot, "link");
-  for (const xml::Element& e : orca.children()) check_name(links, {e, kRobotFile, reporter}, "link");
-}
 
 void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& orca,
                    xml::Reporter& reporter) {

@@ -8,9 +8,6 @@
 
 namespace orca::sim::detail {
 
-// Reports each element of `orca` that names a link or joint which is not in `robot`.
-void check_mounts(const xml::Element& robot, const xml::Element& orca, xml::Reporter& reporter);
-
 // Gives the model's turret, gripper and sensors their places on the body, those with a wrong name excepted. Reports a
 // turret whose joint is not fit for one, a gripper inside the body or on the turret, and links that are tilted.
 // @pre  the model has its footprint.

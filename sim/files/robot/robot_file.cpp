@@ -3,15 +3,12 @@
 
 #include <algorithm>
 
-#include "codes.hpp"
 #include "mounts.hpp"
-#include "orca/geometry/usual_figures.hpp"
+#include "orca/sim/world.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/extras.hpp"
 #include "orca/xml/number.hpp"
-#include "robot_extension.hpp"
-#include "robot_rules.hpp"
 #include "urdf_body.hpp"
 #include "urdf_check.hpp"
 #include "urdf_parts.hpp"
@@ -20,6 +17,8 @@ namespace orca::sim {
 namespace {
 
 namespace robot_codes = detail::robot_codes;
+
+static_assert(robot_file::kShortestPeriod == World::kTick);
 
 constexpr double kBumperTolerance = 0.001;     // [m]
 constexpr double kBelowFloorTolerance = 0.01;  // [m] wheels of soft rubber may be drawn into the floor
@@ -61,18 +60,6 @@ void check_floor(const RobotModel& model, const xml::Element& root, xml::Reporte
           depth + "\"");
 }
 
-// Says what the readers of <orca> have taken because the file does not say it.
-void report_usual_figures(const xml::Element& orca, xml::Reporter& reporter) {
-  const xml::Element* const drive = detail::only_child(orca, "drive");
-  const xml::Element* const odometry = detail::only_child(orca, "odometry");
-  const std::string text = usual_figures_text(
-      drive != nullptr && drive->attribute("steer_gain") == nullptr,
-      odometry != nullptr && std::ranges::none_of(odometry->children(), [](const xml::Element& child) {
-        return child.name() == "wheel_errors";
-      }));
-  if (!text.empty()) reporter.diagnostics().warning(robot_codes::kUsualFigures, orca.position(), text);
-}
-
 // @pre  the root is <robot> and has an <orca>; urdf and extension are checked as far as they stand alone.
 void read_body(const xml::Element& root, const xml::Element& orca, const detail::MeshHulls& hulls,
                RobotModel& model, xml::Reporter& reporter) {
@@ -107,18 +94,12 @@ std::optional<RobotModel> read_root(const xml::Element& root, std::string text, 
   const bool urdf_is_sound = diagnostics.error_count() == before;
   RobotModel model;
   model.urdf = std::move(text);
-  const xml::Element* orca = detail::only_child(root, "orca");
-  if (orca == nullptr)
-    return robot.refuse(robot_codes::kMissing,
-                        "<robot> needs the element <orca radius=\"...\"> with its drive and sensors");
-  for (const xml::Element& e : root.children())
-    if (e.name() == "orca" && &e != orca)
-      reporter.error(robot_codes::kDuplicate, e.position(), "there is an <orca> already; a robot has one");
-  detail::read_extension(*orca, model, reporter);
-  detail::check_mounts(root, *orca, reporter);
+  const xml::Element* const orca = robot_file::read_devices(root, model, reporter);
+  if (orca == nullptr) return std::nullopt;
   if (urdf_is_sound) read_body(root, *orca, hulls, model, reporter);
   if (diagnostics.error_count() != before) return std::nullopt;
-  report_usual_figures(*orca, reporter);
+  if (const std::string usual = robot_file::usual_figures_text(*orca); !usual.empty())
+    diagnostics.warning(robot_codes::kUsualFigures, orca->position(), usual);
   return model;
 }
 

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "codes.hpp"
 #include "files/formats/mesh_place.hpp"
 #include "motion/hull_corners.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
-#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "urdf_rotations.hpp"
 
-#include "codes.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/xml/attributes.hpp"
-#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {

@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "codes.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/names.hpp"
-#include "robot_rules.hpp"
 #include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
@@ -164,11 +162,6 @@ class Tree {
 };
 
 }  // namespace
-
-const xml::Element* only_child(const xml::Element& element, std::string_view name) {
-  const auto found = std::ranges::find(element.children(), name, &xml::Element::name);
-  return found == element.children().end() ? nullptr : &*found;
-}
 
 void check_tree(const xml::Element& robot, xml::Reporter& reporter) { Tree(robot, reporter).check(); }
 

@@ -9,11 +9,14 @@
 
 #include "codes.hpp"
 #include "files/formats/gzip_file.hpp"
-#include "files/formats/values.hpp"
 #include "orca/base/text.hpp"
+#include "orca/robot_file/values.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
+
 namespace {
 
 constexpr std::string_view kHeader = "world,x,y";

@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "codes.hpp"
-#include "files/formats/values.hpp"
+#include "orca/robot_file/values.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
+
 namespace {
 
 constexpr std::size_t kMostVisitors = 1000;

@@ -4,10 +4,13 @@
 #include <algorithm>
 
 #include "codes.hpp"
-#include "files/formats/values.hpp"
 #include "orca/base/text.hpp"
+#include "orca/robot_file/values.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
+
 namespace {
 
 // The values of a family's parameters, with a record of whether all were valid.

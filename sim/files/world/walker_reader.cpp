@@ -4,10 +4,13 @@
 #include <algorithm>
 
 #include "codes.hpp"
-#include "files/formats/values.hpp"
 #include "orca/base/portable_math.hpp"
+#include "orca/robot_file/values.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
+
 namespace {
 
 constexpr std::size_t kMaxTrackCorners = 100;

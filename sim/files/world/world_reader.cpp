@@ -8,14 +8,16 @@
 
 #include "codes.hpp"
 #include "files/formats/mesh_file.hpp"
-#include "files/formats/values.hpp"
 #include "generator_reader.hpp"
 #include "orca/base/text.hpp"
+#include "orca/robot_file/values.hpp"
 #include "orca/sim/bitmap.hpp"
 #include "walker_reader.hpp"
 #include "world_rules.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
 
 namespace {
 

@@ -4,10 +4,13 @@
 #include <array>
 
 #include "codes.hpp"
-#include "files/formats/values.hpp"
+#include "orca/robot_file/values.hpp"
 #include "orca/sim/event.hpp"
 
 namespace orca::sim::detail {
+
+using namespace robot_file::values;
+
 namespace {
 
 using xml::ElementRule;

@@ -26,38 +26,40 @@ std::vector<HardwareFault> BaseFigures::read(const Expected& expected) {
   std::vector<HardwareFault> faults;
   figures_ = read_robot_figures(*file_, faults);
   if (!figures_) return faults;
-  if (!figures_->wheels)
+  type_ = expected.type;
+  const robot_file::Drive& drive = figures_->drive;
+  if (figures_->fixed)
     faults.push_back({"robot", in_quotes(*file_) + " has no <drive>: it is no file of a robot that moves"});
-  else if (figures_->wheels->type != expected.type)
+  else if (to_string(drive.kind) != name_of(expected.type))
     faults.push_back({"robot", in_quotes(*file_) + " is the file of a robot whose drive is " +
-                                   name_of(figures_->wheels->type) + ", and the drive of this one is " +
+                                   std::string(to_string(drive.kind)) + ", and the drive of this one is " +
                                    name_of(expected.type)});
-  else if (are_far_apart(figures_->wheels->track, expected.track))
+  else if (are_far_apart(drive.track, expected.track))
     faults.push_back({.param = "robot",
-                      .text = in_quotes(*file_) + " has a track of " +
-                              xml::number_text(figures_->wheels->track) + " m, and a " + expected.model +
-                              " has one of about " + xml::number_text(rounded(expected.track)) +
+                      .text = in_quotes(*file_) + " has a track of " + xml::number_text(drive.track) +
+                              " m, and a " + expected.model + " has one of about " +
+                              xml::number_text(rounded(expected.track)) +
                               " m; is it the file of another robot?",
                       .only_warns = true});
-  if (const std::string text = usual_figures_text(false, !figures_->says_wheel_errors); !text.empty())
-    faults.push_back({.param = "robot", .text = in_quotes(*file_) + ": " + text, .only_warns = true});
+  if (!figures_->usual.empty())
+    faults.push_back(
+        {.param = "robot", .text = in_quotes(*file_) + ": " + figures_->usual, .only_warns = true});
   return faults;
 }
 
 DriveLimits BaseFigures::within(DriveLimits limits) const {
-  if (!figures_ || !figures_->wheels) return limits;
-  const RobotFigures::Wheels& wheels = *figures_->wheels;
-  limits.max_speed = std::min(limits.max_speed, wheels.max_speed);
-  limits.max_turn_rate = std::min(limits.max_turn_rate, wheels.max_turn_rate);
-  limits.steer_gain = wheels.steer_gain.value_or(limits.steer_gain);
-  limits.big_turn_angle = wheels.big_turn_angle.value_or(limits.big_turn_angle);
-  limits.big_turn_speed = wheels.big_turn_speed.value_or(limits.big_turn_speed);
+  if (!figures_) return limits;
+  const robot_file::Drive& drive = figures_->drive;
+  limits.max_speed = std::min(limits.max_speed, drive.max_speed);
+  limits.max_turn_rate = std::min(limits.max_turn_rate, drive.max_turn_rate);
+  limits.steer_gain = drive.steer_gain;
+  limits.big_turn_angle = drive.big_turn_angle;
+  limits.big_turn_speed = drive.big_turn_speed;
   return limits;
 }
 
 double BaseFigures::within(double acceleration) const {
-  if (!figures_ || !figures_->wheels) return acceleration;
-  return std::min(acceleration, figures_->wheels->max_acceleration);
+  return figures_ ? std::min(acceleration, figures_->drive.max_acceleration) : acceleration;
 }
 
 void BaseFigures::describe(idl::Robot& robot) const {
@@ -72,9 +74,12 @@ void BaseFigures::describe(idl::Robot& robot) const {
 SenseTraits BaseFigures::traits() const {
   SenseTraits traits{.calibration = calibration()};
   if (!figures_) return traits;
-  traits.sonars = figures_->sonar_errors;
-  if (figures_->wheels && figures_->wheel_errors.is_known())
-    traits.odometry.emplace(figures_->wheels->type, figures_->wheels->track, figures_->wheel_errors);
+  const auto known = std::ranges::find_if(
+      figures_->sonars, [](const robot_file::SonarRing& ring) { return ring.errors.general().is_known(); });
+  if (known != figures_->sonars.end()) traits.sonars = known->errors.general();
+  WheelErrorGuess wheels;
+  if (figures_->odometer) wheels = figures_->odometer->errors.general();
+  traits.odometry.emplace(type_, figures_->drive.track, wheels.is_known() ? wheels : kUsualWheelErrors);
   return traits;
 }
 

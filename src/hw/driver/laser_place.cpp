@@ -28,7 +28,7 @@ void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
   const auto figures = read_robot_figures(*file_, faults);
   if (!figures) return;
   std::vector<std::string> names;
-  for (const RobotFigures::Laser& laser : figures->lasers) names.push_back(laser.name);
+  for (const robot_file::LaserScanner& laser : figures->lasers) names.push_back(laser.name);
   if (names.empty())
     return faults.push_back(
         {"robot", in_quotes(*file_) + " has no laser; leave it away, and set x, y, z and yaw"});
@@ -36,14 +36,14 @@ void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
     return faults.push_back({"mount", "the robot's file has several lasers; name one of " + listed(names)});
   const auto found = mount_->empty()
                          ? figures->lasers.begin()
-                         : std::ranges::find(figures->lasers, *mount_, &RobotFigures::Laser::name);
+                         : std::ranges::find(figures->lasers, *mount_, &robot_file::LaserScanner::name);
   if (found == figures->lasers.end())
     return faults.push_back(
         {"mount", "the robot's file has no laser " + in_quotes(*mount_) + "; lasers: " + listed(names)});
-  place_ = found->place;
+  place_ = found->center;
   height_ = found->height;
   sense_ = found->upside_down ? -1.0 : 1.0;
-  errors_ = found->errors;
+  errors_ = found->errors.general();
 }
 
 }  // namespace orca::hw

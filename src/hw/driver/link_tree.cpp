@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "link_tree.hpp"
 
-#include <sstream>
-#include <utility>
-
 #include "orca/base/portable_math.hpp"
-#include "orca/xml/number.hpp"
+#include "orca/robot_file/reader.hpp"
+#include "orca/robot_file/rules.hpp"
+#include "orca/xml/attributes.hpp"
 
 namespace orca::hw {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
+using robot_file::only_child;
 using xml::Element;
 
 // Returns the rotation by roll, then pitch, then yaw, about axes that stay.
@@ -28,25 +28,16 @@ Matrix3d turned(double roll, double pitch, double yaw) {
 
 }  // namespace
 
-const Element* child_of(const Element& parent, std::string_view name) {
-  for (const Element& e : parent.children())
-    if (e.name() == name) return &e;
-  return nullptr;
-}
-
-std::string text_of(const Element& e, std::string_view name) {
-  const xml::Attribute* const a = e.attribute(name);
-  return a != nullptr ? a->value : "";
-}
-
-LinkTree::LinkTree(const Element& robot, Complain complain) : complain_(std::move(complain)) {
+LinkTree::LinkTree(const Element& robot, xml::Reporter& reporter) : reporter_(reporter) {
+  const auto link = [&](const Element* e) {
+    return e != nullptr ? xml::Attributes(*e, robot_file::kRobotFile, reporter).text("link").value_or("")
+                        : "";
+  };
   for (const Element& e : robot.children()) {
-    const Element* const parent = child_of(e, "parent");
-    const Element* const below = child_of(e, "child");
-    if (e.name() != "joint" || parent == nullptr || below == nullptr) continue;
-    const Element* const at = child_of(e, "origin");
-    joints_[text_of(*below, "link")] = {text_of(*parent, "link"),
-                                        at != nullptr ? origin(*at) : Isometry3d::Identity()};
+    if (e.name() != "joint") continue;
+    const Element* const at = only_child(e, "origin");
+    joints_[link(only_child(e, "child"))] = {link(only_child(e, "parent")),
+                                             at != nullptr ? origin(*at) : Isometry3d::Identity()};
   }
 }
 
@@ -70,18 +61,9 @@ Isometry3d LinkTree::origin(const Element& e) const {
 }
 
 std::array<double, 3> LinkTree::three(const Element& e, const char* name) const {
-  std::array<double, 3> values{};
-  std::istringstream words(text_of(e, name));
-  std::string word;
-  std::size_t count = 0;
-  for (; words >> word; ++count) {
-    const Result<double> value = xml::parse_number(word);
-    if (!value || count == values.size()) break;
-    values[count] = *value;
-  }
-  if (count != 0 && count != values.size())
-    complain_(e, std::string(name) + " needs three numbers, as in \"0.1 0 0.3\"");
-  return values;
+  const xml::Attributes attributes(e, robot_file::kRobotFile, reporter_);
+  const auto values = attributes.has(name) ? attributes.bare_numbers(name, 3) : std::nullopt;
+  return values ? std::array{(*values)[0], (*values)[1], (*values)[2]} : std::array<double, 3>{};
 }
 
 }  // namespace orca::hw

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/robot_file/reader.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::hw {
@@ -13,12 +14,14 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using robot_file::only_child;
 using xml::Element;
 
 constexpr double kSame = 1e-9;  // [m] below which two places are one
 
 double number(const Element& e, const char* name) {
-  return xml::parse_number(text_of(e, name)).value_or(0.0);
+  const xml::Attribute* const a = e.attribute(name);
+  return a != nullptr ? xml::parse_number(a->value).value_or(0.0) : 0.0;
 }
 
 // A part of the body, seen from above.
@@ -59,13 +62,13 @@ Part cylinder(double radius, double length, const Isometry3d& place) {
 }
 
 std::optional<Part> part_of(const Element& geometry, const LinkTree& tree, const Isometry3d& place) {
-  if (const Element* const e = child_of(geometry, "box")) {
+  if (const Element* const e = only_child(geometry, "box")) {
     const std::array<double, 3> size = tree.three(*e, "size");
     return box({size[0], size[1], size[2]}, place);
   }
-  if (const Element* const e = child_of(geometry, "cylinder"))
+  if (const Element* const e = only_child(geometry, "cylinder"))
     return cylinder(number(*e, "radius"), number(*e, "length"), place);
-  if (const Element* const e = child_of(geometry, "sphere"))
+  if (const Element* const e = only_child(geometry, "sphere"))
     return Part{{{place.translation().x(), place.translation().y()}}, number(*e, "radius")};
   return std::nullopt;
 }
@@ -77,10 +80,11 @@ std::optional<std::vector<Part>> parts_of(const Element& robot, const LinkTree& 
     if (link.name() != "link") continue;
     for (const Element& e : link.children()) {
       if (e.name() != "collision") continue;
-      const Element* const geometry = child_of(e, "geometry");
-      const Element* const origin = child_of(e, "origin");
+      const Element* const geometry = only_child(e, "geometry");
+      const Element* const origin = only_child(e, "origin");
       const Isometry3d at = origin != nullptr ? tree.origin(*origin) : Isometry3d::Identity();
-      const Isometry3d place = tree.place_of(text_of(link, "name")) * at;
+      const xml::Attribute* const name = link.attribute("name");
+      const Isometry3d place = tree.place_of(name != nullptr ? name->value : "") * at;
       const std::optional<Part> part = geometry != nullptr ? part_of(*geometry, tree, place) : std::nullopt;
       if (!part) return std::nullopt;
       parts.push_back(*part);

@@ -175,7 +175,7 @@ class ScoutBase final : public orca::hw::BaseDriver {
   [[nodiscard]] double acceleration() const { return figures().within(*max_acceleration_); }
   [[nodiscard]] double track() const {
     const orca::hw::RobotFigures* const file = figures().figures();
-    return file != nullptr && *track_ == kTrack ? file->wheels->track : *track_;
+    return file != nullptr && *track_ == kTrack ? file->drive.track : *track_;
   }
 
   Status ask(const Packet& packet) {

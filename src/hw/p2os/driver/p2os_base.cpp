@@ -176,7 +176,8 @@ class P2osBase final : public orca::hw::BaseDriver {
   using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
 
   [[nodiscard]] std::vector<double> bumpers() const {
-    return figures().figures() != nullptr ? figures().figures()->bumpers : Senses::usual_bumpers(*model_);
+    return figures().figures() != nullptr ? figures().figures()->bumper_directions()
+                                          : Senses::usual_bumpers(*model_);
   }
 
   [[nodiscard]] double bumper_radius() const {
@@ -195,7 +196,7 @@ class P2osBase final : public orca::hw::BaseDriver {
 
   [[nodiscard]] orca::idl::Actuator describe_gripper() const {
     orca::idl::Actuator gripper;
-    gripper.name(*figures().figures()->gripper);
+    gripper.name(figures().figures()->gripper->link);
     gripper.port(device());
     return gripper;
   }

@@ -56,7 +56,7 @@ TEST_CASE("docs/world-files.md explains every code of a world, and no other", "[
 
 TEST_CASE("docs/robot-files.md explains every code of a robot, and no other", "[sim][docs]") {
   CHECK(documented_codes("robot-files.md", 'R') ==
-        codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R'));
+        codes_in(bytes_of(kRoot / "src/robot_file/include/orca/robot_file/codes.hpp"), 'R'));
 }
 
 TEST_CASE("every code appears in the approved text of a broken world or robot", "[sim][approval]") {
@@ -68,7 +68,8 @@ TEST_CASE("every code appears in the approved text of a broken world or robot", 
     CHECK((worlds.contains(code) || code == "W013" || code == "W017" || code == "W023" || code == "W026" ||
            code == "W027"));
   }
-  for (const std::string& code : codes_in(bytes_of(kRoot / "sim/files/robot/codes.hpp"), 'R')) {
+  for (const std::string& code :
+       codes_in(bytes_of(kRoot / "src/robot_file/include/orca/robot_file/codes.hpp"), 'R')) {
     INFO(code);
     CHECK((robots.contains(code) || code == "R024" || code == "R026" || code == "R027" || code == "R028" ||
            code == "R029"));

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "approval.hpp"
-#include "files/robot/robot_rules.hpp"
 #include "files/world/world_rules.hpp"
+#include "orca/robot_file/rules.hpp"
 #include "orca/sim/realism.hpp"
 #include "shipped.hpp"
 
@@ -212,5 +212,5 @@ TEST_CASE("docs/world-files.md has every element of a world file with its attrib
 }
 
 TEST_CASE("docs/robot-files.md has every element in <orca> with its attributes", "[sim][robots][docs]") {
-  CHECK(table_of("| element | attributes |", "robot-files.md") == rules_below(detail::kOrcaRule));
+  CHECK(table_of("| element | attributes |", "robot-files.md") == rules_below(orca::robot_file::kOrcaRule));
 }

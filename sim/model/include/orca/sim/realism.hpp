@@ -2,21 +2,14 @@
 #pragma once
 
 #include <numbers>
-#include <optional>
-#include <string_view>
+
+#include "orca/robot_file/guesses.hpp"
 
 namespace orca::sim {
 
-/// The level of the simulated devices' errors. Every comparison of results names the level it used.
-enum class Realism {
-  ideal,    ///< Exact sensors, wheels and odometry, a drive without lag and dead time.
-  nominal,  ///< Errors as measured on such devices.
-  harsh,    ///< Errors about twice as large.
-};
-
-[[nodiscard]] std::string_view to_string(Realism realism);
-/// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
-[[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
+using robot_file::Realism;
+using robot_file::realism_from;
+using robot_file::to_string;
 
 /// The numbers behind a level, and estimates. docs/simulation.md gives the source of each.
 struct ErrorLevels {

@@ -52,8 +52,8 @@ class BaseFigures {
   /// @return what is wrong with the file, and a warning if its robot has quite another track.
   [[nodiscard]] std::vector<HardwareFault> read(const Expected& expected);
 
-  /// Returns the limits, or those of the file where they are less. How the base steers, gain and big turns, is as the file says,
-  /// if it does.
+  /// Returns the limits, or those of the file where they are less. How the base steers, gain and big turns, is as the
+  /// file says or means by its defaults.
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
@@ -70,6 +70,7 @@ class BaseFigures {
   Param<double> distance_scale_;
   Param<double> turn_scale_;
   std::optional<RobotFigures> figures_;
+  idl::DriveType type_ = idl::DIFFERENTIAL;
 };
 
 }  // namespace orca::hw

@@ -4,11 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "orca/geometry/error_guess.hpp"
-#include "orca/sim/realism.hpp"
 
-namespace orca::sim {
+namespace orca::robot_file {
+
+/// The level of the simulated devices' errors. Every comparison of results names the level it used.
+enum class Realism {
+  ideal,    ///< Exact sensors, wheels and odometry, a drive without lag and dead time.
+  nominal,  ///< Errors as measured on such devices.
+  harsh,    ///< Errors about twice as large.
+};
+
+[[nodiscard]] std::string_view to_string(Realism realism);
+/// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
+[[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
 
 /// What a robot's file guesses of a device's errors: for the device in general, and for levels of realism at which it
 /// is worse or better. Without any guess they are not known.
@@ -29,6 +40,8 @@ class Guesses {
   [[nodiscard]] bool is_known() const {
     return general_ || std::ranges::any_of(by_level_, [](const auto& guess) { return guess.has_value(); });
   }
+  /// Returns the guess that is for no level in particular.
+  [[nodiscard]] Guess general() const { return general_.value_or(Guess{}); }
   [[nodiscard]] Guess at(Realism level) const {
     return by_level_[static_cast<std::size_t>(level)].value_or(general_.value_or(Guess{}));
   }
@@ -38,4 +51,4 @@ class Guesses {
   std::array<std::optional<Guess>, 3> by_level_;
 };
 
-}  // namespace orca::sim
+}  // namespace orca::robot_file

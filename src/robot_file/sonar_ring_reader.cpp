@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "extension_readers.hpp"
+#include "part_readers.hpp"
 
-namespace orca::sim::detail {
+namespace orca::robot_file {
 namespace {
 
 void read_order(const xml::Attributes& e, SonarRing& ring) {
@@ -18,7 +18,7 @@ void read_order(const xml::Attributes& e, SonarRing& ring) {
   for (std::size_t k = 0; k < ring.count; ++k)
     if (sorted[k] != static_cast<double>(k))
       return e.error_at(
-          "order", robot_codes::kContradiction,
+          "order", codes::kContradiction,
           "the firing order must name each transducer from 0 to " + std::to_string(ring.count - 1) + " once");
   std::ranges::transform(*given, ring.order.begin(), [](double k) { return static_cast<std::size_t>(k); });
 }
@@ -29,13 +29,13 @@ void read_directions(const xml::Attributes& e, SonarRing& ring) {
     set(ring.first_angle, e.number_or("first_angle", 0.0));
     if (e.require("pitch")) set(ring.pitch, e.number("pitch"));
     if (e.has("positions"))
-      e.error_at("positions", robot_codes::kContradiction,
+      e.error_at("positions", codes::kContradiction,
                  "positions need angles: where each transducer looks is not said");
     return;
   }
   for (const char* even : {"first_angle", "pitch"})
     if (e.has(even))
-      e.error_at(even, robot_codes::kContradiction,
+      e.error_at(even, codes::kContradiction,
                  "the directions are given by angles already; write one of the two");
   if (ring.count > 0) set(ring.angles, e.numbers("angles", ring.count));
 }
@@ -47,22 +47,22 @@ void read_positions(const xml::Attributes& e, SonarRing& ring, double robot_radi
   if (!e.has("positions") || !e.has("angles")) return;
   set(ring.positions, read_points(e, "positions"));
   if (!ring.positions.empty() && ring.positions.size() != ring.count)
-    e.error_at("positions", robot_codes::kContradiction,
+    e.error_at("positions", codes::kContradiction,
                "there are " + std::to_string(ring.positions.size()) + " positions for " +
                    std::to_string(ring.count) + " transducers");
 }
 
 void check_ring(const xml::Attributes& e, const SonarRing& ring) {
   if (ring.half_lobe > 0.5 * std::numbers::pi)
-    e.error_at("half_lobe", robot_codes::kContradiction, "half_lobe must be at most 90 deg");
+    e.error_at("half_lobe", codes::kContradiction, "half_lobe must be at most 90 deg");
   if (ring.min_range >= ring.max_range && ring.max_range > 0.0)
-    e.error_at("min_range", robot_codes::kContradiction, "min_range must be less than max_range");
+    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
   if (ring.period > Duration{0}) check_period(e, ring.period);
 }
 
 }  // namespace
 
-void read_sonar_ring(const xml::Attributes& e, RobotModel& model) {
+void read_sonar_ring(const xml::Attributes& e, Devices& model) {
   SonarRing ring;
   set(ring.name, e.name("name"));
   set(ring.count, e.integer("count"));
@@ -84,4 +84,4 @@ void read_sonar_ring(const xml::Attributes& e, RobotModel& model) {
   if (name_is_free(e, ring.name, model)) model.sonars.push_back(std::move(ring));
 }
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file

@@ -6,7 +6,7 @@
 // Orca's own elements in a robot file, <orca> and what it holds, and their attributes; docs/robot-files.md
 // describes them to people, and a test compares the two. The elements of URDF itself are not declared: other
 // programs may add to them.
-namespace orca::sim::detail {
+namespace orca::robot_file {
 
 extern const xml::ElementRule kOrcaRule;
 extern const xml::ElementRule kDriveRule;
@@ -25,4 +25,4 @@ extern const xml::ValueRule kJointType;
 
 extern const xml::FileRules kRobotFile;
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file

@@ -9,7 +9,7 @@
 #include "orca/geometry/vec2.hpp"
 #include "orca/xml/attributes.hpp"
 
-namespace orca::sim::detail {
+namespace orca::robot_file::values {
 
 // [m] Far enough for any robot, and near enough for coordinates that are exact to a fraction of a nanometre.
 inline constexpr double kFarthest = 1e5;
@@ -58,4 +58,4 @@ void set(To& to, const std::optional<From>& from) {
 [[nodiscard]] std::optional<std::vector<Vec2>> read_points(const xml::Attributes& element,
                                                            std::string_view name);
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file::values

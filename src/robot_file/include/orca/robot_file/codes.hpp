@@ -3,7 +3,7 @@
 // compares the two. A code keeps its meaning for ever.
 #pragma once
 
-namespace orca::sim::detail::robot_codes {
+namespace orca::robot_file::codes {
 
 inline constexpr const char* kWrongRoot = "R001";
 inline constexpr const char* kUnknownElement = "R002";
@@ -32,4 +32,4 @@ inline constexpr const char* kBelowFloor = "R027";
 inline constexpr const char* kOtherMesh = "R028";
 inline constexpr const char* kUsualFigures = "R029";
 
-}  // namespace orca::sim::detail::robot_codes
+}  // namespace orca::robot_file::codes

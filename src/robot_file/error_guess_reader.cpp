@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "extension_readers.hpp"
-#include "orca/sim/realism.hpp"
+#include "part_readers.hpp"
 
-namespace orca::sim::detail {
+namespace orca::robot_file {
 namespace {
 
 std::optional<WheelErrorGuess> wheel_guess(const xml::Attributes& e) {
@@ -19,7 +18,7 @@ std::optional<RangeErrorGuess> range_guess(const xml::Attributes& e, double max_
   const auto share = e.number("share");
   if (!fixed || !share) return std::nullopt;
   if (max_range > 0.0 && *fixed >= max_range)
-    return e.refuse_at("fixed", robot_codes::kContradiction,
+    return e.refuse_at("fixed", codes::kContradiction,
                        "a sensor with an error as large as its max_range measures nothing");
   return RangeErrorGuess{*fixed, *share};
 }
@@ -30,14 +29,29 @@ void add(const xml::Attributes& e, const std::optional<Guess>& guess, Guesses<Gu
   const auto level = e.has("realism") ? e.choice("realism") : std::nullopt;
   if (!guess || (e.has("realism") && !level)) return;  // Reported already.
   if (!guess->is_known())
-    return e.error(robot_codes::kContradiction,
+    return e.error(codes::kContradiction,
                    "zeros mean that the errors are not known; leave the element out then");
   if (!guesses.set(level ? realism_from(*level) : std::nullopt, *guess))
-    e.error(robot_codes::kDuplicate, level ? "there is a guess for realism \"" + *level + "\" already"
-                                           : std::string("there is a guess without realism already"));
+    e.error(codes::kDuplicate, level ? "there is a guess for realism \"" + *level + "\" already"
+                                     : std::string("there is a guess without realism already"));
 }
 
 }  // namespace
+
+std::string_view to_string(Realism realism) {
+  switch (realism) {
+    case Realism::ideal: return "ideal";
+    case Realism::nominal: return "nominal";
+    case Realism::harsh: return "harsh";
+  }
+  return "unknown";
+}
+
+std::optional<Realism> realism_from(std::string_view word) {
+  for (const Realism r : {Realism::ideal, Realism::nominal, Realism::harsh})
+    if (word == to_string(r)) return r;
+  return std::nullopt;
+}
 
 Guesses<WheelErrorGuess> read_wheel_errors(const xml::Attributes& odometry) {
   Guesses<WheelErrorGuess> guesses;
@@ -57,4 +71,4 @@ Guesses<RangeErrorGuess> read_range_errors(const xml::Attributes& sensor, double
   return guesses;
 }
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "values.hpp"
+#include "orca/robot_file/values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
 
-namespace orca::sim::detail {
+namespace orca::robot_file::values {
 namespace {
 
 using Kind = xml::ValueFault::Kind;
@@ -53,4 +53,4 @@ std::optional<std::vector<Vec2>> read_points(const xml::Attributes& element, std
   return points;
 }
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file::values

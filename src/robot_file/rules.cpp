@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "robot_rules.hpp"
+#include "orca/robot_file/rules.hpp"
 
 #include <array>
 
-#include "codes.hpp"
-#include "files/formats/values.hpp"
+#include "orca/robot_file/codes.hpp"
+#include "orca/robot_file/values.hpp"
 
-namespace orca::sim::detail {
+namespace orca::robot_file {
 namespace {
 
+using namespace values;
 using xml::ElementRule;
 
 constexpr ValueRule kDevices = whole(1, 256);
@@ -160,14 +161,14 @@ constexpr std::array kRobotElements{&kRobotRule,      &kOrcaRule,      &kDriveRu
 
 constexpr xml::FileRules kRobotFile{"a robot",
                                     kRobotElements,
-                                    {.unknown_element = robot_codes::kUnknownElement,
-                                     .misplaced_element = robot_codes::kUnknownElement,
-                                     .unknown_attribute = robot_codes::kUnknownAttribute,
-                                     .missing_attribute = robot_codes::kMissing,
-                                     .stray_text = robot_codes::kStrayText,
-                                     .bad_value = robot_codes::kBadValue,
-                                     .wrong_unit = robot_codes::kBadValue,
-                                     .out_of_range = robot_codes::kBadValue,
-                                     .unknown_choice = robot_codes::kBadValue}};
+                                    {.unknown_element = codes::kUnknownElement,
+                                     .misplaced_element = codes::kUnknownElement,
+                                     .unknown_attribute = codes::kUnknownAttribute,
+                                     .missing_attribute = codes::kMissing,
+                                     .stray_text = codes::kStrayText,
+                                     .bad_value = codes::kBadValue,
+                                     .wrong_unit = codes::kBadValue,
+                                     .out_of_range = codes::kBadValue,
+                                     .unknown_choice = codes::kBadValue}};
 
-}  // namespace orca::sim::detail
+}  // namespace orca::robot_file

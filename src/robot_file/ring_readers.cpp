@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <cmath>
+#include <numbers>
+
+#include "part_readers.hpp"
+
+namespace orca::robot_file {
+namespace {
+
+void check(const xml::Attributes& e, const LaserScanner& laser) {
+  if (laser.min_range >= laser.max_range && laser.max_range > 0.0)
+    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  if (laser.divergence > 0.5 * std::numbers::pi)
+    e.error_at("divergence", codes::kContradiction, "divergence must be at most 90 deg");
+  if (laser.period > Duration{0}) check_period(e, laser.period);
+  if (laser.sweep > laser.period && laser.period > Duration{0})
+    e.error_at("sweep", codes::kContradiction, "the sweep of one scan cannot take longer than the period");
+}
+
+void check(const xml::Attributes& e, const InfraredRing& ring) {
+  if (ring.half_beam > 0.5 * std::numbers::pi)
+    e.error_at("half_beam", codes::kContradiction, "half_beam must be at most 90 deg");
+  if (ring.min_range >= ring.max_range && ring.max_range > 0.0)
+    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  if (ring.period > Duration{0}) check_period(e, ring.period);
+}
+
+constexpr double kRounding = 1e-6;  // [rad] "22.5 deg" times 16 may miss a full turn by this.
+
+void read_directions(const xml::Attributes& e, BumperRing& ring) {
+  set(ring.first_angle, e.number_or("first_angle", 0.0));
+  if (!e.has("angles")) return;
+  if (e.has("first_angle"))
+    e.error_at("first_angle", codes::kContradiction,
+               "the directions are given by angles already; write one of the two");
+  if (ring.count > 0) set(ring.angles, e.numbers("angles", ring.count));
+}
+
+}  // namespace
+
+void read_laser(const xml::Attributes& e, Devices& model) {
+  LaserScanner laser;
+  set(laser.name, e.name("name"));
+  set(laser.link, e.text("link"));
+  set(laser.count, e.integer("count"));
+  set(laser.first_angle, e.number("first_angle"));
+  set(laser.pitch, e.number("pitch"));
+  set(laser.min_range, e.number_or("min_range", 0.0));
+  set(laser.max_range, e.number("max_range"));
+  set(laser.quantum, e.number_or("quantum", 0.0));
+  set(laser.divergence, e.number_or("divergence", 0.0));
+  set(laser.period, e.duration("period"));
+  set(laser.sweep, e.duration_or("sweep", Duration{0}));
+  check(e, laser);
+  laser.label = read_label(e);
+  laser.errors = read_range_errors(e, laser.max_range);
+  if (name_is_free(e, laser.name, model)) model.lasers.push_back(std::move(laser));
+}
+
+void read_infrared_ring(const xml::Attributes& e, Devices& model) {
+  InfraredRing ring;
+  set(ring.name, e.name("name"));
+  set(ring.link, e.text("link"));
+  set(ring.count, e.integer("count"));
+  set(ring.first_angle, e.number_or("first_angle", 0.0));
+  set(ring.pitch, e.number("pitch"));
+  set(ring.half_beam, e.number("half_beam"));
+  set(ring.min_range, e.number_or("min_range", 0.0));
+  set(ring.max_range, e.number("max_range"));
+  set(ring.radius, e.number_or("radius", model.radius));
+  set(ring.period, e.duration("period"));
+  check(e, ring);
+  ring.label = read_label(e);
+  ring.errors = read_range_errors(e, ring.max_range);
+  if (name_is_free(e, ring.name, model)) model.infrareds.push_back(std::move(ring));
+}
+
+void read_bumper_ring(const xml::Attributes& e, Devices& model) {
+  BumperRing ring;
+  set(ring.name, e.name("name"));
+  set(ring.count, e.integer("count"));
+  read_directions(e, ring);
+  set(ring.pitch, e.number("pitch"));
+  set(ring.radius, e.number_or("radius", model.bumper_radius));
+  set(ring.period, e.duration("period"));
+  if (std::fabs(ring.pitch) * static_cast<double>(ring.count) > 2.0 * std::numbers::pi + kRounding)
+    e.error_at("pitch", codes::kContradiction, "the segments are wider than a full turn together");
+  if (ring.period > Duration{0}) check_period(e, ring.period);
+  ring.label = read_label(e);
+  if (name_is_free(e, ring.name, model)) model.bumpers.push_back(std::move(ring));
+}
+
+}  // namespace orca::robot_file
