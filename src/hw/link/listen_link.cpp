@@ -12,7 +12,6 @@
 
 #include "address_lookup.hpp"
 #include "orca/base/exhaustion.hpp"
-#include "stream.hpp"
 #include "tcp_socket.hpp"
 
 namespace orca::hw::link {
@@ -49,8 +48,8 @@ std::uint16_t port_of(int socket) {
 }  // namespace
 
 ListenLink::ListenLink(ListenOptions options)
-    : options_(std::move(options)),
-      stream_(std::make_unique<Stream>(*this, Stream::Kind::socket, "the driver has hung up")),
+    : StreamLink(Kind::socket, "the driver has hung up"),
+      options_(std::move(options)),
       port_(options_.port) {}
 
 ListenLink::~ListenLink() { ListenLink::close(); }
@@ -101,8 +100,9 @@ std::unique_ptr<ListenLink> ListenLink::another() const {
 }
 
 void ListenLink::close() {
-  stream_->drain();  // or the system cuts the connection, and the driver loses what was written last
-  stream_->detach();
+  // Or the system cuts the connection, and the driver loses what was written last.
+  StreamLink::discard_input();
+  detach();
   listener_.reset();
   port_ = options_.port;
 }
@@ -110,46 +110,42 @@ void ListenLink::close() {
 // Takes the next client, if there is none.
 Status ListenLink::admit() {
   if (!listener_) return not_open(*this);
-  if (stream_->is_attached()) return ok();
+  if (is_attached()) return ok();
   Descriptor client(accept4(listener_->number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!client) {
     if (errno != EAGAIN) throw_if_exhausted(errno);  // which EAGAIN is elsewhere
     return fail(Code::unavailable, "no driver is connected", name());
   }
   keep_fresh(client.number());
-  stream_->attach(std::move(client));
+  attach(std::move(client));
   return ok();
 }
 
 // After a client that has gone the next one gets in.
 Result<std::size_t> ListenLink::read(std::span<std::uint8_t> into) {
   if (const Status there = admit(); !there.ok()) return there.error();
-  Result<std::size_t> count = stream_->read(into);
-  if (!count) stream_->detach();
+  Result<std::size_t> count = StreamLink::read(into);
+  if (!count) detach();
   return count;
 }
 
 Status ListenLink::write(std::span<const std::uint8_t> bytes) {
   if (Status there = admit(); !there.ok()) return there;
-  return stream_->write(bytes);
+  return StreamLink::write(bytes);
 }
 
 Status ListenLink::flush() {
   if (Status there = admit(); !there.ok()) return there;
-  return stream_->flush();
+  return StreamLink::flush();
 }
-
-std::size_t ListenLink::pending() const { return stream_->pending() + unsent_bytes(stream_->descriptor()); }
 
 void ListenLink::discard_input() {
   (void)admit();  // a client that waits may have said something
-  stream_->drain();
+  StreamLink::discard_input();
 }
 
-void ListenLink::discard_output() { stream_->discard_output(); }
-
 int ListenLink::descriptor() const {
-  if (stream_->is_attached() || !listener_) return stream_->descriptor();
+  if (is_attached() || !listener_) return StreamLink::descriptor();
   return listener_->number();
 }
 

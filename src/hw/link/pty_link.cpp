@@ -13,7 +13,6 @@
 #include "line_settings.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/files/open_output.hpp"
-#include "stream.hpp"
 
 namespace orca::hw::link {
 namespace {
@@ -29,14 +28,12 @@ Error no_terminal(int reason, const std::string& name) {
 }  // namespace
 
 PtyLink::PtyLink(std::string symlink)
-    : symlink_(std::move(symlink)),
-      stream_(
-          std::make_unique<Stream>(*this, Stream::Kind::terminal, "no driver has the line open any more")) {}
+    : StreamLink(Kind::terminal, "no driver has the line open any more"), symlink_(std::move(symlink)) {}
 
 PtyLink::~PtyLink() { PtyLink::close(); }
 
 Result<Opening> PtyLink::open() {
-  if (stream_->is_attached()) return Opening::done;
+  if (is_attached()) return Opening::done;
   Descriptor master(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   std::array<char, 64> path{};
   if (!master || grantpt(master.number()) != 0 || unlockpt(master.number()) != 0 ||
@@ -49,7 +46,7 @@ Result<Opening> PtyLink::open() {
     device_.clear();
     return placed.error();
   }
-  stream_->attach(std::move(master));
+  attach(std::move(master));
   return Opening::done;
 }
 
@@ -85,25 +82,11 @@ void PtyLink::remove_symlink() const {
 }
 
 void PtyLink::close() {
-  if (!stream_->is_attached()) return;
+  if (!is_attached()) return;
   remove_symlink();
-  stream_->detach();
+  detach();
   device_.clear();
 }
-
-Result<std::size_t> PtyLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
-
-Status PtyLink::write(std::span<const std::uint8_t> bytes) { return stream_->write(bytes); }
-
-Status PtyLink::flush() { return stream_->flush(); }
-
-std::size_t PtyLink::pending() const { return stream_->pending(); }
-
-void PtyLink::discard_input() { stream_->drain(); }
-
-void PtyLink::discard_output() { stream_->discard_output(); }
-
-int PtyLink::descriptor() const { return stream_->descriptor(); }
 
 std::string PtyLink::name() const {
   if (!symlink_.empty()) return "pty:" + symlink_;
@@ -115,8 +98,6 @@ double PtyLink::byte_time() const {
   return set && set->baud > 0 ? set->byte_time() : 0.0;
 }
 
-std::optional<Line> PtyLink::line() const {
-  return stream_->is_attached() ? line_of(stream_->descriptor()) : std::nullopt;
-}
+std::optional<Line> PtyLink::line() const { return is_attached() ? line_of(descriptor()) : std::nullopt; }
 
 }  // namespace orca::hw::link

@@ -17,7 +17,6 @@
 #include "orca/base/steady_clock.hpp"
 #include "serial_places.hpp"
 #include "serial_trouble.hpp"
-#include "stream.hpp"
 
 namespace orca::hw::link {
 namespace {
@@ -38,16 +37,15 @@ Status check_kind(const std::string& path, const std::string& name) {
 }  // namespace
 
 SerialLink::SerialLink(SerialOptions options)
-    : options_(std::move(options)),
+    : StreamLink(Kind::terminal, "the device has gone: was it unplugged or switched off?"),
+      options_(std::move(options)),
       places_(std::make_unique<SerialPlaces>(options_.folder)),
-      old_(std::make_unique<OldSettings>()),
-      stream_(std::make_unique<Stream>(*this, Stream::Kind::terminal,
-                                       "the device has gone: was it unplugged or switched off?")) {}
+      old_(std::make_unique<OldSettings>()) {}
 
 SerialLink::~SerialLink() { SerialLink::close(); }
 
 Result<Opening> SerialLink::open() {
-  if (stream_->is_attached()) return Opening::done;
+  if (is_attached()) return Opening::done;
   const Result<std::string> path = locate();
   if (!path) return path.error();
   Result<Descriptor> terminal = claim(*path);
@@ -56,7 +54,7 @@ Result<Opening> SerialLink::open() {
   if (!terminal) return terminal.error();
   path_ = resolved(*path);
   if (identity_.empty() && !places_->holds(*path)) identity_ = places_->identity_of(*path);
-  stream_->attach(std::move(*terminal));
+  attach(std::move(*terminal));
   flowed_ = steady_now();
   waited_ = 0;
   return Opening::done;
@@ -120,14 +118,14 @@ Status SerialLink::take(int terminal) {
 }
 
 void SerialLink::close() {
-  if (!stream_->is_attached()) return;
-  const int terminal = stream_->descriptor();
+  if (!is_attached()) return;
+  const int terminal = descriptor();
   let_last_words_out();
   if (pending() > 0) (void)ioctl(terminal, TCFLSH, TCOFLUSH);  // or closing waits for a stuck device
   old_->restore(terminal, dtr_.has_value());
   (void)ioctl(terminal, TIOCNXCL);
   (void)flock(terminal, LOCK_UN);  // a copy of this process may still hold the descriptor
-  stream_->detach();
+  detach();
   path_.clear();
 }
 
@@ -135,7 +133,7 @@ void SerialLink::close() {
 // must not go out at the rate that is set back.
 void SerialLink::let_last_words_out() {
   const TimePoint latest = steady_now() + kLongestLastWords;
-  while (steady_now() < latest && stream_->flush().ok() &&
+  while (steady_now() < latest && flush().ok() &&
          (pending() > 0 || steady_now() < busy_until_ + kHeldByAdapter))
     std::this_thread::sleep_for(kPauseInLastWords);
 }
@@ -156,14 +154,14 @@ Status SerialLink::check_flow() {
 }
 
 Result<std::size_t> SerialLink::read(std::span<std::uint8_t> into) {
-  Result<std::size_t> count = stream_->read(into);
+  Result<std::size_t> count = StreamLink::read(into);
   if (!count || *count > 0) return count;
   const Status flows = check_flow();
   return flows.ok() ? count : flows.error();
 }
 
 Status SerialLink::write(std::span<const std::uint8_t> bytes) {
-  Status written = stream_->is_attached() ? check_flow() : ok();
+  Status written = is_attached() ? check_flow() : ok();
   if (written.ok()) written = write_paced(bytes);
   if (!written.ok()) return written;
   waited_ = pending();
@@ -173,46 +171,42 @@ Status SerialLink::write(std::span<const std::uint8_t> bytes) {
 }
 
 Status SerialLink::write_paced(std::span<const std::uint8_t> bytes) {
-  if (options_.line.pause == Duration{0}) return stream_->write(bytes);
+  if (options_.line.pause == Duration{0}) return StreamLink::write(bytes);
   if (Status fits = check_size(*this, bytes.size()); !fits.ok()) return fits;
   for (const std::uint8_t& byte : bytes) {
-    if (Status written = stream_->write({&byte, 1}); !written.ok()) return written;
+    if (Status written = StreamLink::write({&byte, 1}); !written.ok()) return written;
     std::this_thread::sleep_for(options_.line.pause);
   }
   return ok();
 }
 
-Status SerialLink::flush() { return stream_->flush(); }
-
 std::size_t SerialLink::pending() const {
   int held = 0;
-  if (!stream_->is_attached() || ioctl(stream_->descriptor(), TIOCOUTQ, &held) != 0 || held < 0) held = 0;
-  return stream_->pending() + static_cast<std::size_t>(held);
+  if (!is_attached() || ioctl(descriptor(), TIOCOUTQ, &held) != 0 || held < 0) held = 0;
+  return StreamLink::pending() + static_cast<std::size_t>(held);
 }
 
 void SerialLink::discard_input() {
-  if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCIFLUSH);
+  if (is_attached()) (void)ioctl(descriptor(), TCFLSH, TCIFLUSH);
 }
 
 void SerialLink::discard_output() {
-  stream_->discard_output();
+  StreamLink::discard_output();
   busy_until_ = {};
   waited_ = 0;
-  if (stream_->is_attached()) (void)ioctl(stream_->descriptor(), TCFLSH, TCOFLUSH);
+  if (is_attached()) (void)ioctl(descriptor(), TCFLSH, TCOFLUSH);
 }
 
-int SerialLink::descriptor() const { return stream_->descriptor(); }
-
 Status SerialLink::set_line(const Line& line) {
-  if (stream_->is_attached())
-    if (Status set = link::set_line(stream_->descriptor(), line, name()); !set.ok()) return set;
+  if (is_attached())
+    if (Status set = link::set_line(descriptor(), line, name()); !set.ok()) return set;
   options_.line = line;
   return ok();
 }
 
 Status SerialLink::set_dtr(bool raised) {
   dtr_ = raised;
-  return stream_->is_attached() ? link::set_dtr(stream_->descriptor(), raised, name()) : ok();
+  return is_attached() ? link::set_dtr(descriptor(), raised, name()) : ok();
 }
 
 }  // namespace orca::hw::link

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "stream.hpp"
+#include "orca/hw/link/stream_link.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,6 +9,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+
+#include "tcp_socket.hpp"
 
 namespace orca::hw::link {
 namespace {
@@ -26,21 +28,21 @@ bool is_departure(int reason) {
 
 }  // namespace
 
-void Stream::attach(Descriptor descriptor) {
+void StreamLink::attach(Descriptor descriptor) {
   waiting_.clear();
   descriptor_ = std::move(descriptor);
 }
 
-void Stream::detach() {
+void StreamLink::detach() {
   waiting_.clear();
   descriptor_.reset();
 }
 
-Result<std::size_t> Stream::read(std::span<std::uint8_t> into) {
-  if (!is_attached()) return not_open(owner_);
-  const Status sent = flush();
+Result<std::size_t> StreamLink::read(std::span<std::uint8_t> into) {
+  if (!is_attached()) return not_open(*this);
+  const Status sent = StreamLink::flush();
   if (into.empty()) return sent.ok() ? Result<std::size_t>(0) : sent.error();
-  const ssize_t count = ::read(descriptor(), into.data(), into.size());
+  const ssize_t count = ::read(descriptor_.number(), into.data(), into.size());
   if (count > 0) return static_cast<std::size_t>(count);
   if (count == 0) return gone(kNoReason);  // a terminal has at least one byte or fails (VMIN 1)
   const int reason = errno;
@@ -49,18 +51,18 @@ Result<std::size_t> Stream::read(std::span<std::uint8_t> into) {
   return 0;
 }
 
-Status Stream::write(std::span<const std::uint8_t> bytes) {
-  if (!is_attached()) return not_open(owner_);
-  if (Status fits = check_size(owner_, bytes.size()); !fits.ok()) return fits;
-  if (Status sent = flush(); !sent.ok()) return sent;
+Status StreamLink::write(std::span<const std::uint8_t> bytes) {
+  if (!is_attached()) return not_open(*this);
+  if (Status fits = check_size(*this, bytes.size()); !fits.ok()) return fits;
+  if (Status sent = StreamLink::flush(); !sent.ok()) return sent;
   if (has_hung_up()) return gone(kNoReason);
-  if (waiting_.size() + bytes.size() > kMostPending) return takes_no_more(owner_, waiting_.size());
+  if (waiting_.size() + bytes.size() > kMostPending) return takes_no_more(*this, waiting_.size());
   waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
-  return flush();
+  return StreamLink::flush();
 }
 
-Status Stream::flush() {
-  if (!is_attached()) return not_open(owner_);
+Status StreamLink::flush() {
+  if (!is_attached()) return not_open(*this);
   std::size_t sent = 0;
   while (sent < waiting_.size()) {
     const std::ptrdiff_t count = send(std::span(waiting_).subspan(sent));
@@ -79,33 +81,37 @@ Status Stream::flush() {
   return ok();
 }
 
-void Stream::drain() {
+std::size_t StreamLink::pending() const {
+  return waiting_.size() + (kind_ == Kind::socket ? unsent_bytes(descriptor_.number()) : 0);
+}
+
+void StreamLink::discard_input() {
   constexpr int kMostReads = 1024;  // a device that never pauses must not hold the strand
   std::array<std::uint8_t, 4096> dropped{};
   for (int i = 0; is_attached() && i < kMostReads; ++i)
-    if (::read(descriptor(), dropped.data(), dropped.size()) <= 0) return;
+    if (::read(descriptor_.number(), dropped.data(), dropped.size()) <= 0) return;
 }
 
 // A pseudo terminal takes bytes, and a connection takes some, when nobody can read them any more.
-bool Stream::has_hung_up() const {
+bool StreamLink::has_hung_up() const {
   const short end = static_cast<short>(POLLHUP | POLLERR | (kind_ == Kind::socket ? POLLRDHUP : 0));
-  pollfd asked{descriptor(), end, 0};
+  pollfd asked{descriptor_.number(), end, 0};
   return poll(&asked, 1, 0) > 0 && (asked.revents & end) != 0;
 }
 
-Error Stream::gone(int reason) const {
+Error StreamLink::gone(int reason) const {
   const std::string why = reason == kNoReason ? "" : std::string(" (") + std::strerror(reason) + ")";
-  return fail(Code::unavailable, gone_ + why, owner_.name());
+  return fail(Code::unavailable, gone_ + why, name());
 }
 
-Error Stream::failed(const char* act, int reason) const {
+Error StreamLink::failed(const char* act, int reason) const {
   if (is_departure(reason)) return gone(reason);
-  return fail(Code::data_loss, std::string("cannot ") + act + ": " + std::strerror(reason), owner_.name());
+  return fail(Code::data_loss, std::string("cannot ") + act + ": " + std::strerror(reason), name());
 }
 
-std::ptrdiff_t Stream::send(std::span<const std::uint8_t> bytes) const {
-  return kind_ == Kind::socket ? ::send(descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL)
-                               : ::write(descriptor(), bytes.data(), bytes.size());
+std::ptrdiff_t StreamLink::send(std::span<const std::uint8_t> bytes) const {
+  return kind_ == Kind::socket ? ::send(descriptor_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL)
+                               : ::write(descriptor_.number(), bytes.data(), bytes.size());
 }
 
 }  // namespace orca::hw::link

@@ -16,7 +16,6 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
-#include "stream.hpp"
 #include "tcp_socket.hpp"
 
 namespace orca::hw::link {
@@ -114,15 +113,13 @@ class Connecting {
 };
 
 TcpLink::TcpLink(TcpOptions options)
-    : options_(std::move(options)),
-      stream_(std::make_unique<Stream>(*this, Stream::Kind::socket,
-                                       "the other end has gone: was it switched off, or its cable pulled?")) {
-}
+    : StreamLink(Kind::socket, "the other end has gone: was it switched off, or its cable pulled?"),
+      options_(std::move(options)) {}
 
 TcpLink::~TcpLink() = default;
 
 Result<Opening> TcpLink::open() {
-  if (stream_->is_attached()) return Opening::done;
+  if (is_attached()) return Opening::done;
   if (!connecting_ && steady_now() < next_try_) return Opening::under_way;
   if (!connecting_) connecting_ = std::make_unique<Connecting>(options_);
   Result<Descriptor> socket = connecting_->go_on();
@@ -131,7 +128,7 @@ Result<Opening> TcpLink::open() {
   if (!socket) return fail_or_wait(socket.error());
   waits_since_.reset();
   keep_fresh(socket->number());
-  stream_->attach(std::move(*socket));
+  attach(std::move(*socket));
   return Opening::done;
 }
 
@@ -150,23 +147,9 @@ void TcpLink::close() {
   waits_since_.reset();
   next_try_ = {};
   connecting_.reset();
-  stream_->drain();  // or the system cuts the connection, and the device loses what was written last
-  stream_->detach();
+  discard_input();  // or the system cuts the connection, and the device loses what was written last
+  detach();
 }
-
-Result<std::size_t> TcpLink::read(std::span<std::uint8_t> into) { return stream_->read(into); }
-
-Status TcpLink::write(std::span<const std::uint8_t> bytes) { return stream_->write(bytes); }
-
-Status TcpLink::flush() { return stream_->flush(); }
-
-std::size_t TcpLink::pending() const { return stream_->pending() + unsent_bytes(stream_->descriptor()); }
-
-void TcpLink::discard_input() { stream_->drain(); }
-
-void TcpLink::discard_output() { stream_->discard_output(); }
-
-int TcpLink::descriptor() const { return stream_->descriptor(); }
 
 std::string TcpLink::name() const { return "tcp:" + with_port(options_.host, options_.port); }
 

@@ -6,11 +6,9 @@
 #include <string>
 
 #include "orca/base/descriptor.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/stream_link.hpp"
 
 namespace orca::hw::link {
-
-class Stream;
 
 struct ListenOptions {
   /// An IPv4 or IPv6 address of this machine, without brackets. By default only programs of this machine get in.
@@ -24,7 +22,7 @@ struct ListenOptions {
 /// give unavailable; the link itself stays open.
 ///
 /// Thread contract: one strand.
-class ListenLink final : public ByteLink {
+class ListenLink final : public StreamLink {
  public:
   explicit ListenLink(ListenOptions options);
   ~ListenLink() override;
@@ -37,9 +35,7 @@ class ListenLink final : public ByteLink {
   [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
   [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] Status flush() override;
-  [[nodiscard]] std::size_t pending() const override;
   void discard_input() override;
-  void discard_output() override;
   /// Returns the descriptor of the client; without one that of the port, which becomes readable when one comes. It changes when the client is
   /// let in, by the next call of read(), write() or flush().
   [[nodiscard]] int descriptor() const override;
@@ -56,7 +52,6 @@ class ListenLink final : public ByteLink {
   [[nodiscard]] Error refused(int reason) const;
 
   const ListenOptions options_;
-  const std::unique_ptr<Stream> stream_;
   std::shared_ptr<const Descriptor> listener_;  // that of all links of the port
   std::uint16_t port_;
 };

@@ -5,11 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/stream_link.hpp"
 
 namespace orca::hw::link {
-
-class Stream;
 
 /// The device's side of a serial line that exists only within this machine (a pseudo terminal), for emulators and
 /// tests. A driver opens the other side, device(), as if it were a serial port.
@@ -19,7 +17,7 @@ class Stream;
 /// again; the link itself may stay open meanwhile. Each open() makes a new terminal.
 ///
 /// Thread contract: one strand.
-class PtyLink final : public ByteLink {
+class PtyLink final : public StreamLink {
  public:
   /// @param symlink  a path that leads to device() while the link is open; empty: none. An older link of this name is
   ///                 replaced, anything else is not.
@@ -29,13 +27,6 @@ class PtyLink final : public ByteLink {
   /// @errors  already_exists if `symlink` is no symbolic link; unavailable with the system's reason.
   [[nodiscard]] Result<Opening> open() override;
   void close() override;
-  [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
-  [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
-  [[nodiscard]] Status flush() override;
-  [[nodiscard]] std::size_t pending() const override;
-  void discard_input() override;
-  void discard_output() override;
-  [[nodiscard]] int descriptor() const override;
   [[nodiscard]] std::string name() const override;
   /// Returns the time that one byte takes at the driver's rate [s]; 0: the link is closed.
   [[nodiscard]] double byte_time() const override;
@@ -58,7 +49,6 @@ class PtyLink final : public ByteLink {
   void remove_symlink() const;
 
   const std::string symlink_;
-  const std::unique_ptr<Stream> stream_;
   std::string device_;
 };
 

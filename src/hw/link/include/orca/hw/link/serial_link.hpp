@@ -8,13 +8,12 @@
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/steady_clock.hpp"
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/stream_link.hpp"
 
 namespace orca::hw::link {
 
 class OldSettings;
 class SerialPlaces;
-class Stream;
 
 struct SerialOptions {
   /// A path, or a name in /dev/serial/by-id, /dev/serial/by-path or /dev.
@@ -43,7 +42,7 @@ struct SerialOptions {
 /// port that is closed, unless set_dtr() was called: then it stays as it was set.
 ///
 /// Thread contract: one strand.
-class SerialLink final : public ByteLink {
+class SerialLink final : public StreamLink {
  public:
   explicit SerialLink(SerialOptions options);
   ~SerialLink() override;
@@ -52,11 +51,9 @@ class SerialLink final : public ByteLink {
   void close() override;
   [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
   [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
-  [[nodiscard]] Status flush() override;
   [[nodiscard]] std::size_t pending() const override;
   void discard_input() override;
   void discard_output() override;
-  [[nodiscard]] int descriptor() const override;
   [[nodiscard]] std::string name() const override { return "serial:" + options_.device; }
   [[nodiscard]] Status set_line(const Line& line) override;
   [[nodiscard]] Status set_dtr(bool raised) override;
@@ -77,7 +74,6 @@ class SerialLink final : public ByteLink {
   SerialOptions options_;
   const std::unique_ptr<SerialPlaces> places_;
   const std::unique_ptr<OldSettings> old_;
-  const std::unique_ptr<Stream> stream_;
   std::string identity_;  // the path in by-id of the adapter that was opened first, by another name
   std::string path_;
   std::optional<bool> dtr_;               // raised or lowered; nothing: nobody has asked for it

@@ -6,12 +6,11 @@
 #include <optional>
 #include <string>
 
-#include "orca/hw/link/byte_link.hpp"
+#include "orca/hw/link/stream_link.hpp"
 
 namespace orca::hw::link {
 
 class Connecting;
-class Stream;
 
 struct TcpOptions {
   std::string host;  ///< A name, an IPv4 or an IPv6 address, without brackets.
@@ -28,27 +27,19 @@ struct TcpOptions {
 /// All addresses of a host are tried, one after the other. The limit runs on the system's clock, as the network does.
 ///
 /// Thread contract: one strand.
-class TcpLink final : public ByteLink {
+class TcpLink final : public StreamLink {
  public:
   explicit TcpLink(TcpOptions options);
   ~TcpLink() override;
 
   [[nodiscard]] Result<Opening> open() override;
   void close() override;
-  [[nodiscard]] Result<std::size_t> read(std::span<std::uint8_t> into) override;
-  [[nodiscard]] Status write(std::span<const std::uint8_t> bytes) override;
-  [[nodiscard]] Status flush() override;
-  [[nodiscard]] std::size_t pending() const override;
-  void discard_input() override;
-  void discard_output() override;
-  [[nodiscard]] int descriptor() const override;
   [[nodiscard]] std::string name() const override;
 
  private:
   [[nodiscard]] Result<Opening> fail_or_wait(const Error& why);
 
   const TcpOptions options_;
-  const std::unique_ptr<Stream> stream_;
   std::unique_ptr<Connecting> connecting_;  // while open() is under way
   std::optional<TimePoint> waits_since_;    // for a server that is being started
   TimePoint next_try_{};                    // then
