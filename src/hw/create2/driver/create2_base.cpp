@@ -13,12 +13,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Status;
-using orca::TimePoint;
-using orca::hw::DriveSetpoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::create2;
-using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;
 constexpr Duration kStopTime = 1s;      // for which it is told to stop, again and again, when it is held
@@ -31,9 +28,9 @@ const std::vector<std::uint32_t> kRates{115200, 19200};
 /// It enters safe mode, in which its motors may run, with the first command to move, and is in passive mode before and when nobody
 /// uses it. It leaves safe mode by itself when a wheel hangs, at a cliff and at a charger. It has no watchdog: when the
 /// line breaks while it drives, it drives on until its bumper, which it does not heed, or a cliff.
-class Create2Base final : public orca::hw::BaseDriver {
+class Create2Base final : public BaseDriver {
  public:
-  explicit Create2Base(orca::hw::HardwareHost& host)
+  explicit Create2Base(HardwareHost& host)
       : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
                    {.name = "Create",
                     .usual = {.max_speed = 0.3,
@@ -42,15 +39,15 @@ class Create2Base final : public orca::hw::BaseDriver {
                               .big_turn_speed = 0.1},
                     .top_speed = kMaxWheelSpeed,
                     .top_turn_rate = kMaxTurnRate,
-                    .in_file = {{"Create 2", orca::idl::DIFFERENTIAL, kWheelBase}}}) {}
+                    .in_file = {{"Create 2", idl::DIFFERENTIAL, kWheelBase}}}) {}
 
  protected:
-  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+  std::vector<SensorEndpoint*> make_senses() override {
     senses_.emplace(figures().traits());
     return senses_->endpoints();
   }
 
-  void describe(orca::idl::Robot& robot) const override {
+  void describe(idl::Robot& robot) const override {
     robot.vendor("iRobot");
     robot.model("Create 2");
     robot.radius(kRadius);
@@ -58,7 +55,7 @@ class Create2Base final : public orca::hw::BaseDriver {
     figures().describe(robot);
   }
 
-  orca::hw::LineSession& session() override {
+  LineSession& session() override {
     if (!session_) session_.emplace(line(), kRates);
     return *session_;
   }
@@ -67,11 +64,11 @@ class Create2Base final : public orca::hw::BaseDriver {
     log_connected("a Create 2", session_->rate());
     senses_->connect();
     rest();
-    return orca::ok();
+    return ok();
   }
 
   [[nodiscard]] TimePoint next_turn() const override {
-    return powered_ || say_again_ < stops_until_ ? say_again_ : orca::kForever;
+    return powered_ || say_again_ < stops_until_ ? say_again_ : kForever;
   }
 
   void stop() override {
@@ -97,7 +94,7 @@ class Create2Base final : public orca::hw::BaseDriver {
   Status drive(const DriveSetpoint& setpoint) override {
     applied_ = setpoint;
     if (!setpoint.stands()) powered_ = true;
-    return is_told() ? say(setpoint) : orca::ok();
+    return is_told() ? say(setpoint) : ok();
   }
 
  private:
@@ -117,7 +114,7 @@ class Create2Base final : public orca::hw::BaseDriver {
 
   // Stops the base where it cannot go on. What needs a person needs an operator to go on.
   void guard() {
-    const std::vector<orca::hw::Obstruction::Pressed> pressed = senses_->pressed();
+    const std::vector<Obstruction::Pressed> pressed = senses_->pressed();
     if (!pressed.empty()) last_cliff_ = host().now();
     motion()->press(pressed);
     if (senses_->is_stalled()) motion()->obstruct("its motors draw too much current");

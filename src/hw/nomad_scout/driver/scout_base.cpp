@@ -15,12 +15,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Status;
-using orca::TimePoint;
-using orca::hw::DriveSetpoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::nomad_scout;
-using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;  // what it is to do; its watchdog waits 1 s
 constexpr Duration kWatchdog = 1s;     // the shortest that it has
@@ -34,9 +31,9 @@ constexpr std::array<std::uint8_t, kSonars> kSonarOrder{0, 2, 15, 1, 14, 3, 13, 
 ///
 /// It is asked for its state, again and again. Its motors get power with the first command to move, not before, and lose it
 /// when nobody uses the base and it stands. After a fault they stay off until an operator lets the base move again.
-class ScoutBase final : public orca::hw::BaseDriver {
+class ScoutBase final : public BaseDriver {
  public:
-  explicit ScoutBase(orca::hw::HardwareHost& host)
+  explicit ScoutBase(HardwareHost& host)
       : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
                    {.name = "Scout",
                     .usual = {.max_speed = 0.5,
@@ -45,15 +42,15 @@ class ScoutBase final : public orca::hw::BaseDriver {
                               .big_turn_speed = 1.0},
                     .top_speed = kMaxSpeed,
                     .top_turn_rate = kMaxTurnRate,
-                    .in_file = {{"Nomad Scout", orca::idl::DIFFERENTIAL, kTrack}}}) {}
+                    .in_file = {{"Nomad Scout", idl::DIFFERENTIAL, kTrack}}}) {}
 
  protected:
-  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
-    senses_.emplace(track(), kSonars * orca::from_seconds(*sonar_interval_), figures().traits());
+  std::vector<SensorEndpoint*> make_senses() override {
+    senses_.emplace(track(), kSonars * from_seconds(*sonar_interval_), figures().traits());
     return senses_->endpoints();
   }
 
-  void describe(orca::idl::Robot& robot) const override {
+  void describe(idl::Robot& robot) const override {
     robot.vendor("Nomadics");
     robot.model("SuperScout");
     robot.radius(kRadius);
@@ -63,7 +60,7 @@ class ScoutBase final : public orca::hw::BaseDriver {
     robot.sonar_rings().push_back(senses_->describe_sonars());
   }
 
-  orca::hw::LineSession& session() override {
+  LineSession& session() override {
     if (!session_) session_.emplace(line(), kRates);
     return *session_;
   }
@@ -74,11 +71,11 @@ class ScoutBase final : public orca::hw::BaseDriver {
     rest();
     const bool turns = !(session_->first().state.speeds == Wheels{});
     limp_due_ = turns;
-    chores_ = {turns ? orca::hw::nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
+    chores_ = {turns ? nomad_scout::stop() : limp(), set_watchdog(kWatchdog),
                set_accelerations({.left = acceleration(), .right = acceleration()})};
     senses_->connect();
     next_question_ = host().now();
-    return orca::ok();
+    return ok();
   }
 
   [[nodiscard]] TimePoint next_turn() const override {
@@ -86,7 +83,7 @@ class ScoutBase final : public orca::hw::BaseDriver {
   }
   Status start() override {
     senses_->await_sonars(host().now());
-    chores_.push_back(start_sonars(orca::from_seconds(*sonar_interval_), kSonarOrder));
+    chores_.push_back(start_sonars(from_seconds(*sonar_interval_), kSonarOrder));
     return go_on();
   }
 
@@ -94,20 +91,20 @@ class ScoutBase final : public orca::hw::BaseDriver {
     rest();
     chores_.push_back(stop_sonars());
     limp_due_ = true;
-    (void)session_->ask(orca::hw::nomad_scout::stop(), host().now());
+    (void)session_->ask(nomad_scout::stop(), host().now());
   }
 
   // There is no time to wait for answers. Wheels that still turn are held rather than let go.
   void take_leave() override {
     rest();
-    (void)session_->tell(orca::hw::nomad_scout::stop());
+    (void)session_->tell(nomad_scout::stop());
     (void)session_->tell(stop_sonars());
     if (!senses_->moves()) (void)session_->tell(limp());
     wish_ = {};
   }
 
   Status poll() override {
-    Status heard = orca::ok();
+    Status heard = ok();
     const Status read = session_->receive(host().now(), [&](const Answer& answer) {
       if (heard.ok()) heard = take(answer);
     });
@@ -134,16 +131,15 @@ class ScoutBase final : public orca::hw::BaseDriver {
 
   Status take(const Answer& answer) {
     if (senses_->has_restarted(answer.state))
-      return orca::fail(
-          orca::Code::unavailable,
-          "its controller has started anew; was it switched off and on, or is its battery low?");
+      return fail(Code::unavailable,
+                  "its controller has started anew; was it switched off and on, or is its battery low?");
     heard(answer.stamp);
     note(answer.type);
     senses_->take(answer.state, answer.stamp, wish_.velocity.forward);
-    if (!is_active()) return orca::ok();
+    if (!is_active()) return ok();
     motion()->press(senses_->pressed());
     senses_->publish();
-    return orca::ok();
+    return ok();
   }
 
   // Each answer names the command that it answers.
@@ -167,14 +163,14 @@ class ScoutBase final : public orca::hw::BaseDriver {
   Status say(const DriveSetpoint& setpoint) {
     said_ = setpoint;
     say_again_ = host().now() + kSayAgain;
-    if (setpoint.at_once) return ask(orca::hw::nomad_scout::stop());
-    return ask(orca::hw::nomad_scout::drive(
-        wheels_of(figures().calibration().to_controller(setpoint.velocity), track())));
+    if (setpoint.at_once) return ask(nomad_scout::stop());
+    return ask(
+        nomad_scout::drive(wheels_of(figures().calibration().to_controller(setpoint.velocity), track())));
   }
 
   [[nodiscard]] double acceleration() const { return figures().within(*max_acceleration_); }
   [[nodiscard]] double track() const {
-    const orca::hw::RobotFigures* const file = figures().figures();
+    const RobotFigures* const file = figures().figures();
     return file != nullptr && *track_ == kTrack ? file->drive.track : *track_;
   }
 
@@ -183,20 +179,20 @@ class ScoutBase final : public orca::hw::BaseDriver {
     return session_->ask(packet, host().now());
   }
 
-  orca::Param<double> max_acceleration_{
+  Param<double> max_acceleration_{
       *this,
       "max_acceleration",
       0.76,
       {.unit = "m/s2", .min = 0.05, .max = 5.0, .text = "Greatest acceleration of a wheel."}};
-  orca::Param<double> track_{*this,
-                             "track",
-                             kTrack,
-                             {.unit = "m",
-                              .min = 0.2,
-                              .max = 0.5,
-                              .text = "Distance between the wheels; measure it by turning. As long as it is "
-                                      "this one, that of the robot's file counts."}};
-  orca::Param<double> sonar_interval_{
+  Param<double> track_{*this,
+                       "track",
+                       kTrack,
+                       {.unit = "m",
+                        .min = 0.2,
+                        .max = 0.5,
+                        .text = "Distance between the wheels; measure it by turning. As long as it is "
+                                "this one, that of the robot's file counts."}};
+  Param<double> sonar_interval_{
       *this,
       "sonar_interval",
       0.012,

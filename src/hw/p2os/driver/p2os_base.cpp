@@ -18,13 +18,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Result;
-using orca::Status;
-using orca::TimePoint;
-using orca::hw::DriveSetpoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::p2os;
-using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;  // what it is to do, and that we live; its watchdog usually waits 2 s
 constexpr Duration kSayAgainSoonest = 50ms;
@@ -37,16 +33,16 @@ const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 ///
 /// Its motors get power with the first command to move, not before, and lose it when nobody uses the base. After a fault they stay
 /// off until an operator lets the base move again.
-class P2osBase final : public orca::hw::BaseDriver {
+class P2osBase final : public BaseDriver {
  public:
-  explicit P2osBase(orca::hw::HardwareHost& host)
+  explicit P2osBase(HardwareHost& host)
       : BaseDriver(host, "/dev/ttyUSB0", {.baud = kRates.front()},
                    {.name = "Pioneer",
                     .usual = {.max_speed = 0.5,
                               .max_turn_rate = 1.5,
                               .big_turn_angle = std::numbers::pi / 3.0,
                               .big_turn_speed = 0.3},
-                    .in_file = orca::hw::BaseFigures::Expected{}}) {}
+                    .in_file = BaseFigures::Expected{}}) {}
 
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> learned() const override {
     if (!session_) return {};
@@ -56,16 +52,16 @@ class P2osBase final : public orca::hw::BaseDriver {
   }
 
  protected:
-  [[nodiscard]] orca::hw::BaseFigures::Expected expected() const override {
+  [[nodiscard]] BaseFigures::Expected expected() const override {
     const Model& model = choose_model(*model_name_).model;
-    return {std::string(model.name), orca::idl::DIFFERENTIAL, 2.0 * model.half_track};
+    return {std::string(model.name), idl::DIFFERENTIAL, 2.0 * model.half_track};
   }
 
-  void check(std::vector<orca::HardwareFault>& faults) override {
+  void check(std::vector<HardwareFault>& faults) override {
     const ModelChoice choice = choose_model(*model_name_);
     model_ = &choice.model;
     if (!choice.is_known)
-      faults.push_back({"model", orca::in_quotes(*model_name_) + " is none of " + all_models()});
+      faults.push_back({"model", in_quotes(*model_name_) + " is none of " + all_models()});
     if (has_gripper() && model_->name.find("PeopleBot") != std::string_view::npos)
       faults.push_back(
           {"robot",
@@ -76,26 +72,26 @@ class P2osBase final : public orca::hw::BaseDriver {
   }
 
   // Of some models the limits are not known.
-  [[nodiscard]] orca::hw::DriveLimits limits() const override {
-    orca::hw::DriveLimits limits = BaseDriver::limits();
+  [[nodiscard]] DriveLimits limits() const override {
+    DriveLimits limits = BaseDriver::limits();
     limits.max_speed = within(limits.max_speed, model_->max_speed);
     limits.max_turn_rate = within(limits.max_turn_rate, model_->max_turn_rate);
     return limits;
   }
 
-  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+  std::vector<SensorEndpoint*> make_senses() override {
     senses_.emplace(*model_, Senses::Extras{bumpers(), bumper_radius(), has_gripper()}, figures().traits());
     remarks_.emplace(!model_->sonar_poses.empty());
     if (has_gripper()) {
-      gripper_.emplace(Gripper::Driver{
-          .act = [this](const orca::idl::GripperCommand& command) { return move_gripper(command); },
-          .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
+      gripper_.emplace(
+          Gripper::Driver{.act = [this](const idl::GripperCommand& command) { return move_gripper(command); },
+                          .halt = [this] { return send({encode_gripper(GripperAction::halt)}); }});
       add_actuator(*gripper_);
     }
     return senses_->endpoints();
   }
 
-  void describe(orca::idl::Robot& robot) const override {
+  void describe(idl::Robot& robot) const override {
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
     robot.radius(model_->radius);
@@ -107,8 +103,8 @@ class P2osBase final : public orca::hw::BaseDriver {
     if (gripper_) robot.actuators().push_back(describe_gripper());
   }
 
-  orca::hw::LineSession& session() override {
-    if (!session_) session_.emplace(line(), orca::hw::rates_of(line(), kRates), *speed_up_);
+  LineSession& session() override {
+    if (!session_) session_.emplace(line(), rates_of(line(), kRates), *speed_up_);
     return *session_;
   }
 
@@ -119,18 +115,18 @@ class P2osBase final : public orca::hw::BaseDriver {
     if (!choice.is_known) {
       warn(stranger());
     } else if (&choice.model != model_) {
-      warn("the robot calls itself " + orca::in_quotes(robot.subclass) + "; write model=\"" +
+      warn("the robot calls itself " + in_quotes(robot.subclass) + "; write model=\"" +
            std::string(choice.model.subclass) + "\", or its sonars and size are those of another robot");
     }
-    log_connected(orca::in_quotes(robot.name) + " (" + robot.robot_class + " " + robot.subclass + ")",
+    log_connected(in_quotes(robot.name) + " (" + robot.robot_class + " " + robot.subclass + ")",
                   session_->rate());
     if (const std::string& trouble = session_->rate_trouble(); !trouble.empty())
-      host().write_log(orca::log::Level::info,
+      host().write_log(log::Level::info,
                        "it stays at " + std::to_string(session_->rate()) + " baud: " + trouble);
     senses_->connect(choice.is_known ? choice.model : *model_);
     say_again_every_ = kSayAgain;
     if (session_->config()) take(*session_->config());
-    return orca::ok();
+    return ok();
   }
 
   [[nodiscard]] TimePoint next_turn() const override { return say_again_; }
@@ -173,7 +169,7 @@ class P2osBase final : public orca::hw::BaseDriver {
   }
 
  private:
-  using Gripper = orca::hw::ActuatorHW<orca::idl::GripperCommand>;
+  using Gripper = ActuatorHW<idl::GripperCommand>;
 
   [[nodiscard]] std::vector<double> bumpers() const {
     return figures().figures() != nullptr ? figures().figures()->bumper_directions()
@@ -194,21 +190,21 @@ class P2osBase final : public orca::hw::BaseDriver {
     return figures().figures() != nullptr && figures().figures()->gripper.has_value();
   }
 
-  [[nodiscard]] orca::idl::Actuator describe_gripper() const {
-    orca::idl::Actuator gripper;
+  [[nodiscard]] idl::Actuator describe_gripper() const {
+    idl::Actuator gripper;
     gripper.name(figures().figures()->gripper->link);
     gripper.port(device());
     return gripper;
   }
 
-  Status move_gripper(const orca::idl::GripperCommand& command) {
-    if (command.paddles() != orca::idl::PADDLES_STAY) {
-      const bool open = command.paddles() == orca::idl::PADDLES_OPEN;
+  Status move_gripper(const idl::GripperCommand& command) {
+    if (command.paddles() != idl::PADDLES_STAY) {
+      const bool open = command.paddles() == idl::PADDLES_OPEN;
       const Status sent = send({encode_gripper(open ? GripperAction::open : GripperAction::close)});
       if (!sent.ok()) return sent;
     }
-    if (command.lift() == orca::idl::LIFT_STAY) return orca::ok();
-    const bool up = command.lift() == orca::idl::LIFT_UP;
+    if (command.lift() == idl::LIFT_STAY) return ok();
+    const bool up = command.lift() == idl::LIFT_UP;
     return send({encode_gripper(up ? GripperAction::up : GripperAction::down)});
   }
 
@@ -226,7 +222,7 @@ class P2osBase final : public orca::hw::BaseDriver {
 
   // What a robot is whose model is not known.
   [[nodiscard]] std::string stranger() const {
-    return "the robot calls itself " + orca::in_quotes(session_->identity().subclass) +
+    return "the robot calls itself " + in_quotes(session_->identity().subclass) +
            ", which is not known; its counts are read as those of a " + std::string(model_->name) +
            (*drive_unknown_ ? ", so check distances before it drives on its own"
                             : ", and it does not move: if that is right, write drive_unknown=\"true\"");
@@ -274,7 +270,7 @@ class P2osBase final : public orca::hw::BaseDriver {
 
   Status say(const DriveSetpoint& setpoint) {
     if (setpoint.stands() && setpoint.at_once) return send({encode(Command::estop), encode(Command::stop)});
-    const orca::Twist2 velocity = figures().calibration().to_controller(setpoint.velocity);
+    const Twist2 velocity = figures().calibration().to_controller(setpoint.velocity);
     return send({encode_speed(velocity.forward), encode_turn_rate(velocity.turn_rate)});
   }
 
@@ -282,24 +278,24 @@ class P2osBase final : public orca::hw::BaseDriver {
     say_again_ = host().now() + say_again_every_;
     for (const Packet& command : commands)
       if (Status sent = session_->send(command); !sent.ok()) return sent;
-    return orca::ok();
+    return ok();
   }
 
-  orca::Param<std::string> model_name_{
+  Param<std::string> model_name_{
       *this, "model", "p2dx", {.text = "What the robot calls itself (subclass): p2dx, p2pb, p3dx, ..."}};
-  orca::Param<bool> drive_unknown_{
+  Param<bool> drive_unknown_{
       *this,
       "drive_unknown",
       false,
       {.text =
            "Whether a robot moves that calls itself a model that is not known: its counts are read as those "
            "of `model`."}};
-  orca::Param<bool> speed_up_{*this,
-                              "speed_up",
-                              true,
-                              {.text = "Whether a robot at 9600 or 19200 baud is told to send at 38400; "
-                                       "false where something between has "
-                                       "a fixed rate, as a radio modem may."}};
+  Param<bool> speed_up_{*this,
+                        "speed_up",
+                        true,
+                        {.text = "Whether a robot at 9600 or 19200 baud is told to send at 38400; "
+                                 "false where something between has "
+                                 "a fixed rate, as a radio modem may."}};
 
   const Model* model_ = nullptr;
   std::optional<Senses> senses_;

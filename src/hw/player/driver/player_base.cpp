@@ -20,13 +20,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Result;
-using orca::Status;
-using orca::TimePoint;
-using orca::hw::DriveSetpoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::player;
-using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;  // what it is to do; most drivers have no watchdog
 constexpr Duration kPowerAnswer = 1s;  // for the answer to the request for power
@@ -37,9 +33,9 @@ constexpr double kSamePlace = 0.01;    // [m] and [rad]
 /// Data come by themselves, as they arise. The motors get power with the first command to move, not before, and lose it when nobody uses the
 /// base. After a fault they stay off until an operator lets the base move again. What must be known before the connection, the shape of
 /// the robot and of its laser, are parameters; if the server says something else, that is told.
-class PlayerBase final : public orca::hw::BaseDriver {
+class PlayerBase final : public BaseDriver {
  public:
-  explicit PlayerBase(orca::hw::HardwareHost& host)
+  explicit PlayerBase(HardwareHost& host)
       : BaseDriver(host, "tcp:localhost:6665", {},
                    {.name = "Player",
                     .usual = {.max_speed = 0.5,
@@ -49,14 +45,14 @@ class PlayerBase final : public orca::hw::BaseDriver {
                               .big_turn_speed = 0.3}}) {}
 
  protected:
-  void check(std::vector<orca::HardwareFault>& faults) override { uses_ = read_uses(*uses_text_, faults); }
+  void check(std::vector<HardwareFault>& faults) override { uses_ = read_uses(*uses_text_, faults); }
 
-  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
+  std::vector<SensorEndpoint*> make_senses() override {
     senses_.emplace(uses_, PlayerRobotShape{.radius = *radius_, .sonar_range = *sonar_range_});
     return senses_->endpoints();
   }
 
-  void describe(orca::idl::Robot& robot) const override {
+  void describe(idl::Robot& robot) const override {
     robot.vendor("Player");
     robot.model("position2d");
     robot.radius(*radius_);
@@ -66,16 +62,16 @@ class PlayerBase final : public orca::hw::BaseDriver {
     if (used_as(Part::laser)) robot.laser_sensors().push_back(describe_laser());
   }
 
-  orca::hw::LineSession& session() override {
-    if (!session_) session_.emplace(line(), uses_, orca::from_seconds(*patience_));
+  LineSession& session() override {
+    if (!session_) session_.emplace(line(), uses_, from_seconds(*patience_));
     return *session_;
   }
 
   // What an earlier client has told the base may still go on.
   Status meet() override {
     const PlayerRobotFacts& facts = session_->facts();
-    log_connected("a Player server " + orca::in_quotes(orca::printable(facts.version)) +
-                  " with a base of its driver " + orca::in_quotes(facts.driver));
+    log_connected("a Player server " + in_quotes(printable(facts.version)) + " with a base of its driver " +
+                  in_quotes(facts.driver));
     for (const std::string& shortcoming : facts.shortcomings) warn(shortcoming);
     compare_shape(facts);
     is_scan_compared_ = false;
@@ -119,16 +115,16 @@ class PlayerBase final : public orca::hw::BaseDriver {
     return use != uses_.end() ? &*use : nullptr;
   }
 
-  [[nodiscard]] orca::idl::LaserSensor describe_laser() const {
+  [[nodiscard]] idl::LaserSensor describe_laser() const {
     const double step = *laser_beams_ > 1 ? *laser_angle_ / static_cast<double>(*laser_beams_ - 1) : 0.0;
-    orca::idl::LaserSensor laser;
+    idl::LaserSensor laser;
     laser.name("laser");
     laser.vendor("Player");
     laser.model(used_as(Part::laser)->interface == Interface::ranger ? "ranger" : "laser");
     laser.port(device());
     laser.type("LaserRangeReadings");
     laser.update_interval(0.1);
-    laser.mount(orca::level_frame({*laser_x_, *laser_y_, 0.0}, *laser_z_));
+    laser.mount(level_frame({*laser_x_, *laser_y_, 0.0}, *laser_z_));
     laser.number(static_cast<std::uint32_t>(*laser_beams_));
     laser.angle_start(-0.5 * *laser_angle_);
     laser.angle_increment(step);
@@ -194,7 +190,7 @@ class PlayerBase final : public orca::hw::BaseDriver {
 
   // A driver has started, and says where its device is.
   void learn(const Use& use) {
-    host().write_log(orca::log::Level::info, "the server says now where " + device_name(use) + " is");
+    host().write_log(log::Level::info, "the server says now where " + device_name(use) + " is");
     compare_shape(session_->facts());
     senses_->learn(session_->facts());
   }
@@ -202,7 +198,7 @@ class PlayerBase final : public orca::hw::BaseDriver {
   void take_answer(const MessageId& id) {
     const bool is_refused = id.type == MessageType::nack;
     if (id.subtype != kPosition2dMotorPower.subtype || (!is_refused && id.type != MessageType::ack)) return;
-    power_due_ = orca::kForever;
+    power_due_ = kForever;
     if (is_refused && powered_)
       warn("the server refuses power for the motors; is an emergency button pressed?");
   }
@@ -239,7 +235,7 @@ class PlayerBase final : public orca::hw::BaseDriver {
   // A driver that does not know the request drops it, and its motors may have power all the time.
   void miss_power(TimePoint now) {
     if (now < power_due_) return;
-    power_due_ = orca::kForever;
+    power_due_ = kForever;
     warn(
         "the server has not answered the request for motor power within 1 s; if the base does not move, see "
         "what the server has printed");
@@ -252,7 +248,7 @@ class PlayerBase final : public orca::hw::BaseDriver {
 
   Status say(const DriveSetpoint& setpoint) {
     say_again_ = host().now() + kSayAgain;
-    const orca::Twist2& velocity = setpoint.velocity;
+    const Twist2& velocity = setpoint.velocity;
     return session_->send(
         kPosition2dVelocity,
         encode(VelocityCommand{.velocity = {velocity.forward, 0.0, velocity.turn_rate}, .motors_on = true}),
@@ -261,11 +257,11 @@ class PlayerBase final : public orca::hw::BaseDriver {
 
   Status switch_motors(bool on) {
     powered_ = on;
-    power_due_ = on ? host().now() + kPowerAnswer : orca::kForever;
+    power_due_ = on ? host().now() + kPowerAnswer : kForever;
     return session_->send(kPosition2dMotorPower, encode(Switch{on}), uses_.front().index);
   }
 
-  orca::Param<std::string> uses_text_{
+  Param<std::string> uses_text_{
       *this,
       "uses",
       "sonar laser bumper power",
@@ -273,7 +269,7 @@ class PlayerBase final : public orca::hw::BaseDriver {
            "What of the robot is used beside its base, with blanks between. Each is the device 0 of the "
            "interface of its name, or another one: sonar=ranger:0 laser=ranger:1, as the simulator Stage has "
            "them, laser=laser:1, base=position2d:1."}};
-  orca::Param<double> patience_{
+  Param<double> patience_{
       *this,
       "patience",
       8.0,
@@ -282,36 +278,36 @@ class PlayerBase final : public orca::hw::BaseDriver {
        .max = 600.0,
        .text = "Longest time in which a device opens, and in which its driver says where it is; a laser may "
                "need half a minute. The deployer gives up after 10 s."}};
-  orca::Param<double> radius_{
+  Param<double> radius_{
       *this, "radius", 0.26, {.unit = "m", .min = 0.0, .text = "Of the circle that holds the body."}};
-  orca::Param<double> length_{
+  Param<double> length_{
       *this, "length", 0.44, {.unit = "m", .min = 0.0, .text = "Of the body; 0: it is round."}};
-  orca::Param<double> width_{
+  Param<double> width_{
       *this, "width", 0.38, {.unit = "m", .min = 0.0, .text = "Of the body; 0: it is round."}};
-  orca::Param<double> sonar_range_{
+  Param<double> sonar_range_{
       *this, "sonar_range", 5.0, {.unit = "m", .min = 0.1, .text = "Longest range of the sonars."}};
-  orca::Param<std::int64_t> laser_beams_{
+  Param<std::int64_t> laser_beams_{
       *this, "laser_beams", 181, {.min = 1, .max = 100'000, .text = "Number of beams of the laser."}};
-  orca::Param<double> laser_angle_{
+  Param<double> laser_angle_{
       *this,
       "laser_angle",
       3.141592653589793,
       {.unit = "rad", .min = 0.0, .text = "From its first beam to the last; ahead is in the middle."}};
-  orca::Param<double> laser_range_{
+  Param<double> laser_range_{
       *this, "laser_range", 8.0, {.unit = "m", .min = 0.1, .text = "Longest range of the laser."}};
-  orca::Param<double> laser_x_{
+  Param<double> laser_x_{
       *this, "laser_x", 0.0, {.unit = "m", .text = "Where the laser sits: ahead of the middle."}};
-  orca::Param<double> laser_y_{*this, "laser_y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
-  orca::Param<double> laser_z_{
+  Param<double> laser_y_{*this, "laser_y", 0.0, {.unit = "m", .text = "To the left of the middle."}};
+  Param<double> laser_z_{
       *this, "laser_z", 0.0, {.unit = "m", .text = "Height of its beams above the floor."}};
 
   std::vector<Use> uses_;  // the base first
   std::optional<PlayerSenses> senses_;
   std::optional<PlayerSession> session_;
-  bool powered_ = false;                  // the motors
-  bool is_scan_compared_ = false;         // with what the parameters say
-  DriveSetpoint applied_;                 // what the wheels were told last
-  TimePoint power_due_ = orca::kForever;  // the answer to the request for power
+  bool powered_ = false;            // the motors
+  bool is_scan_compared_ = false;   // with what the parameters say
+  DriveSetpoint applied_;           // what the wheels were told last
+  TimePoint power_due_ = kForever;  // the answer to the request for power
   TimePoint say_again_{};
 };
 

@@ -16,11 +16,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Status;
-using orca::TimePoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::rplidar;
-using namespace std::chrono_literals;
 
 constexpr Duration kUsualTurn = 181'818'182ns;  // 5.5 in a second
 constexpr Duration kLongestWait = 3s;           // for a whole turn, while points come
@@ -33,9 +31,9 @@ constexpr int kBlindTurns = 50;                 // without any echo, until that 
 /// have: there the motor turns as the adapter lets it.
 ///
 /// A scan is a turn. It begins behind and goes clockwise as the head does, so the angles of its beams, counter-clockwise, decrease; upside down they increase.
-class Rplidar final : public orca::hw::LaserDriver {
+class Rplidar final : public LaserDriver {
  public:
-  explicit Rplidar(orca::hw::HardwareHost& host)
+  explicit Rplidar(HardwareHost& host)
       : LaserDriver(host, {.baud = kBaud},
                     {.vendor = "SLAMTEC", .model = "RPLIDAR A1", .direction = "its angle 0"}) {}
 
@@ -49,7 +47,7 @@ class Rplidar final : public orca::hw::LaserDriver {
             .period = kUsualTurn};
   }
 
-  orca::hw::LineSession& session() override {
+  LineSession& session() override {
     if (!session_) session_.emplace(line(), mode());
     return *session_;
   }
@@ -64,7 +62,7 @@ class Rplidar final : public orca::hw::LaserDriver {
       warn("the laser reports that it may fail soon (number " + std::to_string(session_->health().error) +
            ")");
     noted_.reset();
-    return orca::ok();
+    return ok();
   }
 
   // It says nothing unless it scans.
@@ -88,7 +86,7 @@ class Rplidar final : public orca::hw::LaserDriver {
         session_->receive(now, [&](const Point& point, TimePoint stamp) { take(point, stamp, now); });
     if (!read.ok() || !session_->scans()) return read;
     note_beginning(now);
-    return now - turned_ > kLongestWait ? no_turn() : orca::ok();
+    return now - turned_ > kLongestWait ? no_turn() : ok();
   }
 
  private:
@@ -102,15 +100,14 @@ class Rplidar final : public orca::hw::LaserDriver {
     turned_ = now;
     if (noted_ == session_->is_express()) return;
     noted_ = session_->is_express();
-    host().write_log(orca::log::Level::info, *noted_ ? "it sends express scans" : "it sends standard scans");
+    host().write_log(log::Level::info, *noted_ ? "it sends express scans" : "it sends standard scans");
   }
 
   [[nodiscard]] Status no_turn() const {
-    return orca::fail(
-        orca::Code::deadline_exceeded,
-        "the laser sends points, but no whole turn for 3 s: does its head turn evenly, and is its "
-        "cable good? " +
-            std::to_string(turns_->incomplete()) + " turns had gaps");
+    return fail(Code::deadline_exceeded,
+                "the laser sends points, but no whole turn for 3 s: does its head turn evenly, and is its "
+                "cable good? " +
+                    std::to_string(turns_->incomplete()) + " turns had gaps");
   }
 
   void take(const Point& point, TimePoint stamp, TimePoint now) {
@@ -122,7 +119,7 @@ class Rplidar final : public orca::hw::LaserDriver {
     for (double& range : ranges)
       if (range >= *max_range_) range = std::numeric_limits<double>::infinity();
     note_sight(ranges);
-    publish(ranges, turn->stamp, orca::to_seconds(turn->period) / static_cast<double>(*beams_));
+    publish(ranges, turn->stamp, to_seconds(turn->period) / static_cast<double>(*beams_));
   }
 
   // A laser that sees nothing for long may have something over its head; or it stands in the open.
@@ -135,16 +132,15 @@ class Rplidar final : public orca::hw::LaserDriver {
           "or is there nothing within its range?");
   }
 
-  orca::Param<std::string> mode_{
-      *this,
-      "mode",
-      "auto",
-      {.choices = {"auto", "standard", "express"},
-       .text = "Which scans it is asked for: express ones have twice as many points; "
-               "auto: those if its firmware knows them."}};
-  orca::Param<std::int64_t> beams_{
+  Param<std::string> mode_{*this,
+                           "mode",
+                           "auto",
+                           {.choices = {"auto", "standard", "express"},
+                            .text = "Which scans it is asked for: express ones have twice as many points; "
+                                    "auto: those if its firmware knows them."}};
+  Param<std::int64_t> beams_{
       *this, "beams", 360, {.min = 36, .max = 1440, .text = "Beams of a scan, at equal angles all around."}};
-  orca::Param<double> max_range_{
+  Param<double> max_range_{
       *this,
       "max_range",
       12.0,

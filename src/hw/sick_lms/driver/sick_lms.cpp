@@ -16,11 +16,9 @@
 
 namespace {
 
-using orca::Duration;
-using orca::Status;
-using orca::TimePoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::sick_lms;
-using namespace std::chrono_literals;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr unsigned kFirstRate = 38400;  // at which the laser is looked for
@@ -41,13 +39,13 @@ constexpr Scale kCentimetres{"cm", Unit::centimetre, 0, 80.0};
 ///
 /// Its mirror turns 75 times a second. Beams closer than a degree are measured in two or four turns, and a scan is sent when the
 /// last one is measured. At 38400 baud about 10 scans of 181 beams come in a second, at 500000 baud all 75.
-class SickLms final : public orca::hw::LaserDriver {
+class SickLms final : public LaserDriver {
  public:
-  explicit SickLms(orca::hw::HardwareHost& host)
+  explicit SickLms(HardwareHost& host)
       : LaserDriver(host, {.baud = kFirstRate}, {.vendor = "SICK", .model = "LMS200"}) {}
 
  protected:
-  void check(std::vector<orca::HardwareFault>& faults) override {
+  void check(std::vector<HardwareFault>& faults) override {
     variant_ = {rounded(*angle_ / kDegree), rounded(100.0 * *resolution_ / kDegree)};
     if (!is_possible(variant_))
       faults.push_back(
@@ -69,14 +67,14 @@ class SickLms final : public orca::hw::LaserDriver {
   }
 
   // It knows from one connection to the next which rates the laser does not have.
-  orca::hw::LineSession& session() override {
+  LineSession& session() override {
     if (!session_)
       session_.emplace(line(),
                        Wishes{.variant = variant_,
                               .unit = scale_.unit,
                               .measuring_mode = scale_.measuring_mode,
                               .rate = static_cast<std::uint32_t>(*rate_),
-                              .patience = orca::from_seconds(*patience_)},
+                              .patience = from_seconds(*patience_)},
                        has_rate());
     return *session_;
   }
@@ -87,9 +85,9 @@ class SickLms final : public orca::hw::LaserDriver {
                .has_real_time_index = (configuration.availability().value_or(0) & 2U) != 0};
     status_ = {};
     scanning_ = false;
-    log_connected(orca::in_quotes(session_->type()), session_->rate());
+    log_connected(in_quotes(session_->type()), session_->rate());
     if (!session_->rate_trouble().empty()) warn(session_->rate_trouble());
-    return orca::ok();
+    return ok();
   }
 
   // It says nothing unless it scans. A slow line takes a second for a scan.
@@ -133,20 +131,20 @@ class SickLms final : public orca::hw::LaserDriver {
     const Reply& reply = received.reply;
     note_status(reply.status);
     if (reply.code == ReplyCode::power_on)
-      return orca::fail(orca::Code::unavailable, "the laser has restarted: was its power interrupted?");
-    if (!scanning_) return orca::ok();  // a scan that was on its way
+      return fail(Code::unavailable, "the laser has restarted: was its power interrupted?");
+    if (!scanning_) return ok();  // a scan that was on its way
     if (reply.code == ReplyCode::not_accepted ||
         parse_mode_answer(reply).value_or(ModeAnswer::success) != ModeAnswer::success)
-      return orca::fail(orca::Code::failed_precondition, "the laser refuses to send scans");
-    if (reply.code != ReplyCode::scan) return orca::ok();
+      return fail(Code::failed_precondition, "the laser refuses to send scans");
+    if (reply.code != ReplyCode::scan) return ok();
     // A scan whose check word is good and whose content is not fits no setting of ours; the next one may.
-    if (!parse_scan(reply, format_, scan_).ok() || scan_.ranges.size() != beams(variant_)) return orca::ok();
+    if (!parse_scan(reply, format_, scan_).ok() || scan_.ranges.size() != beams(variant_)) return ok();
     heard(received.stamp);
     // Beams of several turns are not measured in their order.
     const bool in_order = variant_.resolution == 100;
     publish(scan_.ranges, received.stamp - mirror_time(variant_),
-            in_order ? orca::to_seconds(mirror_time(variant_)) / 360.0 : 0.0);
-    return orca::ok();
+            in_order ? to_seconds(mirror_time(variant_)) / 360.0 : 0.0);
+    return ok();
   }
 
   // Reports what has changed in the status byte that ends each telegram.
@@ -155,7 +153,7 @@ class SickLms final : public orca::hw::LaserDriver {
     const bool was_good = is_fine(status_);
     status_ = status;
     if (is_fine(status)) {
-      if (!was_good) host().write_log(orca::log::Level::info, "the laser's status is good again");
+      if (!was_good) host().write_log(log::Level::info, "the laser's status is good again");
       return;
     }
     std::string text;
@@ -177,33 +175,33 @@ class SickLms final : public orca::hw::LaserDriver {
     }
   }
 
-  orca::Param<double> angle_{
+  Param<double> angle_{
       *this, "angle", 180.0 * kDegree, {.unit = "rad", .text = "Angle that it scans: 100 or 180 deg."}};
-  orca::Param<double> resolution_{
+  Param<double> resolution_{
       *this,
       "resolution",
       0.5 * kDegree,
       {.unit = "rad", .text = "Angle between two beams: 1 or 0.5 deg, or over 100 deg 0.25 deg."}};
-  orca::Param<std::string> unit_{*this,
-                                 "unit",
-                                 "mm",
-                                 {.choices = {"mm", "cm"},
-                                  .text = "What it counts: mm up to 32 m, or cm up to 80 m. Another one than "
-                                          "it has is written into its memory."}};
-  orca::Param<std::int64_t> rate_{
+  Param<std::string> unit_{*this,
+                           "unit",
+                           "mm",
+                           {.choices = {"mm", "cm"},
+                            .text = "What it counts: mm up to 32 m, or cm up to 80 m. Another one than "
+                                    "it has is written into its memory."}};
+  Param<std::int64_t> rate_{
       *this,
       "rate",
       0,
       {.min = 0,
        .text = "Rate of the line in baud: 9600, 19200, 38400, 500000, or 0 for the fastest possible."}};
-  orca::Param<double> patience_{*this,
-                                "patience",
-                                0.0,
-                                {.unit = "s",
-                                 .min = 0.0,
-                                 .max = 600.0,
-                                 .text = "For how long a laser is waited for that was just switched on; the "
-                                         "deployer gives up after 10 s."}};
+  Param<double> patience_{*this,
+                          "patience",
+                          0.0,
+                          {.unit = "s",
+                           .min = 0.0,
+                           .max = 600.0,
+                           .text = "For how long a laser is waited for that was just switched on; the "
+                                   "deployer gives up after 10 s."}};
 
   Variant variant_{};
   Scale scale_ = kMillimetres;

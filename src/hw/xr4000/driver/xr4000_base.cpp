@@ -14,14 +14,9 @@
 
 namespace {
 
-using orca::Code;
-using orca::Duration;
-using orca::Result;
-using orca::Status;
-using orca::TimePoint;
-using orca::hw::DriveSetpoint;
+using namespace orca;
+using namespace orca::hw;
 using namespace orca::hw::xr4000;
-using namespace std::chrono_literals;
 
 constexpr Duration kSayAgain = 250ms;     // what the axes are to do
 constexpr Duration kFeedPeriod = 100ms;   // of the motion timer
@@ -37,9 +32,9 @@ constexpr Axes kHardest{kMaxAcceleration, kMaxAcceleration, kMaxTurnAcceleration
 /// fed no more, so that they go limp. After a fault they stay so until an operator lets the base move again.
 ///
 /// Infrared readings are not published: no public source says how the library's count becomes a distance.
-class Xr4000Base final : public orca::hw::BaseDriver {
+class Xr4000Base final : public BaseDriver {
  public:
-  explicit Xr4000Base(orca::hw::HardwareHost& host)
+  explicit Xr4000Base(HardwareHost& host)
       : BaseDriver(host, "/dev/ttyUSB0", {.baud = 115200},
                    {.name = "Nomad",
                     .usual = {.max_speed = 0.5,
@@ -47,20 +42,20 @@ class Xr4000Base final : public orca::hw::BaseDriver {
                               .steer_gain = 1.0,
                               .big_turn_angle = std::numbers::pi / 3.0,
                               .big_turn_speed = 0.1,
-                              .type = orca::idl::HOLONOMIC},
+                              .type = idl::HOLONOMIC},
                     .top_speed = 0.001 * kMaxSpeed,
                     .top_turn_rate = 0.001 * kMaxTurnRate,
-                    .in_file = {{"Nomad XR4000", orca::idl::HOLONOMIC}}}) {}
+                    .in_file = {{"Nomad XR4000", idl::HOLONOMIC}}}) {}
 
  protected:
-  std::vector<orca::hw::SensorEndpoint*> make_senses() override {
-    senses_.emplace(orca::from_seconds(*sonar_cycle_),
+  std::vector<SensorEndpoint*> make_senses() override {
+    senses_.emplace(from_seconds(*sonar_cycle_),
                     XrSenses::BatteryScale{*battery_scale_, static_cast<std::size_t>(*battery_channel_)},
                     figures().traits());
     return senses_->endpoints();
   }
 
-  void describe(orca::idl::Robot& robot) const override {
+  void describe(idl::Robot& robot) const override {
     robot.vendor("Nomadic Technologies");
     robot.model("XR4000");
     robot.radius(*radius_);
@@ -70,7 +65,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
     robot.sonar_rings().push_back(senses_->describe_sonars());
   }
 
-  orca::hw::LineSession& session() override {
+  LineSession& session() override {
     if (!session_) session_.emplace(line());
     return *session_;
   }
@@ -89,12 +84,12 @@ class Xr4000Base final : public orca::hw::BaseDriver {
                   {Type::get_bumper, kReadingPeriod, now},
                   {Type::get_sonar, kReadingPeriod, now}};
     if (senses_->has_battery()) questions_.push_back({Type::get_battery, kBatteryPeriod, now});
-    return orca::ok();
+    return ok();
   }
 
   [[nodiscard]] TimePoint next_turn() const override {
     if (!session_->is_free()) return session_->next();
-    TimePoint next = powered_ ? feed_at_ : orca::kForever;
+    TimePoint next = powered_ ? feed_at_ : kForever;
     if (must_say()) next = std::min(next, say_at_);
     for (const Question& question : questions_) next = std::min(next, question.next);
     return next;
@@ -113,7 +108,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
   }
 
   Status poll() override {
-    Status heard = orca::ok();
+    Status heard = ok();
     const Status read = session_->receive(host().now(), [&](const Message& answer, TimePoint stamp) {
       if (heard.ok()) heard = take(answer, stamp);
     });
@@ -163,20 +158,19 @@ class Xr4000Base final : public orca::hw::BaseDriver {
     const Result<State> next = parse_state(answer);
     if (!next) return next.error();
     if (senses_->has_restarted(*next))
-      return orca::fail(Code::unavailable,
-                        "its clock has gone back; was the robot's computer switched off and on?");
+      return fail(Code::unavailable,
+                  "its clock has gone back; was the robot's computer switched off and on?");
     heard(stamp);
     senses_->take(*next, stamp);
     if ((next->status & kMotionError) != 0)
-      return orca::fail(
-          Code::unavailable,
-          "its axes report a motion error; is a wheel blocked, or a motor too hot? If the error "
-          "stays, switch the robot off and on");
+      return fail(Code::unavailable,
+                  "its axes report a motion error; is a wheel blocked, or a motor too hot? If the error "
+                  "stays, switch the robot off and on");
     brake_what_moves();
-    if (!is_active()) return orca::ok();
+    if (!is_active()) return ok();
     guard();
     senses_->publish_state();
-    return orca::ok();
+    return ok();
   }
 
   // Axes that move when the robot was found, or is itself again, are braked once: nobody has told them to move. Later they may
@@ -209,13 +203,12 @@ class Xr4000Base final : public orca::hw::BaseDriver {
     if (*returned == Returned::ok) {
       refusals_ = 0;
       if (said_ == wish_) is_told_ = true;
-      return orca::ok();
+      return ok();
     }
     say_at_ = host().now() + kAfterRefusal;
-    if (++refusals_ < kRefusals) return orca::ok();
-    return orca::fail(Code::unavailable,
-                      "N_SetAxes has returned " + text_of(*returned) +
-                          " again and again; is the robot zeroed, and are its axes ready?");
+    if (++refusals_ < kRefusals) return ok();
+    return fail(Code::unavailable, "N_SetAxes has returned " + text_of(*returned) +
+                                       " again and again; is the robot zeroed, and are its axes ready?");
   }
 
   // Without its motion timer it would drive on when we are gone.
@@ -223,9 +216,9 @@ class Xr4000Base final : public orca::hw::BaseDriver {
     const Result<Returned> returned = returned_of(answer);
     if (!returned) return returned.error();
     if (answer.type == Type::set_timer) has_timer_ = *returned == Returned::ok;
-    if (*returned == Returned::ok) return orca::ok();
-    return orca::fail(Code::unavailable, "its motion timer does not work: the robot's library has returned " +
-                                             text_of(*returned) + "; the base is not driven without it");
+    if (*returned == Returned::ok) return ok();
+    return fail(Code::unavailable, "its motion timer does not work: the robot's library has returned " +
+                                       text_of(*returned) + "; the base is not driven without it");
   }
 
   // A sensor that fails gives no readings, and says so once.
@@ -237,7 +230,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
       complaint_ = complaint;
       warn("a sensor gives nothing: " + complaint);
     }
-    return orca::ok();
+    return ok();
   }
 
   // Sends all that is due, if the agent has answered all that was sent before. It answers in the order of the requests.
@@ -278,7 +271,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
 
   // An emergency brakes with all that the axes can, and so harder than the library's stop mode.
   [[nodiscard]] Frame drive_axes(const DriveSetpoint& setpoint) const {
-    return orca::hw::xr4000::drive(
+    return xr4000::drive(
         speeds_of(figures().calibration().to_controller(setpoint.velocity)),
         setpoint.at_once ? kHardest
                          : accelerations_of(figures().within(*max_acceleration_), *max_turn_acceleration_));
@@ -288,29 +281,29 @@ class Xr4000Base final : public orca::hw::BaseDriver {
     return (senses_->status() & (kEmergencyStop | kJoystick | kMotionError)) == 0;
   }
 
-  orca::Param<double> max_acceleration_{*this,
-                                        "max_acceleration",
-                                        0.5,
-                                        {.unit = "m/s2",
-                                         .min = 0.05,
-                                         .max = 0.001 * kMaxAcceleration,
-                                         .text = "Greatest acceleration along an axis."}};
-  orca::Param<double> max_turn_acceleration_{*this,
-                                             "max_turn_acceleration",
-                                             2.0,
-                                             {.unit = "rad/s2",
-                                              .min = 0.1,
-                                              .max = 0.001 * kMaxTurnAcceleration,
-                                              .text = "Greatest acceleration of the turn."}};
-  orca::Param<double> radius_{*this,
-                              "radius",
-                              kBodyRadius,
-                              {.unit = "m",
-                               .min = kRadius,
-                               .max = 0.5,
-                               .text = "Radius of the robot with its bumpers; measure it. As long as it is "
-                                       "this one, that of the robot's file counts."}};
-  orca::Param<double> sonar_cycle_{
+  Param<double> max_acceleration_{*this,
+                                  "max_acceleration",
+                                  0.5,
+                                  {.unit = "m/s2",
+                                   .min = 0.05,
+                                   .max = 0.001 * kMaxAcceleration,
+                                   .text = "Greatest acceleration along an axis."}};
+  Param<double> max_turn_acceleration_{*this,
+                                       "max_turn_acceleration",
+                                       2.0,
+                                       {.unit = "rad/s2",
+                                        .min = 0.1,
+                                        .max = 0.001 * kMaxTurnAcceleration,
+                                        .text = "Greatest acceleration of the turn."}};
+  Param<double> radius_{*this,
+                        "radius",
+                        kBodyRadius,
+                        {.unit = "m",
+                         .min = kRadius,
+                         .max = 0.5,
+                         .text = "Radius of the robot with its bumpers; measure it. As long as it is "
+                                 "this one, that of the robot's file counts."}};
+  Param<double> sonar_cycle_{
       *this,
       "sonar_cycle",
       0.2,
@@ -319,7 +312,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
        .max = 2.0,
        .text = "Time in which all sonars fire once, as the agent has configured them. Above 0.25, SonarAvoid "
                "has forgotten an echo before the next one comes."}};
-  orca::Param<double> battery_scale_{
+  Param<double> battery_scale_{
       *this,
       "battery_scale",
       0.0,
@@ -327,7 +320,7 @@ class Xr4000Base final : public orca::hw::BaseDriver {
        .min = 0.0,
        .max = 10.0,
        .text = "Voltage of one count of the battery; measure it. 0: not known, and no battery is reported."}};
-  orca::Param<std::int64_t> battery_channel_{
+  Param<std::int64_t> battery_channel_{
       *this, "battery_channel", 0, {.min = 0, .max = 3, .text = "Channel of the battery that is reported."}};
 
   std::optional<XrSenses> senses_;
