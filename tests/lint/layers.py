@@ -56,8 +56,6 @@ LAYERS = (
            "orca/patterns/update_rate.hpp"), ("idl", "base"), ("fmt",)),
     Layer("patterns_local", ("src/patterns/local",), ("orca/patterns/local/",), ENDPOINTS, ("fmt",)),
     Layer("patterns_frames", (f"{PATTERNS}/frames",), (), ENDPOINTS, ("fmt",), module=PATTERNS),
-    Layer("patterns_bytes", (f"{PATTERNS}/bytes",), ("orca/patterns/bytes/",), ("patterns_frames", *ENDPOINTS), ("fmt",),
-          module=PATTERNS),
     Layer("patterns_shm", (f"{PATTERNS}/shm",), ("orca/patterns/shm/",), ("patterns_frames", *ENDPOINTS), ("fmt",),
           module=PATTERNS),
     Layer("patterns_dds", (f"{PATTERNS}/dds",), ("orca/patterns/dds/",), ENDPOINTS, ("fmt",)),

@@ -63,7 +63,7 @@ def stage(*tests, also=()):
 _DEPLOYER = ("deployer", "orca_run")
 MODULES = (
     Module("src/base/", (stage("base_test"), stage("patterns_contract_test"), stage("host_test"))),
-    Module("src/patterns/", (stage("patterns_test", "patterns_bytes_test", "patterns_frames_test", "patterns_shm_test"),
+    Module("src/patterns/", (stage("patterns_test", "patterns_frames_test", "patterns_shm_test"),
                              stage("patterns_contract_test"),
                              stage("patterns_dds_test", "patterns_dds_participant_test"),
                              stage("patterns_dds_leaving_test", "patterns_dds_processes_test"),

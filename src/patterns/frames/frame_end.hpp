@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
 
 #include "frame.hpp"
 #include "orca/base/result.hpp"
-#include "traffic.hpp"
 
 namespace orca::frames {
 
@@ -32,6 +33,13 @@ struct FrameHandlers {
   std::function<void(const Error&)> cut;
   /// Called when a link that was cut has a new peer. The peer knows nothing of what was sent to the old one.
   std::function<void()> renewed;
+};
+
+/// The counters of ends of links: of all that share them.
+struct Traffic {
+  std::atomic<std::uint64_t> frames_received{0};
+  std::atomic<std::uint64_t> objects_lost{0};
+  std::atomic<std::uint64_t> peers_cut_off{0};
 };
 
 /// One end of a link that carries frames to and from a peer, by some kind of transport. A peer that sends

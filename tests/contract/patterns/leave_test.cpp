@@ -10,7 +10,7 @@ using Catch::Contains;
 namespace {
 
 // The link through DDS stays until the ports go.
-using LeavingKits = std::tuple<LocalKit, ByteKit, ShmKit>;
+using LeavingKits = std::tuple<LocalKit, ShmKit>;
 
 // Removes a connection: the client leaves first.
 void part(Endpoint& client, Endpoint& server) {

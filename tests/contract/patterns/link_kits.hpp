@@ -17,7 +17,6 @@
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
-#include "orca/patterns/bytes/byte_links.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/patterns/synchronizer.hpp"
 #include "peer.hpp"
@@ -62,18 +61,6 @@ struct LocalKit : Kit<LocalLinks> {
   explicit LocalKit(Executive& used) : Kit(used) {}
 };
 
-/// The links that share nothing but bytes.
-struct ByteKit : Kit<ByteLinks> {
-  static constexpr bool kSharesObjects = false;
-
-  // Virtual time does not wait for the thread that carries the bytes.
-  static std::vector<ExecutiveOptions> executives() { return steady_executives(); }
-
-  static constexpr std::size_t kCapacity = std::size_t{1} << 20;  // [bytes]
-
-  explicit ByteKit(Executive& used) : Kit(used, used, kCapacity) {}
-};
-
 /// The links through shared memory, with both ends in this process.
 struct ShmKit : Kit<ShmLinks> {
   static constexpr bool kSharesObjects = false;
@@ -100,7 +87,7 @@ struct DdsKit : Kit<DdsLinks> {
   explicit DdsKit(Executive& used) : Kit(used, used) {}
 };
 
-using LinkKits = std::tuple<LocalKit, ByteKit, ShmKit, DdsKit>;
+using LinkKits = std::tuple<LocalKit, ShmKit, DdsKit>;
 
 /// Runs `body` with a fresh kit on each executive where the kit works.
 template <class Kit>

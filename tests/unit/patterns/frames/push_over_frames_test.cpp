@@ -4,8 +4,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
+#include "peer.hpp"
 #include "played_end.hpp"
 
 using namespace orca;
@@ -17,6 +19,10 @@ using Kinds = std::vector<FrameKind>;
 namespace {
 
 ObjectRef some_object() { return ObjectRef(head(0.5, 2.0).seal()); }
+
+// What a subscriber may ask for at the most.
+constexpr auto kSlowest = static_cast<std::uint64_t>(Duration::max().count());  // [ns]
+constexpr std::uint32_t kMostMultiple = ~std::uint32_t{0};
 
 std::vector<std::uint64_t> numbers_of(const Frame& frame, int count) {
   std::vector<std::byte> bytes;
@@ -250,12 +256,39 @@ TEST_CASE("a server refuses what a client of Push cannot say", "[patterns][frame
   Server server;
   for (const Frame& frame : {frame_of(FrameKind::granted, 1, {0, 1, 0}), frame_of(FrameKind::offer, 1),
                              frame_of(FrameKind::lost, 1, {1}), frame_of(FrameKind::attach, 1, {0, 0}),
+                             frame_of(FrameKind::attach, 1, {kSlowest + 1, 1}),
+                             frame_of(FrameKind::attach, 1, {0, std::uint64_t{kMostMultiple} + 1}),
                              frame_of(FrameKind::change, 1, {0}), frame_of(FrameKind::taken, 1)}) {
     CAPTURE(static_cast<int>(frame.kind()));
     CHECK_FALSE(server.peer.say(frame).ok());
   }
   CHECK_THAT(server.peer.say(frame_of(FrameKind::offer, 1)).error().message, Contains("Push"));
   CHECK(server.source.rates.empty());
+  CHECK(server.peer.say(frame_of(FrameKind::attach, 1, {kSlowest, kMostMultiple})).ok());
+  CHECK(server.source.rates == std::vector<UpdateRate>{{Duration::max(), kMostMultiple}});
+}
+
+TEST_CASE("a subscriber that attaches a second time is still one, and none once it is cut off",
+          "[patterns][frames]") {
+  run_on({}, [](Executive& executive) {
+    Played peer;
+    Peer publisher(executive, "publisher");
+    PushServer<idl::MotionCommand> out(publisher, "out");
+    auto& port = static_cast<PushServerEndpoint&>(publisher.endpoint("out"));
+    port.adopt(std::make_unique<PushSinkOverFrames>(std::make_unique<PlayedEnd>(peer), port.connect(),
+                                                    QueuePolicy{}));
+    for (const std::uint64_t subscription : {1U, 2U})
+      CHECK(peer.say(frame_of(FrameKind::attach, subscription, {0, 1})).ok());
+    CHECK(out.subscriber_count() == 1);
+    out.push(full_stop());
+    out.start(50ms);
+    CHECK(peer.kinds() ==
+          Kinds{FrameKind::granted, FrameKind::granted, FrameKind::object, FrameKind::granted});
+    peer.handlers.cut(fail(Code::data_loss, "it sent rubbish"));
+    CHECK(out.subscriber_count() == 0);
+    out.push(full_stop());
+    CHECK(peer.sent.empty());
+  });
 }
 
 TEST_CASE(
