@@ -115,4 +115,17 @@ double time_to_margin(Vec2 echo, const Twist2& motion, double margin, const Foot
   return time_to_touch(echo, motion, grown(body, there - kTouching));
 }
 
+double time_to_margin(std::span<const Vec2> echoes, const Twist2& motion, double margin,
+                      const Footprint& body) {
+  double time = kNoContact;
+  for (const Vec2 echo : echoes) time = std::min(time, time_to_margin(echo, motion, margin, body));
+  return time;
+}
+
+bool can_stop(const Twist2& motion, double time, const Brakes& brakes) {
+  const double left = std::max(0.0, time);
+  return motion.forward <= 2.0 * left * brakes.deceleration &&
+         std::abs(motion.turn_rate) <= 2.0 * left * brakes.turn_deceleration;
+}
+
 }  // namespace orca::avoid

@@ -29,9 +29,9 @@ class Dwa final : public orca::avoid::LaserAvoider {
     const bool arrives = situation.goal && situation.goal_distance < situation.goal_reach;
     if (arrives || !situation.goal) {
       const double way = way_ahead(memory.echoes(), situation, limits);
-      const orca::dwa::Room room = room_on(now, memory.echoes(), settings);
       const bool free = arrives || way >= limits.safe_distance;
-      if (free && is_admissible(now, room, settings.robot)) return {};
+      const double time = room_on(now, memory.echoes(), settings).time;
+      if (free && can_stop(now, time, settings.robot.brakes())) return {};
     }
     return said(steer(now, scene(memory, situation), *leave_way_, settings, state_));
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 
 #include "orca/base/portable_math.hpp"
@@ -15,7 +14,6 @@ namespace {
 
 constexpr std::size_t kSpeeds = 9;
 constexpr std::size_t kTurnRates = 21;
-constexpr double kFree = std::numeric_limits<double>::infinity();
 constexpr double kRest = 1e-9;  // [m/s], [rad/s] a slower velocity is none.
 
 // One velocity of the window.
@@ -52,7 +50,7 @@ double speed_to_stop(std::optional<double> way, const Abilities& robot) {
 Cell rated(const Twist2& motion, const Scene& scene, double least_way, const Settings& settings) {
   if (motion.forward < kRest && std::abs(motion.turn_rate) < kRest) return {motion};
   const Room room = room_on(motion, scene.echoes, settings);
-  if (!is_admissible(motion, room, settings.robot)) return {motion};
+  if (!can_stop(motion, room.time, settings.robot.brakes())) return {motion};
   if (motion.forward >= kRest && room.distance < least_way) return {motion};
   const Weights& weights = settings.weights;
   const double value = weights.heading * heading(motion, scene.target, settings) +
@@ -127,16 +125,9 @@ Window window_around(const Twist2& now, double max_speed, const Settings& settin
 
 Room room_on(const Twist2& motion, std::span<const Vec2> echoes, const Settings& settings) {
   const double margin = margin_at(motion.forward, settings);
-  double time = kFree;
-  for (const Vec2 echo : echoes) time = std::min(time, time_to_margin(echo, motion, margin, settings.body));
+  const double time = time_to_margin(echoes, motion, margin, settings.body);
   const double way = time * portable::hypot(motion.forward, motion.turn_rate * settings.body.reach());
   return {std::max(0.0, time - settings.reaction), way};
-}
-
-// v^2 <= 2 v time a, since the way is v time.
-bool is_admissible(const Twist2& motion, const Room& room, const Abilities& robot) {
-  return motion.forward <= 2.0 * room.time * robot.acceleration &&
-         std::abs(motion.turn_rate) <= 2.0 * room.time * robot.turn_acceleration;
 }
 
 double heading(const Twist2& motion, Vec2 target, const Settings& settings) {
@@ -163,7 +154,7 @@ std::optional<Twist2> turn_on_the_spot(const Twist2& now, double side, std::span
   for (const double rate : window.turn_rates) {
     const Twist2 turn{0.0, 0.0, rate};
     if (side * rate < kRest || (fastest && std::abs(rate) < std::abs(fastest->turn_rate))) continue;
-    if (is_admissible(turn, room_on(turn, echoes, settings), settings.robot)) fastest = turn;
+    if (can_stop(turn, room_on(turn, echoes, settings).time, settings.robot.brakes())) fastest = turn;
   }
   return fastest;
 }

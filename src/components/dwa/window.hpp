@@ -23,6 +23,8 @@ struct Abilities {
   double max_turn_rate = 0.0;      ///< [rad/s] to either side.
   double acceleration = 0.0;       ///< [m/s2] above 0; also of braking.
   double turn_acceleration = 0.0;  ///< [rad/s2] above 0; also of braking.
+
+  [[nodiscard]] avoid::Brakes brakes() const { return {acceleration, turn_acceleration}; }
 };
 
 /// The weights of the objective function G.
@@ -69,12 +71,8 @@ struct Room {
 [[nodiscard]] Window window_around(const Twist2& now, double max_speed, const Settings& settings);
 
 /// Returns how far the robot can go on with a velocity before an echo is nearer than the margin of its speed. An echo that is
-/// nearer already keeps the robot from coming nearer still.
+/// nearer already keeps the robot from coming nearer still. A velocity from which it can stop within that time is admissible: V_a.
 [[nodiscard]] Room room_on(const Twist2& motion, std::span<const Vec2> echoes, const Settings& settings);
-
-/// Returns whether the robot can stop before it touches anything: the condition of V_a, v <= sqrt(2 dist a), and likewise the turn rate
-/// by the angle that it turns on the way.
-[[nodiscard]] bool is_admissible(const Twist2& motion, const Room& room, const Abilities& robot);
 
 /// Returns how well the robot points to the target, in [0, 1], when it brakes with all its might after the next interval: the term
 /// `heading` of the objective function, 1 - theta / pi.

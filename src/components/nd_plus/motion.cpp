@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "orca/base/portable_math.hpp"
@@ -56,13 +55,9 @@ double nose(const Footprint& body) { return body.is_circle() ? body.radius : bod
 // Whether the robot can stop before an echo is nearer than the margin, and by `reserve` [m] of its way before that.
 bool keeps(const Course& course, double reserve, std::span<const Vec2> echoes, const Settings& settings) {
   const Twist2 motion{course.speed, 0.0, course.turn_rate};
-  double time = std::numeric_limits<double>::infinity();
-  for (const Vec2 echo : echoes)
-    time = std::min(time, time_to_margin(echo, motion, settings.margin, settings.body));
+  const double time = time_to_margin(echoes, motion, settings.margin, settings.body);
   const double reserved = course.speed > 0.0 ? reserve / course.speed : 0.0;
-  const double left = std::max(0.0, time - settings.reaction - reserved);
-  return course.speed <= 2.0 * left * settings.deceleration &&
-         std::abs(course.turn_rate) <= 2.0 * left * settings.turn_deceleration;
+  return can_stop(motion, time - settings.reaction - reserved, settings.brakes);
 }
 
 void note(std::optional<Danger>& nearest, const Danger& danger) {
@@ -145,7 +140,7 @@ Course made_safe(const Course& wanted, double share, double turn_rate, std::span
 }
 
 double speed_to_stop(double way, const Settings& settings) {
-  return std::sqrt(2.0 * settings.deceleration * std::max(0.0, way));
+  return std::sqrt(2.0 * settings.brakes.deceleration * std::max(0.0, way));
 }
 
 }  // namespace orca::nd

@@ -18,14 +18,13 @@ struct Settings {
   Footprint body;
   double security_distance =
       0.0;  ///< [m] D_s, from the outline, above 0: an obstacle nearer than this is a dangerous one.
-  double wide = 0.0;               ///< [rad] a region wider than this is a wide one.
-  double max_speed = 0.0;          ///< [m/s]
-  double max_turn_rate = 0.0;      ///< [rad/s]
-  double least_share = 0.0;        ///< [0, 1] of the speed that is left however near an obstacle is.
-  double margin = 0.0;             ///< [m] kept free around the body.
-  double reaction = 0.0;           ///< [s] after which the robot begins to brake.
-  double deceleration = 0.0;       ///< [m/s2] above 0.
-  double turn_deceleration = 0.0;  ///< [rad/s2] above 0.
+  double wide = 0.0;           ///< [rad] a region wider than this is a wide one.
+  double max_speed = 0.0;      ///< [m/s]
+  double max_turn_rate = 0.0;  ///< [rad/s]
+  double least_share = 0.0;    ///< [0, 1] of the speed that is left however near an obstacle is.
+  double margin = 0.0;         ///< [m] kept free around the body.
+  double reaction = 0.0;       ///< [s] after which the robot begins to brake.
+  avoid::Brakes brakes;        ///< Both above 0.
 };
 
 /// Returns the distance [m] of a point from the outline; 0 if it lies within.

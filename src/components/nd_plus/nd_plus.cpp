@@ -112,8 +112,7 @@ class NdPlus final : public orca::avoid::LaserAvoider {
             .least_share = *least_share_,
             .margin = std::min(limits.margin, *least_margin_),
             .reaction = reaction_time(),
-            .deceleration = *deceleration_,
-            .turn_deceleration = *turn_deceleration_};
+            .brakes = {*deceleration_, *turn_deceleration_}};
   }
 
   // [s] A robot that stands in a narrow place must not forget what its laser cannot see there before it turns.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "force.hpp"
@@ -40,25 +39,18 @@ class PotentialField final : public orca::avoid::LaserAvoider {
                                          const orca::avoid::Situation& situation,
                                          const orca::avoid::Footprint& outline) const {
     const double rate = std::clamp(kTurnGain * wanted.direction, -kMaxTurnRate, kMaxTurnRate);
+    const auto stops = [&](const orca::Twist2& motion) {
+      return can_stop(motion, time_to_margin(echoes, motion, kMargin, outline) - reaction_time(), kBrakes);
+    };
     for (const double turning : {1.0, 0.5, 0.0}) {
       for (const double driving : {1.0, 0.75, 0.5, 0.25, 0.0}) {
         const orca::Twist2 slower{driving * wanted.speed, 0.0, turning * rate};
         const orca::Twist2 at_first{slower.forward, 0.0, situation.turn_rate};
-        if (can_stop(slower, echoes, outline) && (driving == 0.0 || can_stop(at_first, echoes, outline)))
+        if (stops(slower) && (driving == 0.0 || stops(at_first)))
           return {true, wanted.direction, slower.forward, 1.0, slower.turn_rate};
       }
     }
     return {true, 0.0, 0.0, 1.0, 0.0};
-  }
-
-  [[nodiscard]] bool can_stop(const orca::Twist2& motion, std::span<const orca::Vec2> echoes,
-                              const orca::avoid::Footprint& outline) const {
-    double time = std::numeric_limits<double>::infinity();
-    for (const orca::Vec2 echo : echoes)
-      time = std::min(time, time_to_margin(echo, motion, kMargin, outline));
-    const double left = std::max(0.0, time - reaction_time());
-    return motion.forward <= 2.0 * left * kDeceleration &&
-           std::abs(motion.turn_rate) <= 2.0 * left * kTurnDeceleration;
   }
 
   [[nodiscard]] orca::field::Settings settings(const orca::avoid::Limits& limits) const {
@@ -68,11 +60,10 @@ class PotentialField final : public orca::avoid::LaserAvoider {
     return {*attraction_, *repulsion_, *influence_, *damping_, limits.max_speed, outline};
   }
 
-  static constexpr double kStraightOn = 100.0;      // [m]
-  static constexpr double kMargin = 0.05;           // [m] kept free around the body
-  static constexpr double kDeceleration = 0.5;      // [m/s2]
-  static constexpr double kTurnDeceleration = 2.0;  // [rad/s2]
-  static constexpr double kTurnGain = 1.0;          // [1/s]
+  static constexpr double kStraightOn = 100.0;  // [m]
+  static constexpr double kMargin = 0.05;       // [m] kept free around the body
+  static constexpr orca::avoid::Brakes kBrakes{0.5, 2.0};
+  static constexpr double kTurnGain = 1.0;  // [1/s]
   static constexpr double kMaxTurnRate =
       1.5;  // [rad/s] at which a slow scan still shows places about where they are
 

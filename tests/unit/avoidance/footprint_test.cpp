@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <vector>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/arc.hpp"
@@ -97,4 +98,24 @@ TEST_CASE("the gap is the margin that just reaches a point, and its rate follows
   CHECK(gap_rate({0.2, 0.3}, {0.0, 0.0, 1.0}, kLongFootprint) == Approx(-0.2));
   CHECK(gap_rate({-0.2, 0.3}, {0.0, 0.0, 1.0}, kLongFootprint) == Approx(0.2));
   CHECK(gap_rate({0.4, 0.0}, {0.5, 0.0, 1.0}, kRoundFootprint) == Approx(-0.5));
+}
+
+TEST_CASE("a robot can stop from a motion that it can brake on the way that is left", "[footprint]") {
+  constexpr Brakes kBrakes{.deceleration = 0.5, .turn_deceleration = 2.0};
+  const double way = 0.36;
+  const double fastest = std::sqrt(2.0 * way * kBrakes.deceleration);
+  for (const double speed : {0.9 * fastest, 1.1 * fastest})
+    CHECK(can_stop({speed, 0.0, 0.0}, way / speed, kBrakes) == (speed < fastest));
+  for (const double side : {1.0, -1.0}) {
+    CHECK(can_stop({0.0, 0.0, side}, 0.26, kBrakes));
+    CHECK_FALSE(can_stop({0.0, 0.0, side}, 0.24, kBrakes));
+  }
+  CHECK(can_stop({}, -1.0, kBrakes));
+}
+
+TEST_CASE("of several echoes the one that is near first counts", "[footprint]") {
+  const Twist2 ahead{0.5, 0.0, 0.0};
+  const std::vector<Vec2> echoes{{2.0, 0.0}, {1.35, 0.0}, {-1.0, 0.0}};
+  CHECK(time_to_margin(echoes, ahead, 0.1, kLongFootprint) == Approx(2.0));
+  CHECK(std::isinf(time_to_margin(std::span<const Vec2>(), ahead, 0.1, kLongFootprint)));
 }

@@ -103,16 +103,6 @@ TEST_CASE("the window ends at the greatest speeds, and does not lead backwards",
   CHECK(too_fast.speeds.back() == Approx(0.375));
 }
 
-TEST_CASE("a velocity is admissible if it can be braked on the way that is left", "[dwa]") {
-  const Abilities& robot = kSettings.robot;
-  const double way = 0.36;
-  const double fastest = std::sqrt(2.0 * way * robot.acceleration);
-  for (const double speed : {0.9 * fastest, 1.1 * fastest})
-    CHECK(is_admissible({speed, 0.0, 0.0}, {way / speed, way}, robot) == (speed < fastest));
-  CHECK(is_admissible({0.0, 0.0, 1.0}, {0.26, 0.0}, robot));
-  CHECK_FALSE(is_admissible({0.0, 0.0, 1.0}, {0.24, 0.0}, robot));
-}
-
 TEST_CASE("an echo nearer than the margin does not keep the robot from leaving, but from coming nearer",
           "[dwa]") {
   const std::vector<Vec2> beside{{0.1, 0.23}};
@@ -161,7 +151,7 @@ TEST_CASE("whatever is around, the best velocity is within reach and admissible"
     const auto best = best_velocity(now, {echoes, kAhead, std::nullopt}, 0.0, kSettings);
     if (!best) continue;
     ++chosen;
-    CHECK(is_admissible(*best, room_on(*best, echoes, kSettings), kSettings.robot));
+    CHECK(can_stop(*best, room_on(*best, echoes, kSettings).time, kSettings.robot.brakes()));
     CHECK(std::abs(best->forward - now.forward) <= 0.125 + 1e-9);
     CHECK(std::abs(best->turn_rate - now.turn_rate) <= 0.5 + 1e-9);
   }

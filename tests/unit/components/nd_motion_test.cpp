@@ -25,8 +25,7 @@ constexpr Settings kSettings{.body = {.radius = 0.25},
                              .least_share = 0.2,
                              .margin = 0.05,
                              .reaction = 0.1,
-                             .deceleration = 0.5,
-                             .turn_deceleration = 2.0};
+                             .brakes = {0.5, 2.0}};
 constexpr Footprint kLongBody{.radius = 0.5, .half_length = 0.4, .half_width = 0.2};
 constexpr Goal kAhead{0.0, 5.0};
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <span>
+
 #include "orca/geometry/twist2.hpp"
 #include "orca/geometry/vec2.hpp"
 
@@ -39,5 +41,19 @@ struct Footprint {
 /// An echo that is nearer already is judged by the motion, not by how near it is: 0 if it comes nearer. Errors of the laser would
 /// otherwise let the robot come nearer bit by bit. An echo from deep within the body is an error, or the robot itself.
 [[nodiscard]] double time_to_margin(Vec2 echo, const Twist2& motion, double margin, const Footprint& body);
+
+/// Returns how long [s] it can move before any of the echoes is; infinity if none ever is.
+[[nodiscard]] double time_to_margin(std::span<const Vec2> echoes, const Twist2& motion, double margin,
+                                    const Footprint& body);
+
+/// How hard a robot brakes.
+struct Brakes {
+  double deceleration = 0.0;       ///< [m/s2]
+  double turn_deceleration = 0.0;  ///< [rad/s2]
+};
+
+/// Returns whether the robot can come to rest on the way that it moves in `time` [s]: v <= sqrt(2 v time a), and likewise its turn
+/// rate by the angle that it turns on that way. A time below 0 counts as 0.
+[[nodiscard]] bool can_stop(const Twist2& motion, double time, const Brakes& brakes);
 
 }  // namespace orca::avoid
