@@ -3,7 +3,12 @@
 // two lists. A code never changes its meaning.
 #pragma once
 
-namespace orca::text::codes {
+#include <optional>
+#include <string>
+
+namespace orca::text {
+
+namespace codes {
 
 inline constexpr const char* kWrongType = "T001";
 inline constexpr const char* kUnknownField = "T002";
@@ -16,4 +21,14 @@ inline constexpr const char* kRange = "T008";
 inline constexpr const char* kChoice = "T009";
 inline constexpr const char* kBackslash = "T010";
 
-}  // namespace orca::text::codes
+}  // namespace codes
+
+// An error in a value that was read.
+struct Problem {
+  const char* code;
+  std::string message;
+};
+
+using Verdict = std::optional<Problem>;  // Empty: the value is good.
+
+}  // namespace orca::text

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "instant.hpp"
+#include "number.hpp"
 #include "orca/idl/time.hpp"
 #include "plain.hpp"
 

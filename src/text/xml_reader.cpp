@@ -11,7 +11,6 @@
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 #include "plain.hpp"
-#include "text_element.hpp"
 
 namespace orca {
 namespace {

@@ -5,7 +5,6 @@
 #include "orca/text/object_xml.hpp"
 #include "orca/xml/document.hpp"
 #include "plain.hpp"
-#include "text_element.hpp"
 
 namespace orca {
 namespace {

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "agenda.hpp"
-#include "goal_file.hpp"
 #include "goal_list.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/text.hpp"
@@ -19,7 +17,6 @@
 #include "orca/idl/time.hpp"
 #include "orca/patterns/synchronizer.hpp"
 #include "outbox.hpp"
-#include "points.hpp"
 #include "prompt.hpp"
 
 namespace {

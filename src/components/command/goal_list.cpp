@@ -5,7 +5,10 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <sstream>
 #include <utility>
+
+#include "orca/base/input_file.hpp"
 
 namespace orca::command {
 namespace {
@@ -133,6 +136,56 @@ Result<Route> parse_route(std::string_view text) {
   if (route.goal.door && route.use_orientation)
     return bad(text, "a door as the goal has its direction already; remove \"@\" and what follows");
   return route;
+}
+
+namespace {
+
+constexpr std::size_t kMaxBytes = 1'000'000;
+
+}  // namespace
+
+Result<std::vector<GoalLine>> read_goal_file(const std::string& path) {
+  const Result<std::string> text = read_input_file(path, kMaxBytes);
+  if (!text) return fail(text.error().code, "cannot read the file of goals: " + text.error().message, path);
+  if (text->size() == kMaxBytes)
+    return fail(Code::invalid_argument, "the file of goals has more than 1 MB, which is the limit", path);
+  std::istringstream file(*text);
+  std::vector<GoalLine> lines;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+    lines.push_back({line, path + ":" + std::to_string(number) + ":1"});
+  }
+  return lines;
+}
+
+namespace {
+
+Loan<idl::GoalPoint> point_at(const Place& place) {
+  if (!place.door) return make_object<idl::GoalPoint>();
+  auto door = make_object<idl::Door>();
+  door->orientation().orientation().yaw(place.door->direction);
+  door->door_width().distance(place.door->width);
+  door->passable(true);
+  return door;
+}
+
+}  // namespace
+
+Loan<idl::GoalPoint> point_of(const Route& route, const Place& place, const Demands& demands) {
+  Loan<idl::GoalPoint> point = point_at(place);
+  point->name() = route.name;
+  point->coordinate().point().x(place.x);
+  point->coordinate().point().y(place.y);
+  point->coordinate().point().z(place.z);
+  point->via(demands.via);
+  point->reach_radius().distance(demands.radius);
+  point->use_orientation(!demands.via && route.use_orientation);
+  if (!place.door) point->orientation().orientation().yaw(route.orientation);
+  point->reach_angle(demands.angle);
+  point->time_limit(demands.time_limit);
+  return point;
 }
 
 }  // namespace orca::command

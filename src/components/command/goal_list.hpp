@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/idl/navigation.hpp"
 
 namespace orca::command {
 
@@ -42,5 +45,57 @@ struct Route {
 ///
 /// @errors  invalid_argument with what was found and what was expected.
 [[nodiscard]] Result<Route> parse_route(std::string_view text);
+
+/// A line of a file of goals.
+struct GoalLine {
+  std::string text;
+  std::string place;  ///< For messages: "FILE:LINE:1".
+};
+
+/// Reads a file of goals, without its empty lines and comments.
+/// @errors  those of read_input_file(); invalid_argument if it has more than 1 MB.
+[[nodiscard]] Result<std::vector<GoalLine>> read_goal_file(const std::string& path);
+
+/// What counts as having reached a point.
+struct Demands {
+  double radius = 0.0;      ///< [m]
+  double angle = 0.0;       ///< [rad] off the direction at the goal.
+  double time_limit = 0.0;  ///< [s] for the way to the goal.
+  bool via = false;         ///< Whether it is only passed.
+};
+
+/// Returns what Goto gets for a place of a route: a GoalPoint, or a Door, which is one too. Who sends a robot through a door says
+/// that it is passable.
+[[nodiscard]] Loan<idl::GoalPoint> point_of(const Route& route, const Place& place, const Demands& demands);
+
+/// The goals of a list, and how far it is driven: once, in several rounds, or in rounds without end.
+///
+/// Thread contract: not synchronised.
+class Agenda {
+ public:
+  /// Begins another list.
+  void set(std::vector<Route> routes) {
+    routes_ = std::move(routes);
+    begun_ = 0;
+  }
+  [[nodiscard]] bool empty() const { return routes_.empty(); }
+
+  /// Returns the goal that is to be driven to now; null after the last one.
+  /// @param rounds  in which the list is driven; 0: without end.
+  [[nodiscard]] const Route* next(std::size_t rounds) const {
+    if (routes_.empty() || (rounds > 0 && begun_ >= rounds * routes_.size())) return nullptr;
+    return &routes_[begun_ % routes_.size()];
+  }
+  /// Takes note that the robot is driven to the next goal.
+  void begin() { ++begun_; }
+
+  /// How many goals of this list were begun, in all rounds.
+  [[nodiscard]] std::size_t begun() const { return begun_; }
+  void go_on_after(std::size_t begun) { begun_ = begun; }
+
+ private:
+  std::vector<Route> routes_;
+  std::size_t begun_ = 0;
+};
 
 }  // namespace orca::command

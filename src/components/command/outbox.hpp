@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -21,18 +22,25 @@ class Outbox {
   explicit Outbox(std::size_t points) : points_(points) {}
 
   /// Takes note of how often the receivers have been started again by now.
-  void note_restarts(Restarts of_goto, Restarts of_fuser);
+  void note_restarts(Restarts of_goto, Restarts of_fuser) {
+    if (of_goto != of_goto_) next_ = ahead_;
+    if (of_fuser != of_fuser_) list_is_due_ = true;
+    of_goto_ = of_goto;
+    of_fuser_ = of_fuser;
+  }
   /// Returns whether a receiver was started again since the last note_restarts().
   [[nodiscard]] bool is_outdated(Restarts of_goto, Restarts of_fuser) const {
     return of_goto != of_goto_ || of_fuser != of_fuser_;
   }
 
   /// Takes note of how many points are still before the robot. The goal always is.
-  void note_left(std::size_t points);
+  void note_left(std::size_t points) { ahead_ = points_ - std::clamp<std::size_t>(points, 1, points_); }
   [[nodiscard]] std::size_t points_left() const { return points_ - ahead_; }
 
   /// Returns the index of the point to be sent next; nothing if Goto has all of them.
-  [[nodiscard]] std::optional<std::size_t> next_point() const;
+  [[nodiscard]] std::optional<std::size_t> next_point() const {
+    return next_ == points_ ? std::nullopt : std::optional(next_);
+  }
   void point_sent() { ++next_; }
   [[nodiscard]] bool list_is_due() const { return list_is_due_; }
   void list_sent() { list_is_due_ = false; }

@@ -7,8 +7,6 @@
 
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
-#include "orca/goals/fault.hpp"
-#include "orca/goals/path.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::go {

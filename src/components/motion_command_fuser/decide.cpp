@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "weighted.hpp"
-
 namespace orca::fuse {
 namespace {
 

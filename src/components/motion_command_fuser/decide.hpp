@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "arbitration.hpp"
+#include "fusion.hpp"
 #include "voice.hpp"
-#include "vote.hpp"
-#include "wish.hpp"
 
 namespace orca::fuse {
 

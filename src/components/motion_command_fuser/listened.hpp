@@ -6,7 +6,7 @@
 
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
-#include "reliance.hpp"
+#include "voice.hpp"
 
 namespace orca::fuse {
 

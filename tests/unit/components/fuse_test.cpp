@@ -8,8 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "motion_command_fuser/vote.hpp"
-#include "motion_command_fuser/weighted.hpp"
+#include "motion_command_fuser/fusion.hpp"
 #include "orca/base/random.hpp"
 
 using namespace orca::fuse;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "orca/goals/fault.hpp"
+#include "orca/goals/route.hpp"
 
 using namespace orca;
 using namespace orca::go;

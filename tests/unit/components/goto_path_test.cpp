@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "orca/goals/path.hpp"
+#include "orca/goals/route.hpp"
 
 using namespace orca;
 using namespace orca::go;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When a behaviour that fell silent may be relied upon again.
-#include "motion_command_fuser/reliance.hpp"
+#include "motion_command_fuser/voice.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "orca/base/time.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/object.hpp"
 
@@ -48,5 +49,21 @@ class Route {
   std::uint64_t given_up_ = 0;
   std::uint64_t changes_ = 0;
 };
+
+/// Returns why a robot on the floor cannot take that goal, to be read after "it"; null if it can. The uncertainties of
+/// the goal are not considered.
+/// @param height [m]  of the robot in the frame of the goal.
+[[nodiscard]] const char* fault_of(const idl::GoalPoint& goal, double height);
+
+/// Returns why the robot cannot go through that door; null if it can. A width of 0 is not known.
+/// @param room [m]  width that the robot needs.
+[[nodiscard]] const char* fault_of_door(const idl::Door& door, double room);
+
+/// Fills in the way that is left: the robot's pose, then the points of the route, which give the path its name. A
+/// pose on the way looks along the way that leads to it, and the last one as the goal asks. Without a route the path
+/// is empty. The uncertainties of the points are left out.
+/// @param here  of the robot, in the frame of the points.
+/// @param height [m]  of the robot in that frame.
+void fill_path(const Route& route, const Pose2& here, double height, idl::Path& path);
 
 }  // namespace orca::go
