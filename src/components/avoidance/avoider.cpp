@@ -241,7 +241,7 @@ std::string Avoider::why_deaf() {
 // Returns how a robot gets free that stands although it has somewhere to go. What it has met without seeing it is remembered.
 std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
   if (!remembers() || !moved_at_) return std::nullopt;
-  if (!escape_) escape_.emplace(outline());
+  if (!escape_) escape_.emplace(outline_of(described_body()));
   const bool has_somewhere_to_go =
       situation.goal && situation.goal_distance > situation.goal_reach && !are_motors_held();
   const auto goal = has_somewhere_to_go ? situation.goal : std::nullopt;
@@ -254,7 +254,7 @@ std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
 void Avoider::feel_ahead() {
   constexpr std::uint32_t kTouch = std::numeric_limits<std::uint32_t>::max();  // No sensor has that number.
   constexpr int kPoints = 5;
-  const nav::Footprint body = outline();
+  const nav::Footprint body = outline_of(described_body());
   EchoMemory::Limits kept = keep();
   kept.sensor = kTouch;
   for (int i = 0; i < 2 * kPoints; ++i) {  // Twice, which confirms them.
@@ -271,8 +271,7 @@ bool Avoider::are_motors_held() const {
       alarms, [](const idl::Alarm& alarm) { return alarm.kind() == "ESTOP" && alarm.active(); });
 }
 
-nav::Footprint Avoider::outline() const {
-  const std::optional<Rectangle> body = described_body();
+nav::Footprint Avoider::outline_of(const std::optional<Rectangle>& body) const {
   return body ? nav::Footprint{body->half_length, body->half_width, radius()}
               : nav::Footprint{.radius = radius()};
 }

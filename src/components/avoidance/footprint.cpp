@@ -77,11 +77,13 @@ bool is_within(double gap, const Footprint& body) {
 
 }  // namespace
 
-double Footprint::reach() const { return is_circle() ? radius : portable::hypot(half_length, half_width); }
+double reach(const Footprint& body) {
+  return body.is_circle() ? body.radius : portable::hypot(body.half_length, body.half_width);
+}
 
 Footprint grown(const Footprint& body, double margin) {
-  if (body.is_circle()) return {body.radius + margin};
-  return {body.radius + margin, body.half_length + margin, body.half_width + margin};
+  if (body.is_circle()) return {.radius = body.radius + margin};
+  return {body.half_length + margin, body.half_width + margin, body.radius + margin};
 }
 
 double gap(Vec2 point, const Footprint& body) {

@@ -49,15 +49,12 @@ class Dwa final : public orca::avoid::LaserAvoider {
   }
 
   [[nodiscard]] orca::dwa::Settings settings(const orca::avoid::Limits& limits) const {
-    const auto rectangle = body();
     return {.robot = {limits.max_speed, *max_turn_rate_, *acceleration_, *turn_acceleration_},
             .weights = {*heading_weight_, *distance_weight_, *speed_weight_},
             .interval = *interval_,
             .reaction = reaction_time(),
             .far = limits.safe_distance,
-            .body = rectangle ? orca::dwa::Footprint{limits.robot_radius, rectangle->half_length,
-                                                     rectangle->half_width}
-                              : orca::dwa::Footprint{limits.robot_radius},
+            .body = outline(),
             .margin = limits.margin,
             .least_margin = *least_margin_};
   }

@@ -125,8 +125,8 @@ Window window_around(const Twist2& now, double max_speed, const Settings& settin
 
 Room room_on(const Twist2& motion, std::span<const Vec2> echoes, const Settings& settings) {
   const double margin = margin_at(motion.forward, settings);
-  const double time = time_to_margin(echoes, motion, margin, settings.body);
-  const double way = time * portable::hypot(motion.forward, motion.turn_rate * settings.body.reach());
+  const double time = avoid::time_to_margin(echoes, motion, margin, settings.body);
+  const double way = time * portable::hypot(motion.forward, motion.turn_rate * avoid::reach(settings.body));
   return {std::max(0.0, time - settings.reaction), way};
 }
 

@@ -55,7 +55,7 @@ double nose(const Footprint& body) { return body.is_circle() ? body.radius : bod
 // Whether the robot can stop before an echo is nearer than the margin, and by `reserve` [m] of its way before that.
 bool keeps(const Course& course, double reserve, std::span<const Vec2> echoes, const Settings& settings) {
   const Twist2 motion{course.speed, 0.0, course.turn_rate};
-  const double time = time_to_margin(echoes, motion, settings.margin, settings.body);
+  const double time = avoid::time_to_margin(echoes, motion, settings.margin, settings.body);
   const double reserved = course.speed > 0.0 ? reserve / course.speed : 0.0;
   return can_stop(motion, time - settings.reaction - reserved, settings.brakes);
 }
@@ -66,12 +66,6 @@ void note(std::optional<Danger>& nearest, const Danger& danger) {
 
 }  // namespace
 
-double distance_from(const Footprint& body, Vec2 point) {
-  if (body.is_circle()) return std::max(0.0, norm(point) - body.radius);
-  return norm({std::max(0.0, std::abs(point.x) - body.half_length),
-               std::max(0.0, std::abs(point.y) - body.half_width)});
-}
-
 double half_way(const Footprint& body) { return body.is_circle() ? body.radius : body.half_width; }
 
 double Dangers::share() const { return std::min(left ? left->share : 1.0, right ? right->share : 1.0); }
@@ -79,7 +73,7 @@ double Dangers::share() const { return std::min(left ? left->share : 1.0, right 
 Dangers dangers(std::span<const Vec2> echoes, double direction, const Settings& settings) {
   Dangers found;
   for (const Vec2 echo : echoes) {
-    const double share = distance_from(settings.body, echo) / settings.security_distance;
+    const double share = std::max(0.0, clearance(settings.body, echo)) / settings.security_distance;
     if (share >= 1.0) continue;
     const Danger danger{bearing(echo), share};
     const double off = wrapped(danger.direction - direction);
@@ -128,7 +122,7 @@ Course made_safe(const Course& wanted, double share, double turn_rate, std::span
                  const Settings& settings) {
   const bool may_turn = is_safe({0.0, wanted.turn_rate}, echoes, settings);
   const double speed = may_turn ? wanted.speed : speed_beside(share, settings);
-  const double to_turn = settings.body.reach() - nose(settings.body);
+  const double to_turn = avoid::reach(settings.body) - nose(settings.body);
   for (const double turning : {1.0, 0.5, 0.0}) {
     for (const double driving : {1.0, 0.75, 0.5, 0.25, 0.0}) {
       const Course slower{driving * speed, turning * wanted.turn_rate};

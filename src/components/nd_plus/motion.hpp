@@ -27,9 +27,6 @@ struct Settings {
   avoid::Brakes brakes;        ///< Both above 0.
 };
 
-/// Returns the distance [m] of a point from the outline; 0 if it lies within.
-[[nodiscard]] double distance_from(const Footprint& body, Vec2 point);
-
 /// Returns half the width [m] of the way that a body needs straight ahead.
 [[nodiscard]] double half_way(const Footprint& body);
 

@@ -101,10 +101,7 @@ class NdPlus final : public orca::avoid::LaserAvoider {
   }
 
   [[nodiscard]] orca::nd::Settings settings(const orca::avoid::Limits& limits) const {
-    orca::nd::Footprint outline{limits.robot_radius};
-    if (const auto rectangle = body())
-      outline = {limits.robot_radius, rectangle->half_length, rectangle->half_width};
-    return {.body = outline,
+    return {.body = outline(),
             .security_distance = *security_distance_,
             .wide = *wide_region_,
             .max_speed = limits.max_speed,

@@ -11,11 +11,9 @@ namespace {
 
 constexpr double kNearest = 0.01;  // [m] The field has a pole at the outline.
 
-bool is_round(const Outline& body) { return body.half_length <= 0.0 || body.half_width <= 0.0; }
-
 // Returns the point of the body that is nearest to an echo; the echo itself if it lies within.
-Vec2 nearest_point(Vec2 echo, const Outline& body) {
-  if (is_round(body)) return shortened(echo, body.radius);
+Vec2 nearest_point(Vec2 echo, const Footprint& body) {
+  if (body.is_circle()) return shortened(echo, body.radius);
   return {std::clamp(echo.x, -body.half_length, body.half_length),
           std::clamp(echo.y, -body.half_width, body.half_width)};
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "orca/geometry/vec2.hpp"
+#include "orca/navigation/footprint.hpp"
 
 /// The artificial potential field as pure functions of any thread.
 ///
@@ -12,12 +13,7 @@
 /// accelerations [m/s2].
 namespace orca::field {
 
-/// The body around the origin of the robot's frame.
-struct Outline {
-  double radius = 0.0;       ///< [m] of the circle that holds the body.
-  double half_length = 0.0;  ///< [m] of the rectangle that holds the body, along x; 0: the circle is all.
-  double half_width = 0.0;   ///< [m] of that rectangle, across.
-};
+using nav::Footprint;
 
 /// The shape of the field.
 struct Settings {
@@ -27,7 +23,7 @@ struct Settings {
       0.0;  ///< [m] rho_0: distance of the robot's outline beyond which an obstacle does not repel.
   double damping = 0.0;    ///< [1/s] k_v, above 0: against the velocity.
   double max_speed = 0.0;  ///< [m/s] to which the attraction of a far goal is limited.
-  Outline body;
+  Footprint body;
 };
 
 /// Returns the force towards the goal: -k_p (x - x_d), where k_p |x - x_d| is at most k_v max_speed, so that the robot without

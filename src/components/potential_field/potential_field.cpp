@@ -4,7 +4,6 @@
 #include <span>
 
 #include "force.hpp"
-#include "orca/avoidance/footprint.hpp"
 #include "orca/avoidance/laser_avoider.hpp"
 
 namespace {
@@ -28,19 +27,19 @@ class PotentialField final : public orca::avoid::LaserAvoider {
                                            : orca::Vec2{kStraightOn, 0.0};
     const orca::Vec2 force = attraction(goal, settings) + repelled;
     const orca::field::Course wanted = course(velocity(force, settings), settings);
-    const orca::field::Outline& own = settings.body;
-    return safe(wanted, memory.echoes(), situation, {own.radius, own.half_length, own.half_width});
+    return safe(wanted, memory.echoes(), situation);
   }
 
   // The field moves a point. The body follows it as far as it can stop before it touches what the laser sees: slower, and
   // without so much of its turn if that does not help. While it drives that holds for the turn that it makes now as well.
   [[nodiscard]] orca::avoid::Advice safe(const orca::field::Course& wanted,
                                          std::span<const orca::Vec2> echoes,
-                                         const orca::avoid::Situation& situation,
-                                         const orca::avoid::Footprint& outline) const {
+                                         const orca::avoid::Situation& situation) const {
     const double rate = std::clamp(kTurnGain * wanted.direction, -kMaxTurnRate, kMaxTurnRate);
+    const orca::avoid::Footprint outline = this->outline();
     const auto stops = [&](const orca::Twist2& motion) {
-      return can_stop(motion, time_to_margin(echoes, motion, kMargin, outline) - reaction_time(), kBrakes);
+      return can_stop(motion, orca::avoid::time_to_margin(echoes, motion, kMargin, outline) - reaction_time(),
+                      kBrakes);
     };
     for (const double turning : {1.0, 0.5, 0.0}) {
       for (const double driving : {1.0, 0.75, 0.5, 0.25, 0.0}) {
@@ -54,10 +53,7 @@ class PotentialField final : public orca::avoid::LaserAvoider {
   }
 
   [[nodiscard]] orca::field::Settings settings(const orca::avoid::Limits& limits) const {
-    orca::field::Outline outline{limits.robot_radius};
-    if (const auto rectangle = body())
-      outline = {limits.robot_radius, rectangle->half_length, rectangle->half_width};
-    return {*attraction_, *repulsion_, *influence_, *damping_, limits.max_speed, outline};
+    return {*attraction_, *repulsion_, *influence_, *damping_, limits.max_speed, outline()};
   }
 
   static constexpr double kStraightOn = 100.0;  // [m]

@@ -17,7 +17,7 @@ using orca::Vec2;
 namespace {
 
 constexpr Footprint kRoundFootprint{.radius = 0.3};
-constexpr Footprint kLongFootprint{.radius = 0.35, .half_length = 0.25, .half_width = 0.2};
+constexpr Footprint kLongFootprint{.half_length = 0.25, .half_width = 0.2, .radius = 0.35};
 constexpr double kTimeStep = 1e-3;  // [s]
 constexpr double kTimeLimit = 6.0;  // [s]
 

@@ -25,7 +25,7 @@ constexpr Settings kSettings{
     .interval = 0.25,
     .reaction = 0.1,
     .far = 0.8,
-    .body = {.radius = 0.33, .half_length = 0.25, .half_width = 0.21},
+    .body = {.half_length = 0.25, .half_width = 0.21, .radius = 0.33},
     .margin = 0.1,
     .least_margin = 0.05};
 constexpr double kLeaveWay = 0.3;
@@ -51,7 +51,8 @@ std::vector<Vec2> seen_by(const Pose2& robot, const std::vector<Vec2>& places) {
 
 double smallest_gap(const Pose2& robot, const std::vector<Vec2>& places) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Vec2 place : places) smallest = std::min(smallest, gap(seen_from(robot, place), kSettings.body));
+  for (const Vec2 place : places)
+    smallest = std::min(smallest, orca::avoid::gap(seen_from(robot, place), kSettings.body));
   return smallest;
 }
 
@@ -145,7 +146,7 @@ TEST_CASE("whatever is around, the best velocity is within reach and admissible"
     std::vector<Vec2> echoes;
     for (int k = 0; k < 15; ++k) {
       const Vec2 echo{random.uniform(-1.2, 1.2), random.uniform(-1.2, 1.2)};
-      if (gap(echo, kSettings.body) > 0.0) echoes.push_back(echo);
+      if (orca::avoid::gap(echo, kSettings.body) > 0.0) echoes.push_back(echo);
     }
     const Twist2 now{random.uniform(0.0, 0.5), 0.0, random.uniform(-1.0, 1.0)};
     const auto best = best_velocity(now, {echoes, kAhead, std::nullopt}, 0.0, kSettings);

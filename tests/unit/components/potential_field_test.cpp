@@ -90,7 +90,7 @@ TEST_CASE("the repulsion is the gradient of Khatib's potential", "[field]") {
 
 TEST_CASE("an echo repels from the nearest point of the body, within its influence only", "[field]") {
   Settings box = kField;
-  box.body = {.radius = 0.35, .half_length = 0.3, .half_width = 0.2};
+  box.body = {.half_length = 0.3, .half_width = 0.2, .radius = 0.35};
   CHECK(repulsion(Vec2{0.5, 0.0}, box) == repulsion(Vec2{0.5, 0.15}, box));
   CHECK(repulsion(Vec2{0.5, 0.0}, box).x < 0.0);
   CHECK(repulsion(Vec2{0.0, 0.4}, box).y == Approx(repulsion(Vec2{0.5, 0.0}, box).x));

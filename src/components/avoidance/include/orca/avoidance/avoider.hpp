@@ -114,6 +114,8 @@ class Avoider : public Component {
   [[nodiscard]] double deaf_after() const;
   /// Returns the radius [m] of the circle that holds the robot.
   [[nodiscard]] double radius() const { return body_ ? body_->radius : *robot_radius_; }
+  /// Returns the outline of a robot with that body; without one, its circle.
+  [[nodiscard]] nav::Footprint outline_of(const std::optional<Rectangle>& body) const;
   /// Returns the time [s] from an echo until the robot follows the advice.
   [[nodiscard]] double reaction_time() const { return *reaction_time_; }
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
@@ -143,7 +145,6 @@ class Avoider : public Component {
   [[nodiscard]] std::optional<nav::Steer> escape(const Situation& situation);
   void feel_ahead();
   [[nodiscard]] bool are_motors_held() const;
-  [[nodiscard]] nav::Footprint outline() const;
   [[nodiscard]] Limits limits() const;
   [[nodiscard]] std::string why_deaf();
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.

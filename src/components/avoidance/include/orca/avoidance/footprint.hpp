@@ -5,19 +5,14 @@
 
 #include "orca/geometry/twist2.hpp"
 #include "orca/geometry/vec2.hpp"
+#include "orca/navigation/footprint.hpp"
 
 namespace orca::avoid {
 
-/// The outline of the robot around the origin of its frame, x forward.
-struct Footprint {
-  double radius = 0.0;       ///< [m] of the circle that holds the body.
-  double half_length = 0.0;  ///< [m] of the rectangle that holds the body, along x; 0: the circle is all.
-  double half_width = 0.0;   ///< [m] of that rectangle, across.
+using nav::Footprint;
 
-  [[nodiscard]] bool is_circle() const { return half_length <= 0.0 || half_width <= 0.0; }
-  /// Returns the distance [m] of its farthest point from the origin.
-  [[nodiscard]] double reach() const;
-};
+/// Returns the distance [m] of the outline's farthest point from the origin.
+[[nodiscard]] double reach(const Footprint& body);
 
 /// Returns the outline with `margin` [m] more on all sides. The corners stay corners, so these keep up to 1.4 times as much.
 [[nodiscard]] Footprint grown(const Footprint& body, double margin);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/avoidance/avoider.hpp"
+#include "orca/avoidance/footprint.hpp"
 
 namespace orca::avoid {
 
@@ -30,6 +31,8 @@ class LaserAvoider : public Avoider {
   /// Returns the body that counts as it is, instead of its circle: none, unless the robot is to squeeze through; that which
   /// the base describes; without one, that of the parameters.
   [[nodiscard]] std::optional<Rectangle> body() const;
+  /// Returns the outline that counts: that body, or its circle.
+  [[nodiscard]] Footprint outline() const { return outline_of(body()); }
 
   /// Returns the limits with the body that counts, if the robot is to squeeze through and its circle finds no way: that which
   /// the base describes; without one, that of the parameters.
