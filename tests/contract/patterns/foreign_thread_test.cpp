@@ -42,66 +42,58 @@ void check_refused(const Error& error, const std::string& port) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE(
-    "a push from a thread that runs no component is refused, reported, and delivered to nobody",
-    "[contract][push][threads]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Doorkeeper doorkeeper;
-    Source source(kit.executive);
-    source.home().observer = &doorkeeper;
-    source.home().code = &doorkeeper;
-    Listener listener(kit.executive);
-    listener.listen(kit, source, {.depth = 8});
-    bool pushed = true;
-    on_a_thread_of_its_own(
-        [&] { pushed = source.out.push(numbered(1)) || source.out.push(MotionCommand{}); });
-    CHECK_FALSE(pushed);
-    CHECK(source.out.push(numbered(2)));
-    CHECK(number_of(listener.in.get_update_wait_max(5s)) == 2);
-    CHECK_FALSE(listener.in.new_data_arrived());
-    CHECK(doorkeeper.refused() == std::vector<std::string>{"source.out, known", "source.out, known"});
-  });
+CONTRACT_CASE("a push from a thread that runs no component is refused, reported, and delivered to nobody",
+              "[contract][push][threads]") {
+  Doorkeeper doorkeeper;
+  Source source(kit.executive);
+  source.home().observer = &doorkeeper;
+  source.home().code = &doorkeeper;
+  Listener listener(kit.executive);
+  listener.listen(kit, source, {.depth = 8});
+  bool pushed = true;
+  on_a_thread_of_its_own([&] { pushed = source.out.push(numbered(1)) || source.out.push(MotionCommand{}); });
+  CHECK_FALSE(pushed);
+  CHECK(source.out.push(numbered(2)));
+  CHECK(number_of(listener.in.get_update_wait_max(5s)) == 2);
+  CHECK_FALSE(listener.in.new_data_arrived());
+  CHECK(doorkeeper.refused() == std::vector<std::string>{"source.out, known", "source.out, known"});
 }
 
-TEMPLATE_LIST_TEST_CASE("what a thread that runs no component sends is refused in every form of Send",
-                        "[contract][send][threads]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Doorkeeper doorkeeper;
-    Line line(kit);
-    line.sender.home().observer = &doorkeeper;
-    line.taker.open();
-    auto& out = line.sender.out;
-    std::vector<Error> refusals;
-    on_a_thread_of_its_own([&] {
-      refusals = {out.send(numbered(1)).error(), out.send_wait(numbered(1)).error(),
-                  out.send_wait_max(numbered(1), 1s).error(), out.send_request(numbered(1)).error()};
-    });
-    for (const Error& refusal : refusals) check_refused(refusal, "sender.out");
-    CHECK(line.taker.counters().accepted == 0);
-    CHECK(doorkeeper.refused() == std::vector<std::string>(4, "sender.out"));
-    CHECK(out.send(numbered(2)).ok());
+CONTRACT_CASE("what a thread that runs no component sends is refused in every form of Send",
+              "[contract][send][threads]") {
+  Doorkeeper doorkeeper;
+  Line line(kit);
+  line.sender.home().observer = &doorkeeper;
+  line.taker.open();
+  auto& out = line.sender.out;
+  std::vector<Error> refusals;
+  on_a_thread_of_its_own([&] {
+    refusals = {out.send(numbered(1)).error(), out.send_wait(numbered(1)).error(),
+                out.send_wait_max(numbered(1), 1s).error(), out.send_request(numbered(1)).error()};
   });
+  for (const Error& refusal : refusals) check_refused(refusal, "sender.out");
+  CHECK(line.taker.counters().accepted == 0);
+  CHECK(doorkeeper.refused() == std::vector<std::string>(4, "sender.out"));
+  CHECK(out.send(numbered(2)).ok());
 }
 
-TEMPLATE_LIST_TEST_CASE("what a thread that runs no component asks is refused in every form of Query",
-                        "[contract][query][threads]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Doorkeeper doorkeeper;
-    Counter counter(kit);
-    counter.asker.home().observer = &doorkeeper;
-    counter.answerer.open();
-    auto& question = counter.asker.question;
-    std::vector<Error> refusals;
-    on_a_thread_of_its_own([&] {
-      refusals = {question.query(counter.asker.about("time"), 1s).error(),
-                  question.query_request(counter.asker.about("time")).error()};
-    });
-    for (const Error& refusal : refusals) check_refused(refusal, "asker.question");
-    CHECK(counter.answerer.counters().accepted == 0);
-    CHECK(doorkeeper.refused() == std::vector<std::string>(2, "asker.question"));
-    const Service service(counter.answerer);
-    CHECK(question.query(counter.asker.about("time"), 5s).has_value());
+CONTRACT_CASE("what a thread that runs no component asks is refused in every form of Query",
+              "[contract][query][threads]") {
+  Doorkeeper doorkeeper;
+  Counter counter(kit);
+  counter.asker.home().observer = &doorkeeper;
+  counter.answerer.open();
+  auto& question = counter.asker.question;
+  std::vector<Error> refusals;
+  on_a_thread_of_its_own([&] {
+    refusals = {question.query(counter.asker.about("time"), 1s).error(),
+                question.query_request(counter.asker.about("time")).error()};
   });
+  for (const Error& refusal : refusals) check_refused(refusal, "asker.question");
+  CHECK(counter.answerer.counters().accepted == 0);
+  CHECK(doorkeeper.refused() == std::vector<std::string>(2, "asker.question"));
+  const Service service(counter.answerer);
+  CHECK(question.query(counter.asker.about("time"), 5s).has_value());
 }
 
 TEST_CASE("a wait on a thread that runs no component throws instead of joining the component's wait",

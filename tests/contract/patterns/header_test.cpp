@@ -60,138 +60,123 @@ void listen_to_relay(Kit& kit, AnyRelay& relay, Listener& listener) {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("an object carries the name of its sender, its number and the time it was made",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Source source(kit.executive, "Platforms/Dewey/base");
-    Listener listener(kit.executive);
-    listener.listen(kit, source, {.depth = 3});
-    for (std::uint64_t seq = 1; seq <= 3; ++seq) {
-      sleep(kit.executive, 1ms);
-      const TimePoint before = kit.executive.now();
-      source.push_numbers(0, 0);
-      const TimePoint after = kit.executive.now();
-      const auto got = listener.in.get_update_wait_max(5s);
-      REQUIRE(got);
-      CHECK(got->origin() == "Platforms/Dewey/base");
-      CHECK(got->origin_port() == "out");
-      CHECK(got->seq() == seq);
-      CHECK(got->creation_time().ns() >= before.time_since_epoch().count());
-      CHECK(got->creation_time().ns() <= after.time_since_epoch().count());
-    }
-  });
-}
-
-TEMPLATE_LIST_TEST_CASE(
-    "objects that a component pushes after it took an object belong to that object's mission",
-    "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Source source(kit.executive);
-    Relay relay(kit.executive);
-    Listener listener(kit.executive);
-    kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
-    subscribe_relay(kit, relay, source);
-    listen_to_relay(kit, relay, listener);
+CONTRACT_CASE("an object carries the name of its sender, its number and the time it was made",
+              "[contract][header]") {
+  Source source(kit.executive, "Platforms/Dewey/base");
+  Listener listener(kit.executive);
+  listener.listen(kit, source, {.depth = 3});
+  for (std::uint64_t seq = 1; seq <= 3; ++seq) {
+    sleep(kit.executive, 1ms);
+    const TimePoint before = kit.executive.now();
     source.push_numbers(0, 0);
-    auto of_mission = numbered(1);
-    of_mission->mission(42);
-    source.out.push(std::move(of_mission));
-    for (const std::uint64_t mission : {0U, 42U}) {
-      REQUIRE(relay.in.get_update_wait_max(5s));
-      relay.out.push(numbered(2));
-      const auto answer = listener.in.get_update_wait_max(5s);
-      REQUIRE(answer);
-      CHECK(answer->mission() == mission);
-      CHECK(answer->cause().origin() == "source");
-      CHECK(answer->cause().port() == "out");
-      CHECK(answer->cause().seq() == (mission == 42U ? 2U : 1U));
-      CHECK(answer->origin() == "relay");
-    }
-  });
-}
-
-TEMPLATE_LIST_TEST_CASE("an object that a handler sends names the handled object as its cause",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    CommandSender sender(kit.executive);
-    Relay relay(kit.executive);
-    Listener listener(kit.executive);
-    kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
-    listen_to_relay(kit, relay, listener);
-    const Service service(relay);
-    auto command = numbered(1);
-    command->mission(7);
-    REQUIRE(sender.out.send(std::move(command)).ok());
-    const auto answer = listener.in.get_update_wait_max(5s);
-    REQUIRE(answer);
-    CHECK(number_of(answer) == 101);
-    CHECK(answer->mission() == 7);
-    CHECK(answer->cause().origin() == "sender");
-    CHECK(answer->cause().port() == "out");
-    CHECK(answer->cause().seq() == 1);
-  });
-}
-
-TEMPLATE_LIST_TEST_CASE("causes of one number from two ports of a component are told apart by their ports",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    TwoSources source(kit.executive);
-    TwoListeners relay(kit.executive);
-    Listener listener(kit.executive);
-    listen_to_relay(kit, relay, listener);
-    const auto cause_of_answer_to = [&](PushServer<MotionCommand>& from, PushProxy<MotionCommand>& to) {
-      kit.connect(source.endpoint(to.name()), relay.endpoint(to.name()));
-      to.subscribe();
-      CHECK(eventually(kit.executive, [&] { return from.subscriber_count() == 1; }));
-      from.push(numbered(1));
-      REQUIRE(to.get_update_wait_max(5s));
-      relay.out.push(numbered(2));
-      const auto answer = listener.in.get_update_wait_max(5s);
-      REQUIRE(answer);
-      CHECK(answer->cause().seq() == 1);
-      return answer->cause().port();
-    };
-    CHECK(cause_of_answer_to(source.left, relay.left) == "left");
-    CHECK(cause_of_answer_to(source.right, relay.right) == "right");
-  });
-}
-
-TEMPLATE_LIST_TEST_CASE("an object that answers nothing has no cause and no mission", "[contract][header]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Source source(kit.executive);
-    Listener listener(kit.executive);
-    listener.listen(kit, source);
-    source.push_numbers(1, 1);
+    const TimePoint after = kit.executive.now();
     const auto got = listener.in.get_update_wait_max(5s);
     REQUIRE(got);
-    CHECK(got->mission() == 0);
-    CHECK(got->cause().origin().empty());
-    CHECK(got->cause().seq() == 0);
-  });
+    CHECK(got->origin() == "Platforms/Dewey/base");
+    CHECK(got->origin_port() == "out");
+    CHECK(got->seq() == seq);
+    CHECK(got->creation_time().ns() >= before.time_since_epoch().count());
+    CHECK(got->creation_time().ns() <= after.time_since_epoch().count());
+  }
 }
 
-TEMPLATE_LIST_TEST_CASE("an object without a mission is a cause, but leaves the mission at hand",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Source source(kit.executive);
-    Relay relay(kit.executive);
-    Listener listener(kit.executive);
-    kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
-    subscribe_relay(kit, relay, source);
-    listen_to_relay(kit, relay, listener);
-    auto of_mission = numbered(1);
-    of_mission->mission(42);
-    source.out.push(std::move(of_mission));
-    source.push_numbers(2, 2);
+CONTRACT_CASE("objects that a component pushes after it took an object belong to that object's mission",
+              "[contract][header]") {
+  Source source(kit.executive);
+  Relay relay(kit.executive);
+  Listener listener(kit.executive);
+  kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
+  subscribe_relay(kit, relay, source);
+  listen_to_relay(kit, relay, listener);
+  source.push_numbers(0, 0);
+  auto of_mission = numbered(1);
+  of_mission->mission(42);
+  source.out.push(std::move(of_mission));
+  for (const std::uint64_t mission : {0U, 42U}) {
     REQUIRE(relay.in.get_update_wait_max(5s));
-    REQUIRE(relay.in.get_update_wait_max(5s));
-    relay.out.push(numbered(3));
+    relay.out.push(numbered(2));
     const auto answer = listener.in.get_update_wait_max(5s);
     REQUIRE(answer);
-    CHECK(answer->mission() == 42);
-    CHECK(answer->cause().seq() == 2);
-  });
+    CHECK(answer->mission() == mission);
+    CHECK(answer->cause().origin() == "source");
+    CHECK(answer->cause().port() == "out");
+    CHECK(answer->cause().seq() == (mission == 42U ? 2U : 1U));
+    CHECK(answer->origin() == "relay");
+  }
+}
+
+CONTRACT_CASE("an object that a handler sends names the handled object as its cause", "[contract][header]") {
+  CommandSender sender(kit.executive);
+  Relay relay(kit.executive);
+  Listener listener(kit.executive);
+  kit.connect(sender.endpoint("out"), relay.endpoint("sent"));
+  listen_to_relay(kit, relay, listener);
+  const Service service(relay);
+  auto command = numbered(1);
+  command->mission(7);
+  REQUIRE(sender.out.send(std::move(command)).ok());
+  const auto answer = listener.in.get_update_wait_max(5s);
+  REQUIRE(answer);
+  CHECK(number_of(answer) == 101);
+  CHECK(answer->mission() == 7);
+  CHECK(answer->cause().origin() == "sender");
+  CHECK(answer->cause().port() == "out");
+  CHECK(answer->cause().seq() == 1);
+}
+
+CONTRACT_CASE("causes of one number from two ports of a component are told apart by their ports",
+              "[contract][header]") {
+  TwoSources source(kit.executive);
+  TwoListeners relay(kit.executive);
+  Listener listener(kit.executive);
+  listen_to_relay(kit, relay, listener);
+  const auto cause_of_answer_to = [&](PushServer<MotionCommand>& from, PushProxy<MotionCommand>& to) {
+    kit.connect(source.endpoint(to.name()), relay.endpoint(to.name()));
+    to.subscribe();
+    CHECK(eventually(kit.executive, [&] { return from.subscriber_count() == 1; }));
+    from.push(numbered(1));
+    REQUIRE(to.get_update_wait_max(5s));
+    relay.out.push(numbered(2));
+    const auto answer = listener.in.get_update_wait_max(5s);
+    REQUIRE(answer);
+    CHECK(answer->cause().seq() == 1);
+    return answer->cause().port();
+  };
+  CHECK(cause_of_answer_to(source.left, relay.left) == "left");
+  CHECK(cause_of_answer_to(source.right, relay.right) == "right");
+}
+
+CONTRACT_CASE("an object that answers nothing has no cause and no mission", "[contract][header]") {
+  Source source(kit.executive);
+  Listener listener(kit.executive);
+  listener.listen(kit, source);
+  source.push_numbers(1, 1);
+  const auto got = listener.in.get_update_wait_max(5s);
+  REQUIRE(got);
+  CHECK(got->mission() == 0);
+  CHECK(got->cause().origin().empty());
+  CHECK(got->cause().seq() == 0);
+}
+
+CONTRACT_CASE("an object without a mission is a cause, but leaves the mission at hand",
+              "[contract][header]") {
+  Source source(kit.executive);
+  Relay relay(kit.executive);
+  Listener listener(kit.executive);
+  kit.connect(source.endpoint("out"), relay.endpoint("in"), {.depth = 4});
+  subscribe_relay(kit, relay, source);
+  listen_to_relay(kit, relay, listener);
+  auto of_mission = numbered(1);
+  of_mission->mission(42);
+  source.out.push(std::move(of_mission));
+  source.push_numbers(2, 2);
+  REQUIRE(relay.in.get_update_wait_max(5s));
+  REQUIRE(relay.in.get_update_wait_max(5s));
+  relay.out.push(numbered(3));
+  const auto answer = listener.in.get_update_wait_max(5s);
+  REQUIRE(answer);
+  CHECK(answer->mission() == 42);
+  CHECK(answer->cause().seq() == 2);
 }
 
 namespace {
@@ -243,53 +228,43 @@ struct Workplace {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("the mission of a task holds in all its laps, until the task ends or another comes",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Workplace<TestType> work(kit);
-    CHECK(work.mission_of_next_lap() == 0);
-    work.send_task(7);
-    CHECK(work.mission_of_next_lap() == 7);
-    work.send_task(8);
-    CHECK(work.mission_of_next_lap() == 8);
-    work.relay.home().provenance.end_task();
-    CHECK(work.mission_of_next_lap() == 0);
-  });
+CONTRACT_CASE("the mission of a task holds in all its laps, until the task ends or another comes",
+              "[contract][header]") {
+  Workplace<TestType> work(kit);
+  CHECK(work.mission_of_next_lap() == 0);
+  work.send_task(7);
+  CHECK(work.mission_of_next_lap() == 7);
+  work.send_task(8);
+  CHECK(work.mission_of_next_lap() == 8);
+  work.relay.home().provenance.end_task();
+  CHECK(work.mission_of_next_lap() == 0);
 }
 
-TEMPLATE_LIST_TEST_CASE("objects of other missions do not lead a component away from its task",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Workplace<TestType> work(kit);
-    CHECK(work.mission_of_next_lap(42) == 42);
-    work.send_task(7);
-    CHECK(work.mission_of_next_lap(42) == 7);
-    work.relay.home().provenance.end_task();
-    CHECK(work.mission_of_next_lap(42) == 42);
-  });
+CONTRACT_CASE("objects of other missions do not lead a component away from its task", "[contract][header]") {
+  Workplace<TestType> work(kit);
+  CHECK(work.mission_of_next_lap(42) == 42);
+  work.send_task(7);
+  CHECK(work.mission_of_next_lap(42) == 7);
+  work.relay.home().provenance.end_task();
+  CHECK(work.mission_of_next_lap(42) == 42);
 }
 
-TEMPLATE_LIST_TEST_CASE("an object that a Send handler refuses is no task: the one before goes on",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Workplace<TestType> work(kit);
-    work.send_task(7);
-    work.send_task(8, true);
-    CHECK(work.mission_of_push() == 8);  // the refusal itself, and the line in the log about it
-    CHECK(work.mission_of_next_lap() == 7);
-  });
+CONTRACT_CASE("an object that a Send handler refuses is no task: the one before goes on",
+              "[contract][header]") {
+  Workplace<TestType> work(kit);
+  work.send_task(7);
+  work.send_task(8, true);
+  CHECK(work.mission_of_push() == 8);  // the refusal itself, and the line in the log about it
+  CHECK(work.mission_of_next_lap() == 7);
 }
 
-TEMPLATE_LIST_TEST_CASE("a mission that a component begins is its task from that moment",
-                        "[contract][header]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Workplace<TestType> work(kit);
-    work.relay.home().provenance.begin_mission(5);
-    CHECK(work.mission_of_push() == 5);
-    CHECK(work.mission_of_next_lap(42) == 5);
-    work.relay.home().provenance.begin_mission(6);
-    CHECK(work.mission_of_next_lap() == 6);
-    work.relay.home().provenance.end_task();
-    CHECK(work.mission_of_push() == 0);
-  });
+CONTRACT_CASE("a mission that a component begins is its task from that moment", "[contract][header]") {
+  Workplace<TestType> work(kit);
+  work.relay.home().provenance.begin_mission(5);
+  CHECK(work.mission_of_push() == 5);
+  CHECK(work.mission_of_next_lap(42) == 5);
+  work.relay.home().provenance.begin_mission(6);
+  CHECK(work.mission_of_next_lap() == 6);
+  work.relay.home().provenance.end_task();
+  CHECK(work.mission_of_push() == 0);
 }

@@ -98,6 +98,20 @@ void on_each_executive(const std::function<void(Kit&)>& body) {
   });
 }
 
+/// A test case of the contract. It runs with each kind of link, on each executive where that works; its body has the `kit`,
+/// which is a `TestType&`.
+#define CONTRACT_CASE(title, tags) CONTRACT_CASE_OF(LinkKits, title, tags)
+#define CONTRACT_CASE_OF(kits, title, tags) \
+  CONTRACT_CASE_AS(INTERNAL_CATCH_UNIQUE_NAME(contract_case_), kits, title, tags)
+#define CONTRACT_CASE_AS(function, kits, title, tags)                  \
+  template <class TestType>                                            \
+  static void function(TestType& kit);                                 \
+  TEMPLATE_LIST_TEST_CASE(title, tags, kits) {                         \
+    on_each_executive<TestType>([](TestType& kit) { function(kit); }); \
+  }                                                                    \
+  template <class TestType>                                            \
+  static void function(TestType& kit)
+
 using idl::MotionCommand;
 
 /// Motion commands are distinguished by their speed.

@@ -109,95 +109,80 @@ struct DoorSeeker : Peer {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("a Door that is sent as a GoalPoint arrives as a Door", "[contract][subtype]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Guide guide(kit.executive);
-    Driver driver(kit.executive);
-    kit.connect(guide.endpoint("goal"), driver.endpoint("goal"));
-    driver.open();
-    REQUIRE(guide.goal.send(kitchen_door()).ok());
-    REQUIRE(guide.goal.send(*kitchen_door()).ok());
-    REQUIRE(guide.goal.send(make_object<GoalPoint>()).ok());
-    while (driver.handle_one()) continue;
-    REQUIRE(driver.goals.size() == 3);
-    check_whole(driver.goals[0]);
-    check_whole(driver.goals[1]);
-    CHECK(driver.goals[2].ref().type().name == "GoalPoint");
-    CHECK_FALSE(driver.goals[2].template as<Door>());
-  });
+CONTRACT_CASE("a Door that is sent as a GoalPoint arrives as a Door", "[contract][subtype]") {
+  Guide guide(kit.executive);
+  Driver driver(kit.executive);
+  kit.connect(guide.endpoint("goal"), driver.endpoint("goal"));
+  driver.open();
+  REQUIRE(guide.goal.send(kitchen_door()).ok());
+  REQUIRE(guide.goal.send(*kitchen_door()).ok());
+  REQUIRE(guide.goal.send(make_object<GoalPoint>()).ok());
+  while (driver.handle_one()) continue;
+  REQUIRE(driver.goals.size() == 3);
+  check_whole(driver.goals[0]);
+  check_whole(driver.goals[1]);
+  CHECK(driver.goals[2].ref().type().name == "GoalPoint");
+  CHECK_FALSE(driver.goals[2].template as<Door>());
 }
 
-TEMPLATE_LIST_TEST_CASE("a port of Doors may be connected to one that takes GoalPoints",
-                        "[contract][subtype]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Guide guide(kit.executive);
-    Driver driver(kit.executive);
-    kit.connect(guide.endpoint("door"), driver.endpoint("goal"));
-    driver.open();
-    REQUIRE(guide.door.send(kitchen_door()).ok());
-    CHECK(driver.handle_one());
-    check_whole(driver.goals.at(0));
-  });
+CONTRACT_CASE("a port of Doors may be connected to one that takes GoalPoints", "[contract][subtype]") {
+  Guide guide(kit.executive);
+  Driver driver(kit.executive);
+  kit.connect(guide.endpoint("door"), driver.endpoint("goal"));
+  driver.open();
+  REQUIRE(guide.door.send(kitchen_door()).ok());
+  CHECK(driver.handle_one());
+  check_whole(driver.goals.at(0));
 }
 
-TEMPLATE_LIST_TEST_CASE("a subscriber to RangeReadings may be connected to sonar or laser",
-                        "[contract][subtype]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Ranger ranger(kit.executive);
-    Viewer at_sonar(kit.executive);
-    at_sonar.view(kit, ranger, "sonar", ranger.sonar);
-    auto echoes = ranger.sonar.loan();
-    echoes->ranges() = {1.5, 2.5};
-    echoes->half_lobe(0.2);
-    ranger.sonar.push(std::move(echoes));
-    const auto heard = at_sonar.ranges.get_update_wait_max(5s);
-    REQUIRE(heard);
-    CHECK(heard->ranges() == std::vector{1.5, 2.5});
-    REQUIRE(heard.template as<SonarRangeReadings>());
-    CHECK(heard.template as<SonarRangeReadings>()->half_lobe() == 0.2);
-    CHECK_FALSE(heard.template as<LaserRangeReadings>());
+CONTRACT_CASE("a subscriber to RangeReadings may be connected to sonar or laser", "[contract][subtype]") {
+  Ranger ranger(kit.executive);
+  Viewer at_sonar(kit.executive);
+  at_sonar.view(kit, ranger, "sonar", ranger.sonar);
+  auto echoes = ranger.sonar.loan();
+  echoes->ranges() = {1.5, 2.5};
+  echoes->half_lobe(0.2);
+  ranger.sonar.push(std::move(echoes));
+  const auto heard = at_sonar.ranges.get_update_wait_max(5s);
+  REQUIRE(heard);
+  CHECK(heard->ranges() == std::vector{1.5, 2.5});
+  REQUIRE(heard.template as<SonarRangeReadings>());
+  CHECK(heard.template as<SonarRangeReadings>()->half_lobe() == 0.2);
+  CHECK_FALSE(heard.template as<LaserRangeReadings>());
 
-    Viewer at_laser(kit.executive);
-    at_laser.view(kit, ranger, "laser", ranger.laser);
-    auto scan = ranger.laser.loan();
-    scan->angle_increment(0.01);
-    ranger.laser.push(std::move(scan));
-    const auto seen = at_laser.ranges.get_update_wait_max(5s);
-    REQUIRE(seen.template as<LaserRangeReadings>());
-    CHECK(seen.template as<LaserRangeReadings>()->angle_increment() == 0.01);
-  });
+  Viewer at_laser(kit.executive);
+  at_laser.view(kit, ranger, "laser", ranger.laser);
+  auto scan = ranger.laser.loan();
+  scan->angle_increment(0.01);
+  ranger.laser.push(std::move(scan));
+  const auto seen = at_laser.ranges.get_update_wait_max(5s);
+  REQUIRE(seen.template as<LaserRangeReadings>());
+  CHECK(seen.template as<LaserRangeReadings>()->angle_increment() == 0.01);
 }
 
-TEMPLATE_LIST_TEST_CASE("one server may push objects of several derived types", "[contract][subtype]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Ranger ranger(kit.executive);
-    Viewer viewer(kit.executive);
-    viewer.view(kit, ranger, "any", ranger.any);
-    ranger.any.push(make_object<SonarRangeReadings>());
-    CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "SonarRangeReadings");
-    ranger.any.push(idl::LaserRangeReadings());
-    CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "LaserRangeReadings");
-    ranger.any.push(RangeReadings());
-    CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "RangeReadings");
-  });
+CONTRACT_CASE("one server may push objects of several derived types", "[contract][subtype]") {
+  Ranger ranger(kit.executive);
+  Viewer viewer(kit.executive);
+  viewer.view(kit, ranger, "any", ranger.any);
+  ranger.any.push(make_object<SonarRangeReadings>());
+  CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "SonarRangeReadings");
+  ranger.any.push(idl::LaserRangeReadings());
+  CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "LaserRangeReadings");
+  ranger.any.push(RangeReadings());
+  CHECK(viewer.ranges.get_update_wait_max(5s).ref().type().name == "RangeReadings");
 }
 
-TEMPLATE_LIST_TEST_CASE("a question may be of a derived type, and so may the answer", "[contract][subtype]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Visitor visitor(kit.executive);
-    Porter porter(kit.executive);
-    kit.connect(visitor.endpoint("where"), porter.endpoint("where"));
-    porter.open();
-    const auto id = visitor.where.query_request(kitchen_door());
-    REQUIRE(id);
-    REQUIRE(eventually(kit.executive, [&] { return porter.handle_one(); }));
-    const auto answer = visitor.where.query_receive_wait(*id, 5s);
-    REQUIRE(answer);
-    CHECK((*answer).template as<Door>()->door_width().distance() == 0.95);
-  });
+CONTRACT_CASE("a question may be of a derived type, and so may the answer", "[contract][subtype]") {
+  Visitor visitor(kit.executive);
+  Porter porter(kit.executive);
+  kit.connect(visitor.endpoint("where"), porter.endpoint("where"));
+  porter.open();
+  const auto id = visitor.where.query_request(kitchen_door());
+  REQUIRE(id);
+  REQUIRE(eventually(kit.executive, [&] { return porter.handle_one(); }));
+  const auto answer = visitor.where.query_receive_wait(*id, 5s);
+  REQUIRE(answer);
+  CHECK((*answer).template as<Door>()->door_width().distance() == 0.95);
 }
 
 TEMPLATE_LIST_TEST_CASE("ends whose types do not fit in their direction are not connected",

@@ -62,102 +62,83 @@ struct ArrayRobot {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("wait for a port array ends with the first object of any server",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.goto_);
-    robot.listen(robot.avoid);
-    Script script(robot.fuser, [&] { robot.fuser.both.wait(robot.fuser.motion); });
-    robot.push(robot.button);
-    CHECK_FALSE(script.ends_within(20ms));
-    robot.push(robot.avoid);
-    CHECK(script.ends_within(5s));
-  });
+CONTRACT_CASE("wait for a port array ends with the first object of any server", "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.goto_);
+  robot.listen(robot.avoid);
+  Script script(robot.fuser, [&] { robot.fuser.both.wait(robot.fuser.motion); });
+  robot.push(robot.button);
+  CHECK_FALSE(script.ends_within(20ms));
+  robot.push(robot.avoid);
+  CHECK(script.ends_within(5s));
 }
 
-TEMPLATE_LIST_TEST_CASE("wait names the port array if one of its servers has sent something",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.avoid);
-    CHECK(robot.fuser.both.wait(1ms) == nullptr);
-    robot.push(robot.button);
-    CHECK(&robot.fuser.both.wait() == &robot.fuser.button);
-    robot.push(robot.avoid);
-    CHECK(&robot.fuser.both.wait() == &robot.fuser.motion);
-  });
+CONTRACT_CASE("wait names the port array if one of its servers has sent something",
+              "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.avoid);
+  CHECK(robot.fuser.both.wait(1ms) == nullptr);
+  robot.push(robot.button);
+  CHECK(&robot.fuser.both.wait() == &robot.fuser.button);
+  robot.push(robot.avoid);
+  CHECK(&robot.fuser.both.wait() == &robot.fuser.motion);
 }
 
-TEMPLATE_LIST_TEST_CASE(
-    "wait_all waits for every server that a port array is subscribed to, and for no other",
-    "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.goto_);
-    robot.listen(robot.avoid);
-    robot.push(robot.button);
-    robot.push(robot.goto_);
-    CHECK_FALSE(robot.fuser.both.wait_all(10ms));
-    robot.push(robot.avoid);
-    CHECK(robot.fuser.both.wait_all(5s));
-  });
+CONTRACT_CASE("wait_all waits for every server that a port array is subscribed to, and for no other",
+              "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.goto_);
+  robot.listen(robot.avoid);
+  robot.push(robot.button);
+  robot.push(robot.goto_);
+  CHECK_FALSE(robot.fuser.both.wait_all(10ms));
+  robot.push(robot.avoid);
+  CHECK(robot.fuser.both.wait_all(5s));
 }
 
-TEMPLATE_LIST_TEST_CASE(
+CONTRACT_CASE(
     "a server that a port array is subscribed to later is waited for, and one that it leaves is not",
-    "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.goto_);
-    robot.push(robot.button);
-    robot.push(robot.goto_);
-    CHECK(robot.fuser.both.wait_all(5s));
-    robot.listen(robot.wall);
-    CHECK_FALSE(robot.fuser.both.wait_all(10ms));
-    robot.leave(robot.wall);
-    CHECK(robot.fuser.both.wait_all(5s));
-  });
+    "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.goto_);
+  robot.push(robot.button);
+  robot.push(robot.goto_);
+  CHECK(robot.fuser.both.wait_all(5s));
+  robot.listen(robot.wall);
+  CHECK_FALSE(robot.fuser.both.wait_all(10ms));
+  robot.leave(robot.wall);
+  CHECK(robot.fuser.both.wait_all(5s));
 }
 
-TEMPLATE_LIST_TEST_CASE("a server is subscribed to while the component waits for all",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.push(robot.button);
-    Script script(robot.fuser, [&] { robot.fuser.both.wait_all(); });
-    CHECK_FALSE(script.ends_within(10ms));  // the array is subscribed to nobody
-    robot.listen(robot.wall);
-    robot.push(robot.wall);
-    CHECK(script.ends_within(5s));
-  });
+CONTRACT_CASE("a server is subscribed to while the component waits for all", "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.push(robot.button);
+  Script script(robot.fuser, [&] { robot.fuser.both.wait_all(); });
+  CHECK_FALSE(script.ends_within(10ms));  // the array is subscribed to nobody
+  robot.listen(robot.wall);
+  robot.push(robot.wall);
+  CHECK(script.ends_within(5s));
 }
 
-TEMPLATE_LIST_TEST_CASE("wait_all can be given up for a reason that comes with an object",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.goto_);
-    robot.listen(robot.avoid);
-    std::atomic<bool> complete{true};
-    const auto pressed = [&] { return robot.fuser.button.new_data_arrived(); };
-    Script script(robot.fuser, [&] { complete = robot.fuser.both.wait_all(1h, pressed); });
-    robot.push(robot.goto_);
-    CHECK_FALSE(script.ends_within(10ms));
-    robot.push(robot.button);
-    REQUIRE(script.ends_within(5s));
-    CHECK_FALSE(complete);
-  });
+CONTRACT_CASE("wait_all can be given up for a reason that comes with an object", "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.goto_);
+  robot.listen(robot.avoid);
+  std::atomic<bool> complete{true};
+  const auto pressed = [&] { return robot.fuser.button.new_data_arrived(); };
+  Script script(robot.fuser, [&] { complete = robot.fuser.both.wait_all(1h, pressed); });
+  robot.push(robot.goto_);
+  CHECK_FALSE(script.ends_within(10ms));
+  robot.push(robot.button);
+  REQUIRE(script.ends_within(5s));
+  CHECK_FALSE(complete);
 }
 
-TEMPLATE_LIST_TEST_CASE("a removed port array is waited for no longer", "[contract][synchronizer]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    ArrayRobot robot(kit);
-    robot.listen(robot.goto_);
-    robot.push(robot.button);
-    CHECK_FALSE(robot.fuser.both.wait_all(1ms));
-    robot.fuser.both.remove(robot.fuser.motion);
-    CHECK(robot.fuser.both.wait_all(5s));
-  });
+CONTRACT_CASE("a removed port array is waited for no longer", "[contract][synchronizer]") {
+  ArrayRobot robot(kit);
+  robot.listen(robot.goto_);
+  robot.push(robot.button);
+  CHECK_FALSE(robot.fuser.both.wait_all(1ms));
+  robot.fuser.both.remove(robot.fuser.motion);
+  CHECK(robot.fuser.both.wait_all(5s));
 }

@@ -86,148 +86,128 @@ struct MappingRobot {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("objects belong together by their stamps, whenever they arrive",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    Script script(robot.mapper, [&] { robot.mapper.both.wait_matching(kWithin); });
-    robot.move({100ms, 150ms, 200ms});
-    CHECK_FALSE(script.ends_within(10ms));
-    robot.scan({155ms});
-    REQUIRE(script.ends_within(5s));
-    robot.take(155ms, 150ms);
-    CHECK(stamp_of(robot.mapper.odometry.get_update()) == 200ms);  // it may match the next scan
-  });
+CONTRACT_CASE("objects belong together by their stamps, whenever they arrive", "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  Script script(robot.mapper, [&] { robot.mapper.both.wait_matching(kWithin); });
+  robot.move({100ms, 150ms, 200ms});
+  CHECK_FALSE(script.ends_within(10ms));
+  robot.scan({155ms});
+  REQUIRE(script.ends_within(5s));
+  robot.take(155ms, 150ms);
+  CHECK(stamp_of(robot.mapper.odometry.get_update()) == 200ms);  // it may match the next scan
 }
 
-TEMPLATE_LIST_TEST_CASE("objects that match nothing are dropped and counted, until two belong together",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    Mapper& mapper = robot.mapper;
-    robot.move({100ms, 200ms});
-    robot.scan({120ms, 180ms});
-    CHECK_FALSE(mapper.both.wait_matching(kWithin, 5ms));
-    CHECK_FALSE(mapper.laser.new_data_arrived());
-    CHECK(mapper.odometry.new_data_arrived());
-    robot.scan({195ms});
-    CHECK(mapper.both.wait_matching(kWithin, 5s));
-    CHECK(mapper.laser.counters().unmatched == 2);
-    CHECK(mapper.laser.counters().dropped == 2);
-    CHECK(mapper.laser.counters().over_limit == 0);
-    CHECK(mapper.odometry.counters().unmatched == 1);
-    robot.take(195ms, 200ms);
-  });
+CONTRACT_CASE("objects that match nothing are dropped and counted, until two belong together",
+              "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  Mapper& mapper = robot.mapper;
+  robot.move({100ms, 200ms});
+  robot.scan({120ms, 180ms});
+  CHECK_FALSE(mapper.both.wait_matching(kWithin, 5ms));
+  CHECK_FALSE(mapper.laser.new_data_arrived());
+  CHECK(mapper.odometry.new_data_arrived());
+  robot.scan({195ms});
+  CHECK(mapper.both.wait_matching(kWithin, 5s));
+  CHECK(mapper.laser.counters().unmatched == 2);
+  CHECK(mapper.laser.counters().dropped == 2);
+  CHECK(mapper.laser.counters().over_limit == 0);
+  CHECK(mapper.odometry.counters().unmatched == 1);
+  robot.take(195ms, 200ms);
 }
 
-TEMPLATE_LIST_TEST_CASE("stamps may differ by the tolerance and no more", "[contract][synchronizer]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    robot.scan({100ms, 200ms});
-    robot.move({110ms});
-    CHECK(robot.mapper.both.wait_matching(kWithin, 5s));
-    robot.take(100ms, 110ms);
-    robot.move({200ms + kWithin + 1ns});
-    CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
-    robot.scan({200ms + kWithin});
-    CHECK(robot.mapper.both.wait_matching(Duration{1}, 5s));
-    CHECK_FALSE(robot.mapper.both.wait_matching(Duration{0}, 1ms));
-  });
+CONTRACT_CASE("stamps may differ by the tolerance and no more", "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  robot.scan({100ms, 200ms});
+  robot.move({110ms});
+  CHECK(robot.mapper.both.wait_matching(kWithin, 5s));
+  robot.take(100ms, 110ms);
+  robot.move({200ms + kWithin + 1ns});
+  CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
+  robot.scan({200ms + kWithin});
+  CHECK(robot.mapper.both.wait_matching(Duration{1}, 5s));
+  CHECK_FALSE(robot.mapper.both.wait_matching(Duration{0}, 1ms));
 }
 
-TEMPLATE_LIST_TEST_CASE("of all that match, the earliest come first; none is taken by waiting",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    robot.scan({100ms, 200ms, 300ms});
-    robot.move({95ms, 205ms, 300ms});
-    for (const auto& [scanned, moved] : {std::pair{100ms, 95ms}, {200ms, 205ms}, {300ms, 300ms}}) {
-      robot.mapper.both.wait_to_fuse(Fusing::stamps, kWithin);
-      robot.mapper.both.wait_to_fuse(Fusing::stamps, kWithin);
-      robot.take(scanned, moved);
-    }
-    CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
-  });
+CONTRACT_CASE("of all that match, the earliest come first; none is taken by waiting",
+              "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  robot.scan({100ms, 200ms, 300ms});
+  robot.move({95ms, 205ms, 300ms});
+  for (const auto& [scanned, moved] : {std::pair{100ms, 95ms}, {200ms, 205ms}, {300ms, 300ms}}) {
+    robot.mapper.both.wait_to_fuse(Fusing::stamps, kWithin);
+    robot.mapper.both.wait_to_fuse(Fusing::stamps, kWithin);
+    robot.take(scanned, moved);
+  }
+  CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
 }
 
-TEMPLATE_LIST_TEST_CASE("the servers of a port array match too, those that it is subscribed to",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    Mapper& mapper = robot.mapper;
-    mapper.both.add(mapper.others);
-    robot.scan({100ms});
-    robot.move({100ms});
-    CHECK_FALSE(mapper.both.wait_matching(kWithin, 1ms));
-    mapper.others.sources().front().subscribe();
-    CHECK(eventually(kit.executive, [&] { return robot.left.out.subscriber_count() == 1; }));
-    robot.left.push(90ms);
-    CHECK(mapper.both.wait_matching(kWithin, 5s));
-    robot.left.push(80ms);
-    mapper.others.sources().back().subscribe();
-    CHECK(eventually(kit.executive, [&] { return robot.right.out.subscriber_count() == 1; }));
-    robot.right.push(101ms);
-    CHECK_FALSE(mapper.both.wait_matching(kWithin, 20ms));
-    CHECK(mapper.laser.new_data_arrived());
-    robot.left.push(102ms);
-    CHECK(mapper.both.wait_matching(kWithin, 5s));
-  });
+CONTRACT_CASE("the servers of a port array match too, those that it is subscribed to",
+              "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  Mapper& mapper = robot.mapper;
+  mapper.both.add(mapper.others);
+  robot.scan({100ms});
+  robot.move({100ms});
+  CHECK_FALSE(mapper.both.wait_matching(kWithin, 1ms));
+  mapper.others.sources().front().subscribe();
+  CHECK(eventually(kit.executive, [&] { return robot.left.out.subscriber_count() == 1; }));
+  robot.left.push(90ms);
+  CHECK(mapper.both.wait_matching(kWithin, 5s));
+  robot.left.push(80ms);
+  mapper.others.sources().back().subscribe();
+  CHECK(eventually(kit.executive, [&] { return robot.right.out.subscriber_count() == 1; }));
+  robot.right.push(101ms);
+  CHECK_FALSE(mapper.both.wait_matching(kWithin, 20ms));
+  CHECK(mapper.laser.new_data_arrived());
+  robot.left.push(102ms);
+  CHECK(mapper.both.wait_matching(kWithin, 5s));
 }
 
-TEMPLATE_LIST_TEST_CASE("a stamp that is out of all bounds holds nothing up for ever",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    robot.scan({Duration::min(), Duration::max()});
-    robot.move({100ms});
-    CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
-    // The edge has room for eight: the wrong one makes room at last.
-    robot.scan({110ms, 120ms, 130ms, 140ms, 150ms, 160ms, 170ms, 180ms});
-    robot.move({160ms});
-    CHECK(robot.mapper.both.wait_matching(Duration{0}, 5s));
-    robot.take(160ms, 160ms);
-  });
+CONTRACT_CASE("a stamp that is out of all bounds holds nothing up for ever", "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  robot.scan({Duration::min(), Duration::max()});
+  robot.move({100ms});
+  CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
+  // The edge has room for eight: the wrong one makes room at last.
+  robot.scan({110ms, 120ms, 130ms, 140ms, 150ms, 160ms, 170ms, 180ms});
+  robot.move({160ms});
+  CHECK(robot.mapper.both.wait_matching(Duration{0}, 5s));
+  robot.take(160ms, 160ms);
 }
 
-TEMPLATE_LIST_TEST_CASE("a lap that has only dropped what matches nothing can be abandoned without loss",
-                        "[contract][synchronizer]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    MappingRobot robot(kit);
-    robot.move({100ms, 110ms});
-    robot.scan({500ms});
-    const std::uint64_t activity = robot.mapper.strand().activity();
-    CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
-    CHECK(robot.mapper.odometry.counters().unmatched == 2);
-    CHECK(robot.mapper.strand().activity() == activity);
-  });
+CONTRACT_CASE("a lap that has only dropped what matches nothing can be abandoned without loss",
+              "[contract][synchronizer]") {
+  MappingRobot robot(kit);
+  robot.move({100ms, 110ms});
+  robot.scan({500ms});
+  const std::uint64_t activity = robot.mapper.strand().activity();
+  CHECK_FALSE(robot.mapper.both.wait_matching(kWithin, 1ms));
+  CHECK(robot.mapper.odometry.counters().unmatched == 2);
+  CHECK(robot.mapper.strand().activity() == activity);
 }
 
-TEMPLATE_LIST_TEST_CASE("an object without a stamp counts from when it was made", "[contract][synchronizer]",
-                        LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    if (!kit.executive.is_virtual()) return;  // only there the times are exact
-    Source source(kit.executive);
-    Listener listener(kit.executive);
-    Sensor<Odometry> base(kit.executive, "base");
-    struct Pair : Peer {
-      using Peer::Peer;
-      PushProxy<MotionCommand> command{*this, "command"};
-      PushProxy<Odometry> odometry{*this, "odometry"};
-    } pair(kit.executive, "pair");
-    kit.connect(source.endpoint("out"), pair.endpoint("command"), {.depth = 4});
-    kit.connect(base.endpoint("out"), pair.endpoint("odometry"), {.depth = 4});
-    pair.command.subscribe();
-    pair.odometry.subscribe();
-    Synchronizer both;
-    both.add(pair.command);
-    both.add(pair.odometry);
-    sleep(kit.executive, 50ms);
-    source.push_numbers(1, 1);
-    const Duration made = kit.executive.now().time_since_epoch();
-    base.push(made - 1ms);
-    CHECK_FALSE(both.wait_matching(Duration{0}, 1ms));
-    base.push(made);
-    CHECK(both.wait_matching(Duration{0}, 1ms));
-  });
+CONTRACT_CASE("an object without a stamp counts from when it was made", "[contract][synchronizer]") {
+  if (!kit.executive.is_virtual()) return;  // only there the times are exact
+  Source source(kit.executive);
+  Listener listener(kit.executive);
+  Sensor<Odometry> base(kit.executive, "base");
+  struct Pair : Peer {
+    using Peer::Peer;
+    PushProxy<MotionCommand> command{*this, "command"};
+    PushProxy<Odometry> odometry{*this, "odometry"};
+  } pair(kit.executive, "pair");
+  kit.connect(source.endpoint("out"), pair.endpoint("command"), {.depth = 4});
+  kit.connect(base.endpoint("out"), pair.endpoint("odometry"), {.depth = 4});
+  pair.command.subscribe();
+  pair.odometry.subscribe();
+  Synchronizer both;
+  both.add(pair.command);
+  both.add(pair.odometry);
+  sleep(kit.executive, 50ms);
+  source.push_numbers(1, 1);
+  const Duration made = kit.executive.now().time_since_epoch();
+  base.push(made - 1ms);
+  CHECK_FALSE(both.wait_matching(Duration{0}, 1ms));
+  base.push(made);
+  CHECK(both.wait_matching(Duration{0}, 1ms));
 }

@@ -97,20 +97,18 @@ TEMPLATE_LIST_TEST_CASE(
       [](TestType& kit) { check_all_travel(kit, static_cast<TravellingStructs*>(nullptr)); });
 }
 
-TEMPLATE_LIST_TEST_CASE("a WorldCoordinate6DOF at a port of WorldCoordinate3D arrives whole",
-                        "[contract][travelling]", LinkKits) {
-  on_each_executive<TestType>([](TestType& kit) {
-    Giver<idl::WorldCoordinate3D> giver(kit.executive);
-    StructTaker<idl::WorldCoordinate3D> taker(kit.executive);
-    taker.open();
-    kit.connect(giver.endpoint("sent"), taker.endpoint("sent"));
-    const auto value = random_object<idl::WorldCoordinate6DOF>(5);
-    REQUIRE(giver.sent.send(value).ok());
-    REQUIRE(eventually(kit.executive, [&] { return taker.handle_one(); }));
-    CHECK(taker.kept->point() == value.point());
-    CHECK(taker.kept->origin() == "giver");
-    const auto whole = taker.kept.template as<idl::WorldCoordinate6DOF>();
-    REQUIRE(whole);
-    CHECK(static_cast<const idl::WorldCoordinate6DOF&>(*whole) == value);
-  });
+CONTRACT_CASE("a WorldCoordinate6DOF at a port of WorldCoordinate3D arrives whole",
+              "[contract][travelling]") {
+  Giver<idl::WorldCoordinate3D> giver(kit.executive);
+  StructTaker<idl::WorldCoordinate3D> taker(kit.executive);
+  taker.open();
+  kit.connect(giver.endpoint("sent"), taker.endpoint("sent"));
+  const auto value = random_object<idl::WorldCoordinate6DOF>(5);
+  REQUIRE(giver.sent.send(value).ok());
+  REQUIRE(eventually(kit.executive, [&] { return taker.handle_one(); }));
+  CHECK(taker.kept->point() == value.point());
+  CHECK(taker.kept->origin() == "giver");
+  const auto whole = taker.kept.template as<idl::WorldCoordinate6DOF>();
+  REQUIRE(whole);
+  CHECK(static_cast<const idl::WorldCoordinate6DOF&>(*whole) == value);
 }
