@@ -2,16 +2,20 @@
 #include "cooperative.hpp"
 
 #include <pthread.h>
+#include <sys/syscall.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <ctime>
+#include <fstream>
+#include <string>
 #include <utility>
 
 #include "orca/base/steady_clock.hpp"
 #include "task_thread.hpp"
-#include "thread_state.hpp"
 
 namespace orca::detail {
 
@@ -69,6 +73,16 @@ class CooperativeEvent final : public Event {
 };
 
 namespace {
+
+// Returns whether a thread of this process sleeps in a system call. A write that waits for its reader does
+// not count. False where the system does not tell.
+bool sleeps_in_system(pid_t thread) {
+  constexpr std::array kWrites{SYS_write, SYS_pwrite64, SYS_writev, SYS_sendto, SYS_sendmsg};
+  // Reads "running", or the number of the system call that the thread is in.
+  std::ifstream state("/proc/self/task/" + std::to_string(thread) + "/syscall");
+  long call = -1;
+  return (state >> call) && call >= 0 && std::ranges::find(kWrites, call) == kWrites.end();
+}
 
 class CooperativeTask final : public Task {
  public:

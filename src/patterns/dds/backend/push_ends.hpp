@@ -8,8 +8,7 @@
 #include <optional>
 
 #include "dds_end.hpp"
-#include "publication.hpp"
-#include "subscription.hpp"
+#include "topic.hpp"
 
 namespace orca::dds {
 

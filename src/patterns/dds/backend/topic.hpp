@@ -3,10 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <vector>
 
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "outbox.hpp"
+#include "participant.hpp"
 
 namespace orca::dds {
 
@@ -42,6 +45,42 @@ class Publication final : public PushOutlet {
   std::uint32_t epoch_ = 0;
   ObjectRef pending_;
   std::uint64_t due_ = 0;  // edges
+};
+
+/// Whoever gets the samples of a topic.
+///
+/// Thread contract: called by a thread of DDS: must not block.
+class SampleSink {
+ public:
+  virtual ~SampleSink() = default;
+  /// @param missed  samples that were lost before this one.
+  virtual void take_sample(Sample sample, std::uint64_t missed) = 0;
+};
+
+/// The reader of a topic, for all edges of this process that get objects from it.
+///
+/// Thread contract: any thread.
+class Subscription {
+ public:
+  /// Begins to receive.
+  /// @errors  as Participant::make_reader().
+  Status open(Participant& participant, const TopicOptions& topic);
+
+  void add(SampleSink& sink);
+  /// Removes a sink, which is not called afterwards.
+  void remove(SampleSink& sink);
+
+ private:
+  void take(Sample sample);
+  std::uint64_t missed_before(const Sample& sample);
+
+  std::mutex mutex_;
+  // Below: guarded by mutex_.
+  std::vector<SampleSink*> sinks_;
+  Origin origin_{};
+  std::uint64_t last_ = 0;  // sequence number from that origin
+
+  std::unique_ptr<TopicReader> reader_;  // the last member: its callback uses the others
 };
 
 }  // namespace orca::dds
