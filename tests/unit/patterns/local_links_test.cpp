@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "case_in.hpp"
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
@@ -46,105 +47,95 @@ Status connect(const Peer& a, const std::string& from, const Peer& b, const std:
 
 }  // namespace
 
-TEST_CASE("ends of one pattern and one type are connected from the side that starts the flow",
+#define ENDS_CASE(title, tags) CASE_IN(with_ends, (Ends & a, Ends & b), title, tags)
+
+ENDS_CASE("ends of one pattern and one type are connected from the side that starts the flow",
           "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    CHECK(connect(a, "push_out", b, "push_in").ok());
-    CHECK(connect(a, "send_out", b, "send_in").ok());
-    CHECK(connect(a, "asks", b, "answers").ok());
-    CHECK(b.push_in.connected());
-    CHECK(a.send_out.connected());
-    CHECK(a.asks.connected());
-  });
+  CHECK(connect(a, "push_out", b, "push_in").ok());
+  CHECK(connect(a, "send_out", b, "send_in").ok());
+  CHECK(connect(a, "asks", b, "answers").ok());
+  CHECK(b.push_in.connected());
+  CHECK(a.send_out.connected());
+  CHECK(a.asks.connected());
 }
 
-TEST_CASE("ends of different type, pattern or side are refused, and both are described",
+ENDS_CASE("ends of different type, pattern or side are refused, and both are described",
           "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    const Status wrong_type = connect(a, "push_out", b, "odometry");
-    REQUIRE_FALSE(wrong_type.ok());
-    CHECK(wrong_type.error().code == Code::invalid_argument);
-    CHECK_THAT(wrong_type.error().text(), Contains("a.push_out (PushServer of MotionCommand)") &&
-                                              Contains("b.odometry (PushProxy of Odometry)"));
-    CHECK_FALSE(connect(b, "push_in", a, "push_out").ok());
-    CHECK_FALSE(connect(a, "push_out", b, "push_out").ok());
-    CHECK_FALSE(connect(a, "push_out", b, "send_in").ok());
-    CHECK_FALSE(connect(a, "send_out", b, "send_out").ok());
-    CHECK_FALSE(connect(a, "answers", b, "asks").ok());
-    CHECK_FALSE(connect(a, "asks_odometry", b, "answers").ok());
-    CHECK_FALSE(b.push_in.connected());
-  });
+  const Status wrong_type = connect(a, "push_out", b, "odometry");
+  REQUIRE_FALSE(wrong_type.ok());
+  CHECK(wrong_type.error().code == Code::invalid_argument);
+  CHECK_THAT(wrong_type.error().text(), Contains("a.push_out (PushServer of MotionCommand)") &&
+                                            Contains("b.odometry (PushProxy of Odometry)"));
+  CHECK_FALSE(connect(b, "push_in", a, "push_out").ok());
+  CHECK_FALSE(connect(a, "push_out", b, "push_out").ok());
+  CHECK_FALSE(connect(a, "push_out", b, "send_in").ok());
+  CHECK_FALSE(connect(a, "send_out", b, "send_out").ok());
+  CHECK_FALSE(connect(a, "answers", b, "asks").ok());
+  CHECK_FALSE(connect(a, "asks_odometry", b, "answers").ok());
+  CHECK_FALSE(b.push_in.connected());
 }
 
-TEST_CASE("within a process a server refuses a question at once", "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(connect(a, "asks", b, "answers").ok());
-    const Result<QueryId> refused = a.asks.query_request(a.asks.loan());
-    REQUIRE_FALSE(refused.has_value());
-    CHECK(refused.error().code == Code::unavailable);
-    CHECK_THAT(refused.error().text(), Contains("b.answers") && Contains("has not been started yet"));
-    CHECK(a.asks.counters().sent == 1);
-    CHECK(a.asks.counters().failed == 1);
-  });
+ENDS_CASE("within a process a server refuses a question at once", "[patterns][local]") {
+  REQUIRE(connect(a, "asks", b, "answers").ok());
+  const Result<QueryId> refused = a.asks.query_request(a.asks.loan());
+  REQUIRE_FALSE(refused.has_value());
+  CHECK(refused.error().code == Code::unavailable);
+  CHECK_THAT(refused.error().text(), Contains("b.answers") && Contains("has not been started yet"));
+  CHECK(a.asks.counters().sent == 1);
+  CHECK(a.asks.counters().failed == 1);
 }
 
-TEST_CASE("a proxy that is connected already is not connected again, but a port array takes any number",
+ENDS_CASE("a proxy that is connected already is not connected again, but a port array takes any number",
           "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    for (const auto& [from, to] :
-         {std::pair{"push_out", "push_in"}, std::pair{"send_out", "send_in"}, std::pair{"asks", "answers"}}) {
-      REQUIRE(connect(a, from, b, to).ok());
-      const Status again = connect(a, from, b, to);
-      REQUIRE_FALSE(again.ok());
-      CHECK(again.error().code == Code::already_exists);
-    }
-    REQUIRE(connect(a, "push_out", b, "many").ok());
-    REQUIRE(connect(b, "push_out", b, "many").ok());
-    CHECK(b.many.sources().size() == 2);
-  });
+  for (const auto& [from, to] :
+       {std::pair{"push_out", "push_in"}, std::pair{"send_out", "send_in"}, std::pair{"asks", "answers"}}) {
+    REQUIRE(connect(a, from, b, to).ok());
+    const Status again = connect(a, from, b, to);
+    REQUIRE_FALSE(again.ok());
+    CHECK(again.error().code == Code::already_exists);
+  }
+  REQUIRE(connect(a, "push_out", b, "many").ok());
+  REQUIRE(connect(b, "push_out", b, "many").ok());
+  CHECK(b.many.sources().size() == 2);
 }
 
-TEST_CASE("the edges of a port array are told apart by their sources and subscribed one by one",
+ENDS_CASE("the edges of a port array are told apart by their sources and subscribed one by one",
           "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(connect(a, "push_out", b, "many").ok());
-    REQUIRE(connect(b, "push_out", b, "many").ok());
-    const auto from_a = b.many.sources()[0];
-    const auto from_b = b.many.sources()[1];
-    CHECK(from_a.path() == "a.push_out");
-    CHECK(from_b.path() == "b.push_out");
-    CHECK_FALSE(from_a == from_b);
-    from_a.subscribe();
-    a.push_out.push(head(0.0, 1.0));
-    a.push_out.push(head(0.0, 2.0));
-    b.push_out.push(head(0.0, 3.0));
-    CHECK(from_a.latest()->speed() == 2.0);
-    CHECK(from_a.new_data_arrived());
-    const auto newest = from_a.take_latest();
-    REQUIRE(newest);
-    CHECK(newest->speed() == 2.0);
-    CHECK_FALSE(from_a.new_data_arrived());
-    CHECK(from_b.take_latest() == nullptr);
-    b.many.unsubscribe_all();
-    CHECK(a.push_out.subscriber_count() == 0);
-  });
+  REQUIRE(connect(a, "push_out", b, "many").ok());
+  REQUIRE(connect(b, "push_out", b, "many").ok());
+  const auto from_a = b.many.sources()[0];
+  const auto from_b = b.many.sources()[1];
+  CHECK(from_a.path() == "a.push_out");
+  CHECK(from_b.path() == "b.push_out");
+  CHECK_FALSE(from_a == from_b);
+  from_a.subscribe();
+  a.push_out.push(head(0.0, 1.0));
+  a.push_out.push(head(0.0, 2.0));
+  b.push_out.push(head(0.0, 3.0));
+  CHECK(from_a.latest()->speed() == 2.0);
+  CHECK(from_a.new_data_arrived());
+  const auto newest = from_a.take_latest();
+  REQUIRE(newest);
+  CHECK(newest->speed() == 2.0);
+  CHECK_FALSE(from_a.new_data_arrived());
+  CHECK(from_b.take_latest() == nullptr);
+  b.many.unsubscribe_all();
+  CHECK(a.push_out.subscriber_count() == 0);
 }
 
-TEST_CASE("what each source of a port array has brought is counted by itself", "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(connect(a, "push_out", b, "many").ok());
-    REQUIRE(connect(b, "push_out", b, "many").ok());
-    for (const auto& source : b.many.sources()) source.subscribe();
-    a.push_out.push(head(0.0, 1.0));
-    a.push_out.push(head(0.0, 2.0));
-    b.push_out.push(head(0.0, 3.0));
-    const auto& many = static_cast<const PushClientEndpoint&>(b.endpoint("many"));
-    REQUIRE(many.counters_from("a.push_out"));
-    REQUIRE(many.counters_from("b.push_out"));
-    CHECK(many.counters_from("a.push_out")->delivered == 2);
-    CHECK(many.counters_from("b.push_out")->delivered == 1);
-    CHECK_FALSE(many.counters_from("c.push_out"));
-  });
+ENDS_CASE("what each source of a port array has brought is counted by itself", "[patterns][local]") {
+  REQUIRE(connect(a, "push_out", b, "many").ok());
+  REQUIRE(connect(b, "push_out", b, "many").ok());
+  for (const auto& source : b.many.sources()) source.subscribe();
+  a.push_out.push(head(0.0, 1.0));
+  a.push_out.push(head(0.0, 2.0));
+  b.push_out.push(head(0.0, 3.0));
+  const auto& many = static_cast<const PushClientEndpoint&>(b.endpoint("many"));
+  REQUIRE(many.counters_from("a.push_out"));
+  REQUIRE(many.counters_from("b.push_out"));
+  CHECK(many.counters_from("a.push_out")->delivered == 2);
+  CHECK(many.counters_from("b.push_out")->delivered == 1);
+  CHECK_FALSE(many.counters_from("c.push_out"));
 }
 
 TEST_CASE("no edge can make a device wait", "[patterns][local]") {
@@ -253,32 +244,28 @@ std::vector<int> take_speeds(Ends& ends) {
 
 }  // namespace
 
-TEST_CASE("a connection that is renewed with a smaller queue keeps the newest objects",
+ENDS_CASE("a connection that is renewed with a smaller queue keeps the newest objects",
           "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
-    b.push_in.subscribe();
-    push_speeds(a, 1, 4);
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(2)).ok());
-    CHECK(a.push_out.subscriber_count() == 1);
-    CHECK(b.push_in.counters().dropped_oldest == 2);
-    CHECK(take_speeds(b) == std::vector<int>{3, 4});
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(3)).ok());
-    push_speeds(a, 5, 8);
-    CHECK(take_speeds(b) == std::vector<int>{6, 7, 8});
-  });
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
+  b.push_in.subscribe();
+  push_speeds(a, 1, 4);
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(2)).ok());
+  CHECK(a.push_out.subscriber_count() == 1);
+  CHECK(b.push_in.counters().dropped_oldest == 2);
+  CHECK(take_speeds(b) == std::vector<int>{3, 4});
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(3)).ok());
+  push_speeds(a, 5, 8);
+  CHECK(take_speeds(b) == std::vector<int>{6, 7, 8});
 }
 
-TEST_CASE("a connection that is renewed with an interval gets the new rate", "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
-    b.push_in.subscribe();
-    a.push_out.start(10ms);
-    QueuePolicy slower = deep(1);
-    slower.min_interval = 30ms;
-    REQUIRE(renew(a, "push_out", b, "push_in", slower).ok());
-    CHECK(b.push_in.granted().multiple == 3);
-  });
+ENDS_CASE("a connection that is renewed with an interval gets the new rate", "[patterns][local][renew]") {
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
+  b.push_in.subscribe();
+  a.push_out.start(10ms);
+  QueuePolicy slower = deep(1);
+  slower.min_interval = 30ms;
+  REQUIRE(renew(a, "push_out", b, "push_in", slower).ok());
+  CHECK(b.push_in.granted().multiple == 3);
 }
 
 TEST_CASE("deadlines that were missed stay counted when the connection gets another one, or none",
@@ -304,64 +291,54 @@ TEST_CASE("deadlines that were missed stay counted when the connection gets anot
   });
 }
 
-TEST_CASE("a connection in place of another one keeps what waits", "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
-    b.push_in.subscribe();
-    push_speeds(a, 1, 1);
-    REQUIRE(renew(b, "push_out", b, "push_in", deep(4)).ok());
-    CHECK(a.push_out.subscriber_count() == 0);
-    CHECK(b.push_out.subscriber_count() == 1);
-    push_speeds(b, 2, 2);
-    CHECK(take_speeds(b) == std::vector<int>{1, 2});
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());  // and back
-    CHECK(a.push_out.subscriber_count() == 1);
-    CHECK(b.push_out.subscriber_count() == 0);
-  });
+ENDS_CASE("a connection in place of another one keeps what waits", "[patterns][local][renew]") {
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
+  b.push_in.subscribe();
+  push_speeds(a, 1, 1);
+  REQUIRE(renew(b, "push_out", b, "push_in", deep(4)).ok());
+  CHECK(a.push_out.subscriber_count() == 0);
+  CHECK(b.push_out.subscriber_count() == 1);
+  push_speeds(b, 2, 2);
+  CHECK(take_speeds(b) == std::vector<int>{1, 2});
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());  // and back
+  CHECK(a.push_out.subscriber_count() == 1);
+  CHECK(b.push_out.subscriber_count() == 0);
 }
 
-TEST_CASE("a port without a connection that the runtime has subscribed hears the first one",
+ENDS_CASE("a port without a connection that the runtime has subscribed hears the first one",
           "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    b.push_in.subscribe();
-    REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
-    CHECK(a.push_out.subscriber_count() == 1);
-  });
+  b.push_in.subscribe();
+  REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
+  CHECK(a.push_out.subscriber_count() == 1);
 }
 
-TEST_CASE("a Send connection that is renewed has room for more", "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    QueuePolicy policy{.depth = 1, .overflow = QueuePolicy::Overflow::refuse};
-    REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
-    b.open();
-    CHECK(a.send_out.send(full_stop()).ok());
-    policy.depth = 2;
-    REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
-    CHECK(a.send_out.send(full_stop()).ok());
-    const IntakeCounters counters = static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters();
-    CHECK(counters.accepted == 2);
-    CHECK(counters.waits == 0);
-  });
+ENDS_CASE("a Send connection that is renewed has room for more", "[patterns][local][renew]") {
+  QueuePolicy policy{.depth = 1, .overflow = QueuePolicy::Overflow::refuse};
+  REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
+  b.open();
+  CHECK(a.send_out.send(full_stop()).ok());
+  policy.depth = 2;
+  REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
+  CHECK(a.send_out.send(full_stop()).ok());
+  const IntakeCounters counters = static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters();
+  CHECK(counters.accepted == 2);
+  CHECK(counters.waits == 0);
 }
 
-TEST_CASE("ends that do not fit are not renewed", "[patterns][local][renew]") {
-  with_ends([](Ends& a, Ends& b) {
-    const Status refused = renew(a, "push_out", b, "odometry", deep(1));
-    REQUIRE_FALSE(refused.ok());
-    CHECK(refused.error().code == Code::invalid_argument);
-  });
+ENDS_CASE("ends that do not fit are not renewed", "[patterns][local][renew]") {
+  const Status refused = renew(a, "push_out", b, "odometry", deep(1));
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::invalid_argument);
 }
 
-TEST_CASE("a connection that is renewed with another queue stays the one it was", "[patterns][local]") {
-  with_ends([](Ends& a, Ends& b) {
-    REQUIRE(connect(a, "send_out", b, "send_in").ok());
-    b.open();
-    REQUIRE(a.send_out.send(MotionCommand()).ok());
-    QueuePolicy longer;
-    longer.depth = 8;
-    REQUIRE(LocalLinks().renew(a.endpoint("send_out"), b.endpoint("send_in"), longer).ok());
-    // What waits is still counted as waiting, and handled.
-    CHECK(static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters().queued == 1);
-    CHECK(b.handle_one());
-  });
+ENDS_CASE("a connection that is renewed with another queue stays the one it was", "[patterns][local]") {
+  REQUIRE(connect(a, "send_out", b, "send_in").ok());
+  b.open();
+  REQUIRE(a.send_out.send(MotionCommand()).ok());
+  QueuePolicy longer;
+  longer.depth = 8;
+  REQUIRE(LocalLinks().renew(a.endpoint("send_out"), b.endpoint("send_in"), longer).ok());
+  // What waits is still counted as waiting, and handled.
+  CHECK(static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters().queued == 1);
+  CHECK(b.handle_one());
 }

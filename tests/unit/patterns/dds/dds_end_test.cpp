@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "case_in.hpp"
 #include "executives.hpp"
 #include "orca/base/log.hpp"
 #include "played_peer.hpp"
@@ -83,102 +84,90 @@ void with_end(const std::function<void(Fixture&)>& body) {
 
 }  // namespace
 
-TEST_CASE("frames reach the strand in order when it takes them in, and are counted", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    one.peer.say(small());
-    one.peer.say(small());
-    CHECK(one.log.empty());
-    one.take_in();
-    CHECK(one.log == "frame frame ");
-    CHECK(one.end.traffic().frames_received == 2);
-    CHECK_FALSE(one.end.take_in());  // there is nothing new
-    CHECK(one.end.name() == "a.out to b.in");
-  });
+#define END_CASE(title, tags) CASE_IN(with_end, (Fixture & one), title, tags)
+
+END_CASE("frames reach the strand in order when it takes them in, and are counted", "[patterns][dds]") {
+  one.peer.meet();
+  one.peer.say(small());
+  one.peer.say(small());
+  CHECK(one.log.empty());
+  one.take_in();
+  CHECK(one.log == "frame frame ");
+  CHECK(one.end.traffic().frames_received == 2);
+  CHECK_FALSE(one.end.take_in());  // there is nothing new
+  CHECK(one.end.name() == "a.out to b.in");
 }
 
-TEST_CASE("a frame goes to the peer as a parcel, by whoever waits for what comes of it", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    CHECK(one.end.send(small()) == Sent::yes);
-    CHECK(one.end.send(small(), Loss::never, Caller::waits) == Sent::yes);
-    const auto said = one.peer.heard();
-    REQUIRE(said.size() == 2);
-    CHECK(said[0].kind == Parcel::frame);
-    FrameReader frame(said[0].contents);
-    CHECK(frame.kind() == FrameKind::taken);
-    CHECK(frame.read_number() == 2);
-    CHECK(said[0].by == By::outbox);
-    CHECK(said[1].by == By::caller);
-  });
+END_CASE("a frame goes to the peer as a parcel, by whoever waits for what comes of it", "[patterns][dds]") {
+  one.peer.meet();
+  CHECK(one.end.send(small()) == Sent::yes);
+  CHECK(one.end.send(small(), Loss::never, Caller::waits) == Sent::yes);
+  const auto said = one.peer.heard();
+  REQUIRE(said.size() == 2);
+  CHECK(said[0].kind == Parcel::frame);
+  FrameReader frame(said[0].contents);
+  CHECK(frame.kind() == FrameKind::taken);
+  CHECK(frame.read_number() == 2);
+  CHECK(said[0].by == By::outbox);
+  CHECK(said[1].by == By::caller);
 }
 
-TEST_CASE("a peer that sends what is refused is cut off, counted, told, and not heard any more",
-          "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    one.peer.say(small(FrameKind::offer));
-    one.peer.say(small());
-    one.take_in();
-    CHECK(one.log == "frame cut: it is refused ");
-    CHECK(one.end.is_cut());
-    CHECK(one.end.traffic().peers_cut_off == 1);
-    CHECK(one.end.send(small()) == Sent::cut);
-    const auto said = one.peer.heard();
-    REQUIRE(said.size() == 1);
-    CHECK(said[0].kind == Parcel::closed);
-  });
+END_CASE("a peer that sends what is refused is cut off, counted, told, and not heard any more",
+         "[patterns][dds]") {
+  one.peer.meet();
+  one.peer.say(small(FrameKind::offer));
+  one.peer.say(small());
+  one.take_in();
+  CHECK(one.log == "frame cut: it is refused ");
+  CHECK(one.end.is_cut());
+  CHECK(one.end.traffic().peers_cut_off == 1);
+  CHECK(one.end.send(small()) == Sent::cut);
+  const auto said = one.peer.heard();
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].kind == Parcel::closed);
 }
 
-TEST_CASE("a frame with a field too many cuts its sender off", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    Frame frame = small();
-    frame.add(std::uint64_t{3});
-    one.peer.say(frame);
-    one.take_in();
-    CHECK(one.end.is_cut());
-  });
+END_CASE("a frame with a field too many cuts its sender off", "[patterns][dds]") {
+  one.peer.meet();
+  Frame frame = small();
+  frame.add(std::uint64_t{3});
+  one.peer.say(frame);
+  one.take_in();
+  CHECK(one.end.is_cut());
 }
 
-TEST_CASE("an end whose other end has gone says so, once", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    one.peer.say(Parcel::closed);
-    one.peer.say(Parcel::closed);
-    one.peer.say(Parcel::heard);  // is nothing for an end that has no topic
-    one.take_in();
-    CHECK(one.log == "cut: the other end of a.out to b.in has gone ");
-    CHECK(one.end.traffic().peers_cut_off == 0);  // that is no fault
-  });
+END_CASE("an end whose other end has gone says so, once", "[patterns][dds]") {
+  one.peer.meet();
+  one.peer.say(Parcel::closed);
+  one.peer.say(Parcel::closed);
+  one.peer.say(Parcel::heard);  // is nothing for an end that has no topic
+  one.take_in();
+  CHECK(one.log == "cut: the other end of a.out to b.in has gone ");
+  CHECK(one.end.traffic().peers_cut_off == 0);  // that is no fault
 }
 
-TEST_CASE("an end works again with a new peer, and tells of the old one's loss once", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    CHECK(one.end.session() == 1);
-    one.peer.line().lose(fail(Code::unavailable, "it was killed"));
-    one.take_in();
-    CHECK(one.end.is_cut());
-    one.peer.meet(6);
-    one.take_in();
-    CHECK(one.log == "cut: it was killed renewed ");
-    CHECK_FALSE(one.end.is_cut());
-    CHECK(one.end.session() == 2);
-    CHECK(one.end.send(small()) == Sent::yes);
-  });
+END_CASE("an end works again with a new peer, and tells of the old one's loss once", "[patterns][dds]") {
+  one.peer.meet();
+  CHECK(one.end.session() == 1);
+  one.peer.line().lose(fail(Code::unavailable, "it was killed"));
+  one.take_in();
+  CHECK(one.end.is_cut());
+  one.peer.meet(6);
+  one.take_in();
+  CHECK(one.log == "cut: it was killed renewed ");
+  CHECK_FALSE(one.end.is_cut());
+  CHECK(one.end.session() == 2);
+  CHECK(one.end.send(small()) == Sent::yes);
 }
 
-TEST_CASE("a strand falls behind when more than 4 MiB wait for it, and catches up by taking in",
-          "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.end.deliver(std::vector<std::byte>(kBehindAt - kBesides));
-    CHECK_FALSE(one.end.is_behind());
-    one.end.deliver({});
-    CHECK(one.end.is_behind());
-    one.take_in();
-    CHECK_FALSE(one.end.is_behind());
-  });
+END_CASE("a strand falls behind when more than 4 MiB wait for it, and catches up by taking in",
+         "[patterns][dds]") {
+  one.end.deliver(std::vector<std::byte>(kBehindAt - kBesides));
+  CHECK_FALSE(one.end.is_behind());
+  one.end.deliver({});
+  CHECK(one.end.is_behind());
+  one.take_in();
+  CHECK_FALSE(one.end.is_behind());
 }
 
 TEST_CASE("64 MiB may wait for a strand, and a peer that sends more is cut off", "[patterns][dds]") {
@@ -195,17 +184,15 @@ TEST_CASE("64 MiB may wait for a strand, and a peer that sends more is cut off",
   }
 }
 
-TEST_CASE("an end that was stopped is cut, and its peer learns of it", "[patterns][dds]") {
-  with_end([](Fixture& one) {
-    one.peer.meet();
-    one.peer.say(small());
-    one.end.stop();
-    one.end.stop();
-    CHECK(one.end.is_cut());
-    CHECK_FALSE(one.end.take_in());
-    CHECK(one.log.empty());
-    const auto said = one.peer.heard();
-    REQUIRE(said.size() == 1);
-    CHECK(said[0].kind == Parcel::closed);
-  });
+END_CASE("an end that was stopped is cut, and its peer learns of it", "[patterns][dds]") {
+  one.peer.meet();
+  one.peer.say(small());
+  one.end.stop();
+  one.end.stop();
+  CHECK(one.end.is_cut());
+  CHECK_FALSE(one.end.take_in());
+  CHECK(one.log.empty());
+  const auto said = one.peer.heard();
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].kind == Parcel::closed);
 }

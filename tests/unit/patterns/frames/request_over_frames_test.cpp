@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "case_in.hpp"
 #include "executives.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -101,31 +102,29 @@ void with_asker(const std::function<void(Client<Reply>&)>& body) {
 
 }  // namespace
 
-TEST_CASE("a question goes out with its number, and says whether its asker waits", "[patterns][frames]") {
-  with_asker([](Client<Reply>& caller) {
-    CHECK_FALSE(caller.offer(3));
-    CHECK_FALSE(caller.offer(4, true));
-    REQUIRE(caller.peer.sent.size() == 2);
-    CHECK(caller.peer.sent[0].kind() == FrameKind::offer);
-    CHECK(caller.peer.sent[0].number() == 3);
-    CHECK(caller.peer.sent[0].first_number() == 0);
-    CHECK(caller.peer.sent[1].first_number() == 1);
-    CHECK(caller.peer.callers == std::vector{Caller::goes_on, Caller::waits});
-    CHECK(caller.peer.losses == std::vector{Loss::allowed, Loss::allowed});
-  });
+#define ASKER_CASE(title, tags) CASE_IN(with_asker, (Client<Reply> & caller), title, tags)
+
+ASKER_CASE("a question goes out with its number, and says whether its asker waits", "[patterns][frames]") {
+  CHECK_FALSE(caller.offer(3));
+  CHECK_FALSE(caller.offer(4, true));
+  REQUIRE(caller.peer.sent.size() == 2);
+  CHECK(caller.peer.sent[0].kind() == FrameKind::offer);
+  CHECK(caller.peer.sent[0].number() == 3);
+  CHECK(caller.peer.sent[0].first_number() == 0);
+  CHECK(caller.peer.sent[1].first_number() == 1);
+  CHECK(caller.peer.callers == std::vector{Caller::goes_on, Caller::waits});
+  CHECK(caller.peer.losses == std::vector{Loss::allowed, Loss::allowed});
 }
 
-TEST_CASE("each answer reaches the question with its number, once", "[patterns][frames]") {
-  with_asker([](Client<Reply>& caller) {
-    for (const RequestId id : {3U, 4U}) CHECK_FALSE(caller.offer(id));
-    const ObjectRef goal(make_object<idl::GoalPoint>().seal());
-    CHECK(caller.peer.say(reply_of(4, goal)).ok());
-    CHECK(caller.peer.say(reply_of(4, goal)).ok());
-    CHECK(caller.peer.say(answer_of(3, 2, "it is busy")).ok());
-    CHECK(caller.peer.say(answer_of(7, 2, "to nobody")).ok());
-    CHECK(caller.asker.ids == std::vector<RequestId>{4, 3});
-    CHECK(caller.asker.errors == std::vector<std::string>{"none", "it is busy"});
-  });
+ASKER_CASE("each answer reaches the question with its number, once", "[patterns][frames]") {
+  for (const RequestId id : {3U, 4U}) CHECK_FALSE(caller.offer(id));
+  const ObjectRef goal(make_object<idl::GoalPoint>().seal());
+  CHECK(caller.peer.say(reply_of(4, goal)).ok());
+  CHECK(caller.peer.say(reply_of(4, goal)).ok());
+  CHECK(caller.peer.say(answer_of(3, 2, "it is busy")).ok());
+  CHECK(caller.peer.say(answer_of(7, 2, "to nobody")).ok());
+  CHECK(caller.asker.ids == std::vector<RequestId>{4, 3});
+  CHECK(caller.asker.errors == std::vector<std::string>{"none", "it is busy"});
 }
 
 TEST_CASE("each kind of error travels", "[patterns][frames]") {
@@ -150,54 +149,48 @@ TEST_CASE("each kind of error travels", "[patterns][frames]") {
   });
 }
 
-TEST_CASE("a client refuses what a server of Query cannot say", "[patterns][frames]") {
-  with_asker([](Client<Reply>& caller) {
-    CHECK_FALSE(caller.offer(3));
-    CHECK_FALSE(caller.peer.say(reply_of(3, a_command())).ok());  // no reply of this port
-    CHECK_FALSE(caller.peer.say(answer_of(3, 0)).ok());           // no reply at all
-    CHECK_FALSE(caller.peer.say(frame_of(FrameKind::answer, 3, {2})).ok());
-    CHECK_FALSE(caller.peer.say(offer_of(3, false)).ok());
-    CHECK_THAT(caller.peer.say(frame_of(FrameKind::withdraw, 3)).error().message, Contains("Query or Send"));
-    CHECK(caller.asker.ids.empty());
-  });
+ASKER_CASE("a client refuses what a server of Query cannot say", "[patterns][frames]") {
+  CHECK_FALSE(caller.offer(3));
+  CHECK_FALSE(caller.peer.say(reply_of(3, a_command())).ok());  // no reply of this port
+  CHECK_FALSE(caller.peer.say(answer_of(3, 0)).ok());           // no reply at all
+  CHECK_FALSE(caller.peer.say(frame_of(FrameKind::answer, 3, {2})).ok());
+  CHECK_FALSE(caller.peer.say(offer_of(3, false)).ok());
+  CHECK_THAT(caller.peer.say(frame_of(FrameKind::withdraw, 3)).error().message, Contains("Query or Send"));
+  CHECK(caller.asker.ids.empty());
 }
 
-TEST_CASE("a question that cannot be sent is refused with the reason", "[patterns][frames]") {
-  with_asker([](Client<Reply>& caller) {
-    caller.peer.outcome = Sent::no_room;
-    const auto full = caller.offer(3);
-    REQUIRE(full);
-    CHECK(full->error().code == Code::unavailable);
-    CHECK_THAT(full->error().message,
-               Contains("b.in was not reached: its queue between the processes is full"));
-    caller.peer.outcome = Sent::too_large;
-    const auto large = caller.offer(4);
-    REQUIRE(large);
-    CHECK(large->error().code == Code::invalid_argument);
-    CHECK_THAT(large->error().message, Contains("larger than what the link to b.in can carry"));
-    caller.peer.outcome = Sent::cut;
-    CHECK_FALSE(caller.offer(5));  // the end of the link answers it
-    caller.peer.handlers.cut(fail(Code::unavailable, "it is gone"));
-    CHECK(caller.asker.ids == std::vector<RequestId>{5});
-  });
+ASKER_CASE("a question that cannot be sent is refused with the reason", "[patterns][frames]") {
+  caller.peer.outcome = Sent::no_room;
+  const auto full = caller.offer(3);
+  REQUIRE(full);
+  CHECK(full->error().code == Code::unavailable);
+  CHECK_THAT(full->error().message,
+             Contains("b.in was not reached: its queue between the processes is full"));
+  caller.peer.outcome = Sent::too_large;
+  const auto large = caller.offer(4);
+  REQUIRE(large);
+  CHECK(large->error().code == Code::invalid_argument);
+  CHECK_THAT(large->error().message, Contains("larger than what the link to b.in can carry"));
+  caller.peer.outcome = Sent::cut;
+  CHECK_FALSE(caller.offer(5));  // the end of the link answers it
+  caller.peer.handlers.cut(fail(Code::unavailable, "it is gone"));
+  CHECK(caller.asker.ids == std::vector<RequestId>{5});
 }
 
-TEST_CASE("when the link is cut all open questions are answered, and new ones refused until it stands again",
-          "[patterns][frames]") {
-  with_asker([](Client<Reply>& caller) {
-    CHECK_FALSE(caller.offer(3));
-    CHECK_FALSE(caller.offer(4));
-    caller.peer.handlers.cut(fail(Code::unavailable, "it was killed"));
-    CHECK(caller.asker.ids == std::vector<RequestId>{3, 4});
-    CHECK(caller.asker.errors.at(0) == "b.in cannot be reached: the link was cut, because it was killed");
-    const auto refused = caller.offer(5);
-    REQUIRE(refused);
-    CHECK(refused->error().code == Code::unavailable);
-    CHECK(caller.target.renewals() == 0U);
-    caller.peer.handlers.renewed();
-    CHECK(caller.target.renewals() == 1U);
-    CHECK_FALSE(caller.offer(6));
-  });
+ASKER_CASE("when the link is cut all open questions are answered, and new ones refused until it stands again",
+           "[patterns][frames]") {
+  CHECK_FALSE(caller.offer(3));
+  CHECK_FALSE(caller.offer(4));
+  caller.peer.handlers.cut(fail(Code::unavailable, "it was killed"));
+  CHECK(caller.asker.ids == std::vector<RequestId>{3, 4});
+  CHECK(caller.asker.errors.at(0) == "b.in cannot be reached: the link was cut, because it was killed");
+  const auto refused = caller.offer(5);
+  REQUIRE(refused);
+  CHECK(refused->error().code == Code::unavailable);
+  CHECK(caller.target.renewals() == 0U);
+  caller.peer.handlers.renewed();
+  CHECK(caller.target.renewals() == 1U);
+  CHECK_FALSE(caller.offer(6));
 }
 
 TEST_CASE("a client waits for the outcome as long as the edge says, or a second", "[patterns][frames]") {

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "case_in.hpp"
 #include "executives.hpp"
 #include "orca/base/log.hpp"
 #include "two_processes.hpp"
@@ -70,7 +71,7 @@ struct EndPair {
   WatchedEnd client, server;
 };
 
-void with_pair(std::size_t capacity, const std::function<void(EndPair&)>& body) {
+void with_pair(const std::function<void(EndPair&)>& body, std::size_t capacity = 4096) {
   log::set_level(log::Level::error);  // being cut off is a warning
   run_on({}, [&](Executive& executive) {
     EndPair pair(executive, capacity);
@@ -83,153 +84,141 @@ using FrameNumbers = std::vector<std::uint64_t>;
 
 }  // namespace
 
-TEST_CASE("frames pass through shared memory in order, both ways, and ring the other side",
+#define PAIR_CASE(title, tags) CASE_IN(with_pair, (EndPair & pair), title, tags)
+
+PAIR_CASE("frames pass through shared memory in order, both ways, and ring the other side",
           "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK_FALSE(pair.server.end.take_in());  // there is nothing yet
-    CHECK(pair.client.send(100, 1) == Sent::yes);
-    CHECK(EndPair::was_rung(pair.rings_server));
-    CHECK(pair.client.send(100, 2) == Sent::yes);
-    CHECK(pair.server.send(100, 3) == Sent::yes);
-    CHECK(EndPair::was_rung(pair.rings_client));
-    CHECK(pair.server.end.take_in());
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.server.numbers == FrameNumbers{1, 2});
-    CHECK(pair.client.numbers == FrameNumbers{3});
-    CHECK(pair.server.end.counters().frames_received == 2);
-    CHECK(pair.client.end.counters().frames_received == 1);
-    CHECK_FALSE(pair.server.end.take_in());
-    CHECK(pair.client.end.name() == "a.out to b.in");
-  });
+  CHECK_FALSE(pair.server.end.take_in());  // there is nothing yet
+  CHECK(pair.client.send(100, 1) == Sent::yes);
+  CHECK(EndPair::was_rung(pair.rings_server));
+  CHECK(pair.client.send(100, 2) == Sent::yes);
+  CHECK(pair.server.send(100, 3) == Sent::yes);
+  CHECK(EndPair::was_rung(pair.rings_client));
+  CHECK(pair.server.end.take_in());
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.server.numbers == FrameNumbers{1, 2});
+  CHECK(pair.client.numbers == FrameNumbers{3});
+  CHECK(pair.server.end.counters().frames_received == 2);
+  CHECK(pair.client.end.counters().frames_received == 1);
+  CHECK_FALSE(pair.server.end.take_in());
+  CHECK(pair.client.end.name() == "a.out to b.in");
 }
 
-TEST_CASE("what finds no room is dropped if it may be, and otherwise kept until the other side has read",
+PAIR_CASE("what finds no room is dropped if it may be, and otherwise kept until the other side has read",
           "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK(pair.client.send(3000, 1) == Sent::yes);
-    CHECK(pair.client.send(3000, 2, Loss::allowed) == Sent::no_room);
-    CHECK(pair.client.send(3000, 3) == Sent::yes);
-    CHECK(pair.client.send(100, 4, Loss::allowed) == Sent::no_room);  // it must not overtake
-    CHECK(pair.client.send(100, 5) == Sent::yes);
-    CHECK(pair.server.end.take_in());
-    CHECK(EndPair::was_rung(pair.rings_client));  // there is room again
-    (void)EndPair::was_rung(pair.rings_server);
-    CHECK_FALSE(pair.client.end.take_in());
-    CHECK(EndPair::was_rung(pair.rings_server));
-    CHECK(pair.server.end.take_in());
-    CHECK(pair.server.numbers == FrameNumbers{1, 3, 5});
-    CHECK_FALSE(EndPair::was_rung(pair.rings_client));  // nobody waits for room any more
-    CHECK(pair.client.send(100, 6, Loss::allowed) == Sent::yes);
-  });
+  CHECK(pair.client.send(3000, 1) == Sent::yes);
+  CHECK(pair.client.send(3000, 2, Loss::allowed) == Sent::no_room);
+  CHECK(pair.client.send(3000, 3) == Sent::yes);
+  CHECK(pair.client.send(100, 4, Loss::allowed) == Sent::no_room);  // it must not overtake
+  CHECK(pair.client.send(100, 5) == Sent::yes);
+  CHECK(pair.server.end.take_in());
+  CHECK(EndPair::was_rung(pair.rings_client));  // there is room again
+  (void)EndPair::was_rung(pair.rings_server);
+  CHECK_FALSE(pair.client.end.take_in());
+  CHECK(EndPair::was_rung(pair.rings_server));
+  CHECK(pair.server.end.take_in());
+  CHECK(pair.server.numbers == FrameNumbers{1, 3, 5});
+  CHECK_FALSE(EndPair::was_rung(pair.rings_client));  // nobody waits for room any more
+  CHECK(pair.client.send(100, 6, Loss::allowed) == Sent::yes);
 }
 
-TEST_CASE("a frame that never finds room is refused, whatever waits before it", "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK(pair.client.send(4096 - 8, 1) == Sent::yes);  // just fits, with its length
-    CHECK(pair.client.send(4096, 2) == Sent::too_large);
-    CHECK(pair.client.send(3000, 3) == Sent::yes);
-    CHECK(pair.client.send(4096, 4) == Sent::too_large);
-    CHECK(pair.client.send(4096 - 8, 5) == Sent::yes);
-    for (int i = 0; i < 3; ++i) {
-      (void)pair.server.end.take_in();
-      (void)pair.client.end.take_in();
-    }
-    CHECK(pair.server.numbers == FrameNumbers{1, 3, 5});
-  });
+PAIR_CASE("a frame that never finds room is refused, whatever waits before it", "[patterns][shm]") {
+  CHECK(pair.client.send(4096 - 8, 1) == Sent::yes);  // just fits, with its length
+  CHECK(pair.client.send(4096, 2) == Sent::too_large);
+  CHECK(pair.client.send(3000, 3) == Sent::yes);
+  CHECK(pair.client.send(4096, 4) == Sent::too_large);
+  CHECK(pair.client.send(4096 - 8, 5) == Sent::yes);
+  for (int i = 0; i < 3; ++i) {
+    (void)pair.server.end.take_in();
+    (void)pair.client.end.take_in();
+  }
+  CHECK(pair.server.numbers == FrameNumbers{1, 3, 5});
 }
 
 TEST_CASE("a peer for which more than 64 MiB wait is cut off", "[patterns][shm]") {
-  with_pair(2 * kOneMebibyte, [](EndPair& pair) {
-    CHECK(pair.client.send(kOneMebibyte, 1) == Sent::yes);
-    for (int i = 0; i < 64; ++i) CHECK(pair.client.send(kOneMebibyte, 2) == Sent::yes);
-    (void)pair.client.end.take_in();
-    CHECK_FALSE(pair.client.end.is_cut());
-    CHECK(pair.client.send(kOneMebibyte, 3) == Sent::yes);
-    CHECK(pair.client.send(100, 4) == Sent::cut);
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.end.is_cut());
-    CHECK(pair.client.end.counters().peers_cut_off == 1);
-    CHECK(pair.client.why_cut_off == "68157440 bytes wait to be read by it");
-    CHECK(pair.client.why_cut == pair.client.why_cut_off);
-  });
+  with_pair(
+      [](EndPair& pair) {
+        CHECK(pair.client.send(kOneMebibyte, 1) == Sent::yes);
+        for (int i = 0; i < 64; ++i) CHECK(pair.client.send(kOneMebibyte, 2) == Sent::yes);
+        (void)pair.client.end.take_in();
+        CHECK_FALSE(pair.client.end.is_cut());
+        CHECK(pair.client.send(kOneMebibyte, 3) == Sent::yes);
+        CHECK(pair.client.send(100, 4) == Sent::cut);
+        CHECK(pair.client.end.take_in());
+        CHECK(pair.client.end.is_cut());
+        CHECK(pair.client.end.counters().peers_cut_off == 1);
+        CHECK(pair.client.why_cut_off == "68157440 bytes wait to be read by it");
+        CHECK(pair.client.why_cut == pair.client.why_cut_off);
+      },
+      2 * kOneMebibyte);
 }
 
-TEST_CASE("a peer that sends what is refused is cut off, and learns that this end has gone",
+PAIR_CASE("a peer that sends what is refused is cut off, and learns that this end has gone",
           "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK(pair.client.end.send(Frame(FrameKind::give_up, 1)) == Sent::yes);
-    CHECK(pair.client.send(100, 2) == Sent::yes);
-    CHECK(pair.server.end.take_in());
-    CHECK(pair.server.numbers == FrameNumbers{1});
-    CHECK(pair.server.why_cut == "it is refused");
-    CHECK(pair.server.why_cut_off == "it is refused");
-    CHECK(pair.server.end.counters().peers_cut_off == 1);
-    CHECK(pair.server.send(100, 3) == Sent::cut);
-    CHECK_FALSE(pair.server.end.take_in());
-    CHECK(EndPair::was_rung(pair.rings_client));
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.why_cut == "the other end of a.out to b.in has gone");
-    CHECK(pair.client.why_cut_off.empty());
-    CHECK(pair.client.end.counters().peers_cut_off == 0);  // that was no fault
-  });
+  CHECK(pair.client.end.send(Frame(FrameKind::give_up, 1)) == Sent::yes);
+  CHECK(pair.client.send(100, 2) == Sent::yes);
+  CHECK(pair.server.end.take_in());
+  CHECK(pair.server.numbers == FrameNumbers{1});
+  CHECK(pair.server.why_cut == "it is refused");
+  CHECK(pair.server.why_cut_off == "it is refused");
+  CHECK(pair.server.end.counters().peers_cut_off == 1);
+  CHECK(pair.server.send(100, 3) == Sent::cut);
+  CHECK_FALSE(pair.server.end.take_in());
+  CHECK(EndPair::was_rung(pair.rings_client));
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.client.why_cut == "the other end of a.out to b.in has gone");
+  CHECK(pair.client.why_cut_off.empty());
+  CHECK(pair.client.end.counters().peers_cut_off == 0);  // that was no fault
 }
 
-TEST_CASE("a frame with bytes left over cuts its sender off", "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    Frame frame = sized_frame(100);
-    frame.add(std::string("more"));
-    CHECK(pair.client.end.send(frame) == Sent::yes);
-    CHECK(pair.server.end.take_in());
-    CHECK(pair.server.end.is_cut());
-  });
+PAIR_CASE("a frame with bytes left over cuts its sender off", "[patterns][shm]") {
+  Frame frame = sized_frame(100);
+  frame.add(std::string("more"));
+  CHECK(pair.client.end.send(frame) == Sent::yes);
+  CHECK(pair.server.end.take_in());
+  CHECK(pair.server.end.is_cut());
 }
 
-TEST_CASE("what was written before its writer went is still read", "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK(pair.client.send(100, 1) == Sent::yes);
-    (void)EndPair::was_rung(pair.rings_server);
-    pair.client.end.stop();
-    CHECK(EndPair::was_rung(pair.rings_server));
-    CHECK(pair.client.end.is_cut());
-    CHECK(pair.server.end.take_in());
-    CHECK(pair.server.numbers == FrameNumbers{1});
-    CHECK(pair.server.why_cut == "the other end of a.out to b.in has gone");
-  });
+PAIR_CASE("what was written before its writer went is still read", "[patterns][shm]") {
+  CHECK(pair.client.send(100, 1) == Sent::yes);
+  (void)EndPair::was_rung(pair.rings_server);
+  pair.client.end.stop();
+  CHECK(EndPair::was_rung(pair.rings_server));
+  CHECK(pair.client.end.is_cut());
+  CHECK(pair.server.end.take_in());
+  CHECK(pair.server.numbers == FrameNumbers{1});
+  CHECK(pair.server.why_cut == "the other end of a.out to b.in has gone");
 }
 
-TEST_CASE("an end whose peer is gone gets another one in fresh memory, and nothing of the old one reaches it",
+PAIR_CASE("an end whose peer is gone gets another one in fresh memory, and nothing of the old one reaches it",
           "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    CHECK(pair.client.send(3000, 1) == Sent::yes);
-    CHECK(pair.client.send(3000, 2) == Sent::yes);  // is kept
-    pair.client.end.cut(fail(Code::unavailable, "it was killed"));
-    CHECK_FALSE(pair.client.end.is_cut());  // until the strand looks
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.end.is_cut());
-    CHECK(pair.client.why_cut == "it was killed");
-    CHECK(pair.client.renewals == 0);
-    const MemoryFile fresh = RingSegment::create("a.out to b.in", 4096).value();
-    WatchedEnd next(pair.server.strand.executive(), Side::server, fresh, pair.rings_client);
-    pair.client.end.renew(map(fresh));
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.renewals == 1);
-    CHECK_FALSE(pair.client.end.is_cut());
-    CHECK(pair.client.send(100, 3) == Sent::yes);
-    CHECK(next.end.take_in());
-    CHECK(next.numbers == FrameNumbers{3});
-    CHECK_FALSE(pair.client.end.take_in());
-  });
+  CHECK(pair.client.send(3000, 1) == Sent::yes);
+  CHECK(pair.client.send(3000, 2) == Sent::yes);  // is kept
+  pair.client.end.cut(fail(Code::unavailable, "it was killed"));
+  CHECK_FALSE(pair.client.end.is_cut());  // until the strand looks
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.client.end.is_cut());
+  CHECK(pair.client.why_cut == "it was killed");
+  CHECK(pair.client.renewals == 0);
+  const MemoryFile fresh = RingSegment::create("a.out to b.in", 4096).value();
+  WatchedEnd next(pair.server.strand.executive(), Side::server, fresh, pair.rings_client);
+  pair.client.end.renew(map(fresh));
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.client.renewals == 1);
+  CHECK_FALSE(pair.client.end.is_cut());
+  CHECK(pair.client.send(100, 3) == Sent::yes);
+  CHECK(next.end.take_in());
+  CHECK(next.numbers == FrameNumbers{3});
+  CHECK_FALSE(pair.client.end.take_in());
 }
 
-TEST_CASE("an end that is renewed without a word before says that its peer was replaced", "[patterns][shm]") {
-  with_pair(4096, [](EndPair& pair) {
-    pair.client.end.renew(map(RingSegment::create("a.out to b.in", 4096).value()));
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.why_cut == "its peer was replaced");
-    pair.client.end.cut(fail(Code::unavailable, "it was killed"));
-    pair.client.end.renew(map(RingSegment::create("a.out to b.in", 4096).value()));
-    CHECK(pair.client.end.take_in());
-    CHECK(pair.client.why_cut == "it was killed");  // the reason that came first
-    CHECK(pair.client.renewals == 2);
-  });
+PAIR_CASE("an end that is renewed without a word before says that its peer was replaced", "[patterns][shm]") {
+  pair.client.end.renew(map(RingSegment::create("a.out to b.in", 4096).value()));
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.client.why_cut == "its peer was replaced");
+  pair.client.end.cut(fail(Code::unavailable, "it was killed"));
+  pair.client.end.renew(map(RingSegment::create("a.out to b.in", 4096).value()));
+  CHECK(pair.client.end.take_in());
+  CHECK(pair.client.why_cut == "it was killed");  // the reason that came first
+  CHECK(pair.client.renewals == 2);
 }
