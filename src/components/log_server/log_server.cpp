@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "heard_lines.hpp"
 #include "log_file.hpp"
 #include "orca/base/distant_log.hpp"
 #include "orca/base/system/wall_time.hpp"

@@ -9,7 +9,6 @@
 
 #include "decide.hpp"
 #include "ear.hpp"
-#include "listened.hpp"
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
