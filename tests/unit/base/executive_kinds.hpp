@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
+#include "case_in.hpp"
 #include "orca/base/executive.hpp"
 
 namespace orca::test {
@@ -35,8 +37,29 @@ inline std::vector<ExecutiveOptions> virtual_kinds() {
   return kinds;
 }
 
+/// Returns the back ends in steady time.
+inline std::vector<ExecutiveOptions> steady_kinds() {
+  std::vector<ExecutiveOptions> kinds = all_kinds();
+  std::erase_if(kinds, [](const ExecutiveOptions& kind) { return kind.clock != ClockKind::steady; });
+  return kinds;
+}
+
 inline std::unique_ptr<Executive> make(const ExecutiveOptions& options) {
   return make_executive(options).value();
 }
 
+/// Runs `body` as the main task of an executive of each kind, one after the other.
+inline void on_each(const std::vector<ExecutiveOptions>& kinds, const std::function<void(Executive&)>& body) {
+  for (const ExecutiveOptions& kind : kinds) {
+    const auto executive = make(kind);
+    executive->run([&] { body(*executive); });
+  }
+}
+inline void on_all(const std::function<void(Executive&)>& body) { on_each(all_kinds(), body); }
+inline void in_steady_time(const std::function<void(Executive&)>& body) { on_each(steady_kinds(), body); }
+inline void in_virtual_time(const std::function<void(Executive&)>& body) { on_each(virtual_kinds(), body); }
+
 }  // namespace orca::test
+
+/// A test case that runs on_all(), in_steady_time() or in_virtual_time(); its body has the `executive`.
+#define EXECUTIVE_CASE(run, title, tags) CASE_IN(run, (Executive & executive), title, tags)

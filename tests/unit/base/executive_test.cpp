@@ -39,29 +39,19 @@ TEST_CASE("free-running threads in virtual time are refused with a hint", "[base
   CHECK(refused.error().message.find("--executor fiber or baton") != std::string::npos);
 }
 
-TEST_CASE("a notification before the wait is remembered, once", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      event->notify();
-      event->notify();
-      CHECK(event->wait_until(executive->now() + 1s));
-      CHECK_FALSE(event->wait_until(executive->now() + 1ms));
-    });
-  }
+EXECUTIVE_CASE(on_all, "a notification before the wait is remembered, once", "[base][executive]") {
+  const auto event = executive.make_event();
+  event->notify();
+  event->notify();
+  CHECK(event->wait_until(executive.now() + 1s));
+  CHECK_FALSE(event->wait_until(executive.now() + 1ms));
 }
 
-TEST_CASE("a wait that is not notified ends at its deadline", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      const TimePoint deadline = executive->now() + 20ms;
-      CHECK_FALSE(event->wait_until(deadline));
-      CHECK(executive->now() >= deadline);
-    });
-  }
+EXECUTIVE_CASE(on_all, "a wait that is not notified ends at its deadline", "[base][executive]") {
+  const auto event = executive.make_event();
+  const TimePoint deadline = executive.now() + 20ms;
+  CHECK_FALSE(event->wait_until(deadline));
+  CHECK(executive.now() >= deadline);
 }
 
 TEST_CASE("a wait in steady time uses no processor", "[base][executive]") {
@@ -105,19 +95,14 @@ TEST_CASE("tasks hand over to each other through events and are joined", "[base]
   }
 }
 
-TEST_CASE("a task may use 1.5 MB of stack, also after it has waited", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      int sum = 0;
-      const auto task = executive->spawn({"deep", 0}, [&] {
-        executive->sleep_until(executive->now() + 1ms);
-        sum = use_stack(1'500'000);
-      });
-      CHECK(task->join_until(kForever));
-      CHECK(sum > 0);
-    });
-  }
+EXECUTIVE_CASE(on_all, "a task may use 1.5 MB of stack, also after it has waited", "[base][executive]") {
+  int sum = 0;
+  const auto task = executive.spawn({"deep", 0}, [&] {
+    executive.sleep_until(executive.now() + 1ms);
+    sum = use_stack(1'500'000);
+  });
+  CHECK(task->join_until(kForever));
+  CHECK(sum > 0);
 }
 
 TEST_CASE("only the threads of its tasks run an executive", "[base][executive]") {
@@ -141,46 +126,36 @@ TEST_CASE("only the threads of its tasks run an executive", "[base][executive]")
   }
 }
 
-TEST_CASE("a thread that the executive does not know may notify", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    if (kind.clock == ClockKind::virtual_time) continue;
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      std::thread stranger([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        event->notify();
-      });
-      CHECK(event->wait_until(executive->now() + 10s));
-      stranger.join();
-    });
-  }
+EXECUTIVE_CASE(in_steady_time, "a thread that the executive does not know may notify", "[base][executive]") {
+  const auto event = executive.make_event();
+  std::thread stranger([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    event->notify();
+  });
+  CHECK(event->wait_until(executive.now() + 10s));
+  stranger.join();
 }
 
-TEST_CASE("virtual time stands still while tasks run and jumps when they all wait", "[base][executive]") {
-  for (const auto& kind : virtual_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      CHECK(to_seconds(executive->now()) == 0.0);
-      std::vector<std::pair<char, double>> seen;
-      const auto sleeper = [&](char name, Duration step) {
-        return [&, name, step] {
-          for (int i = 1; i <= 3; ++i) {
-            executive->sleep_until(TimePoint(step * i));
-            seen.emplace_back(name, to_seconds(executive->now()));
-          }
-        };
-      };
-      const auto a = executive->spawn({"a", 0}, sleeper('a', 2s));
-      const auto b = executive->spawn({"b", 0}, sleeper('b', 3s));
-      CHECK(a->join_until(kForever));
-      CHECK(b->join_until(kForever));
-      // At 6 s both are due: b went to sleep first (at 3 s, a at 4 s), so its timer has the lower sequence.
-      const std::vector<std::pair<char, double>> expected{{'a', 2}, {'b', 3}, {'a', 4},
-                                                          {'b', 6}, {'a', 6}, {'b', 9}};
-      CHECK(seen == expected);
-    });
-  }
+EXECUTIVE_CASE(in_virtual_time, "virtual time stands still while tasks run and jumps when they all wait",
+               "[base][executive]") {
+  CHECK(to_seconds(executive.now()) == 0.0);
+  std::vector<std::pair<char, double>> seen;
+  const auto sleeper = [&](char name, Duration step) {
+    return [&, name, step] {
+      for (int i = 1; i <= 3; ++i) {
+        executive.sleep_until(TimePoint(step * i));
+        seen.emplace_back(name, to_seconds(executive.now()));
+      }
+    };
+  };
+  const auto a = executive.spawn({"a", 0}, sleeper('a', 2s));
+  const auto b = executive.spawn({"b", 0}, sleeper('b', 3s));
+  CHECK(a->join_until(kForever));
+  CHECK(b->join_until(kForever));
+  // At 6 s both are due: b went to sleep first (at 3 s, a at 4 s), so its timer has the lower sequence.
+  const std::vector<std::pair<char, double>> expected{{'a', 2}, {'b', 3}, {'a', 4},
+                                                      {'b', 6}, {'a', 6}, {'b', 9}};
+  CHECK(seen == expected);
 }
 
 TEST_CASE("the task with the highest priority runs first of those ready at the same time",
@@ -198,55 +173,42 @@ TEST_CASE("the task with the highest priority runs first of those ready at the s
   }
 }
 
-TEST_CASE("when nothing can ever happen in virtual time, main's wait ends", "[base][executive]") {
-  for (const auto& kind : virtual_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      CHECK_FALSE(event->wait_until(kForever));
-    });
-  }
+EXECUTIVE_CASE(in_virtual_time, "when nothing can ever happen in virtual time, main's wait ends",
+               "[base][executive]") {
+  const auto event = executive.make_event();
+  CHECK_FALSE(event->wait_until(kForever));
 }
 
-TEST_CASE("an exception can be rethrown after a switch inside its handler", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      std::atomic<int> right{0};
-      const auto thrower = [&](const char* text) {
-        return [&, text] {
-          try {
-            throw std::runtime_error(text);
-          } catch (...) {
-            executive->sleep_until(executive->now() + 1ms);
-            try {
-              throw;
-            } catch (const std::runtime_error& error) {
-              if (error.what() == std::string(text)) ++right;
-            }
-          }
-        };
-      };
-      const auto a = executive->spawn({"a", 0}, thrower("a"));
-      const auto b = executive->spawn({"b", 0}, thrower("b"));
-      a->join_until(kForever);
-      b->join_until(kForever);
-      CHECK(right == 2);
-    });
-  }
+EXECUTIVE_CASE(on_all, "an exception can be rethrown after a switch inside its handler",
+               "[base][executive]") {
+  std::atomic<int> right{0};
+  const auto thrower = [&](const char* text) {
+    return [&, text] {
+      try {
+        throw std::runtime_error(text);
+      } catch (...) {
+        executive.sleep_until(executive.now() + 1ms);
+        try {
+          throw;
+        } catch (const std::runtime_error& error) {
+          if (error.what() == std::string(text)) ++right;
+        }
+      }
+    };
+  };
+  const auto a = executive.spawn({"a", 0}, thrower("a"));
+  const auto b = executive.spawn({"b", 0}, thrower("b"));
+  a->join_until(kForever);
+  b->join_until(kForever);
+  CHECK(right == 2);
 }
 
-TEST_CASE("a task has stack enough for std::regex on a long text", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      bool matched = false;
-      const auto task = executive->spawn(
-          {"regex", 0}, [&] { matched = std::regex_match(std::string(1000, 'a'), std::regex("(a|b)*")); });
-      task->join_until(kForever);
-      CHECK(matched);
-    });
-  }
+EXECUTIVE_CASE(on_all, "a task has stack enough for std::regex on a long text", "[base][executive]") {
+  bool matched = false;
+  const auto task = executive.spawn(
+      {"regex", 0}, [&] { matched = std::regex_match(std::string(1000, 'a'), std::regex("(a|b)*")); });
+  task->join_until(kForever);
+  CHECK(matched);
 }
 
 namespace {
@@ -363,26 +325,21 @@ TEST_CASE("tasks of the same priority that are ready at the same time keep their
   }
 }
 
-TEST_CASE("an event that unknown threads notify without pause loses no notification", "[base][executive]") {
-  for (const auto& kind : all_kinds()) {
-    if (kind.clock == ClockKind::virtual_time) continue;
-    const auto executive = make(kind);
-    executive->run([&] {
-      constexpr int kCount = 2000;
-      const auto event = executive->make_event();
-      std::atomic<int> made{0};
-      std::thread stranger([&] {
-        while (made < kCount) {
-          ++made;
-          event->notify();
-        }
-      });
-      int seen = 0;
-      while (seen < kCount && event->wait_until(executive->now() + 10s)) seen = made;
-      CHECK(seen == kCount);
-      stranger.join();
-    });
-  }
+EXECUTIVE_CASE(in_steady_time, "an event that unknown threads notify without pause loses no notification",
+               "[base][executive]") {
+  constexpr int kCount = 2000;
+  const auto event = executive.make_event();
+  std::atomic<int> made{0};
+  std::thread stranger([&] {
+    while (made < kCount) {
+      ++made;
+      event->notify();
+    }
+  });
+  int seen = 0;
+  while (seen < kCount && event->wait_until(executive.now() + 10s)) seen = made;
+  CHECK(seen == kCount);
+  stranger.join();
 }
 
 TEST_CASE("whether tasks can overlap depends on the back end", "[base][executive]") {
@@ -390,32 +347,27 @@ TEST_CASE("whether tasks can overlap depends on the back end", "[base][executive
     CHECK(make(kind)->tasks_overlap() == (kind.backend == Backend::thread));
 }
 
-TEST_CASE("a strand's wait sees a condition, a deadline or an interruption", "[base][strand]") {
-  for (const auto& kind : all_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      Strand strand(*executive, {"strand", 0});
-      std::atomic<int> step{0};
-      bool interrupted = false;
-      std::atomic<bool> leave{false};
-      strand.set_leave_condition([&] { return leave.load(); });
-      strand.start([&] {
-        CHECK(strand.wait_for(kForever, [&] { return step == 1; }));
-        CHECK_FALSE(strand.wait_for(executive->now() + 5ms, [] { return false; }));
-        step = 2;
-        try {
-          strand.wait_for(kForever, [] { return false; });
-        } catch (const Interrupted&) {
-          interrupted = true;
-        }
-      });
-      step = 1;
-      strand.wake();
-      while (step != 2) executive->sleep_until(executive->now() + 1ms);
-      leave = true;
-      strand.wake();
-      CHECK(strand.join_until(kForever));
-      CHECK(interrupted);
-    });
-  }
+EXECUTIVE_CASE(on_all, "a strand's wait sees a condition, a deadline or an interruption", "[base][strand]") {
+  Strand strand(executive, {"strand", 0});
+  std::atomic<int> step{0};
+  bool interrupted = false;
+  std::atomic<bool> leave{false};
+  strand.set_leave_condition([&] { return leave.load(); });
+  strand.start([&] {
+    CHECK(strand.wait_for(kForever, [&] { return step == 1; }));
+    CHECK_FALSE(strand.wait_for(executive.now() + 5ms, [] { return false; }));
+    step = 2;
+    try {
+      strand.wait_for(kForever, [] { return false; });
+    } catch (const Interrupted&) {
+      interrupted = true;
+    }
+  });
+  step = 1;
+  strand.wake();
+  while (step != 2) executive.sleep_until(executive.now() + 1ms);
+  leave = true;
+  strand.wake();
+  CHECK(strand.join_until(kForever));
+  CHECK(interrupted);
 }

@@ -39,38 +39,33 @@ TEST_CASE("tasks that wake each other at one instant for ever end main's wait, a
   }
 }
 
-TEST_CASE("a burst at one instant is no standstill", "[base][executive][standstill]") {
+EXECUTIVE_CASE(in_virtual_time, "a burst at one instant is no standstill", "[base][executive][standstill]") {
   constexpr std::size_t kSenders = 300, kRounds = 30;
-  for (const auto& kind : virtual_kinds()) {
-    const auto executive = make(kind);
-    executive->run([&] {
-      const auto event = executive->make_event();
-      std::vector<Event*> waiting;
-      std::size_t turns = 0;
-      std::size_t ended = 0;
-      const auto receiver = executive->spawn({"receiver", 1}, [&] {
-        for (; ended < kSenders; ++turns) {
-          event->wait_until(kForever);
-          for (Event* sender : std::exchange(waiting, {})) sender->notify();
-        }
-      });
-      std::vector<std::unique_ptr<Task>> senders;
-      for (std::size_t i = 0; i < kSenders; ++i)
-        senders.push_back(executive->spawn({"sender", 0}, [&] {
-          const auto answered = executive->make_event();
-          for (std::size_t round = 0; round < kRounds; ++round) {
-            waiting.push_back(answered.get());
-            event->notify();
-            answered->wait_until(kForever);
-          }
-          ++ended;
-          event->notify();
-        }));
-      const TimePoint before = executive->now();
-      CHECK_FALSE(executive->make_event()->wait_until(before + 1s));
-      CHECK(executive->now() == before + 1s);
-      CHECK(turns >= kSenders * kRounds);
-      CHECK(executive->restless_tasks().empty());
-    });
-  }
+  const auto event = executive.make_event();
+  std::vector<Event*> waiting;
+  std::size_t turns = 0;
+  std::size_t ended = 0;
+  const auto receiver = executive.spawn({"receiver", 1}, [&] {
+    for (; ended < kSenders; ++turns) {
+      event->wait_until(kForever);
+      for (Event* sender : std::exchange(waiting, {})) sender->notify();
+    }
+  });
+  std::vector<std::unique_ptr<Task>> senders;
+  for (std::size_t i = 0; i < kSenders; ++i)
+    senders.push_back(executive.spawn({"sender", 0}, [&] {
+      const auto answered = executive.make_event();
+      for (std::size_t round = 0; round < kRounds; ++round) {
+        waiting.push_back(answered.get());
+        event->notify();
+        answered->wait_until(kForever);
+      }
+      ++ended;
+      event->notify();
+    }));
+  const TimePoint before = executive.now();
+  CHECK_FALSE(executive.make_event()->wait_until(before + 1s));
+  CHECK(executive.now() == before + 1s);
+  CHECK(turns >= kSenders * kRounds);
+  CHECK(executive.restless_tasks().empty());
 }

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "case_in.hpp"
 #include "orca/base/strand.hpp"
 
 using namespace orca;
@@ -24,54 +25,48 @@ void with_strand(const std::function<void(Executive&, Strand&)>& body) {
 
 }  // namespace
 
-TEST_CASE("a watch is called when a wait begins and whenever it asked to be, until the deadline",
-          "[base][strand]") {
-  with_strand([](Executive& executive, Strand& strand) {
-    std::vector<TimePoint> looks;
-    strand.set_watch([&] {
-      looks.push_back(executive.now());
-      return executive.now() + 30ms;
-    });
-    strand.pause_until(at(100ms));
-    CHECK(executive.now() == at(100ms));
-    CHECK(looks == std::vector{at(0ms), at(30ms), at(60ms), at(90ms)});
-    looks.clear();
-    CHECK_FALSE(strand.wait_for(at(140ms), [] { return false; }));
-    CHECK(executive.now() == at(140ms));
-    CHECK(looks == std::vector{at(100ms), at(130ms)});
+#define STRAND_CASE(title, tags) CASE_IN(with_strand, (Executive & executive, Strand & strand), title, tags)
+
+STRAND_CASE("a watch is called when a wait begins and whenever it asked to be, until the deadline",
+            "[base][strand]") {
+  std::vector<TimePoint> looks;
+  strand.set_watch([&] {
+    looks.push_back(executive.now());
+    return executive.now() + 30ms;
   });
+  strand.pause_until(at(100ms));
+  CHECK(executive.now() == at(100ms));
+  CHECK(looks == std::vector{at(0ms), at(30ms), at(60ms), at(90ms)});
+  looks.clear();
+  CHECK_FALSE(strand.wait_for(at(140ms), [] { return false; }));
+  CHECK(executive.now() == at(140ms));
+  CHECK(looks == std::vector{at(100ms), at(130ms)});
 }
 
-TEST_CASE("a watch that is called makes no wait look at its condition", "[base][strand]") {
-  with_strand([](Executive& executive, Strand& strand) {
-    strand.set_watch([&] { return executive.now() + 10ms; });
-    int conditions = 0;
-    int leave_conditions = 0;
-    strand.set_leave_condition([&] { return ++leave_conditions > 100; });
-    CHECK_FALSE(strand.wait_for(at(100ms), [&] { return ++conditions > 100; }));
-    CHECK(conditions == 2);  // at the beginning and at the deadline
-    CHECK(leave_conditions == 1);
-  });
+STRAND_CASE("a watch that is called makes no wait look at its condition", "[base][strand]") {
+  strand.set_watch([&] { return executive.now() + 10ms; });
+  int conditions = 0;
+  int leave_conditions = 0;
+  strand.set_leave_condition([&] { return ++leave_conditions > 100; });
+  CHECK_FALSE(strand.wait_for(at(100ms), [&] { return ++conditions > 100; }));
+  CHECK(conditions == 2);  // at the beginning and at the deadline
+  CHECK(leave_conditions == 1);
 }
 
-TEST_CASE("a strand with a watch is woken as one without", "[base][strand]") {
-  with_strand([](Executive& executive, Strand& strand) {
-    strand.set_watch([&] { return executive.now() + 10ms; });
-    const auto waker = executive.spawn({"waker", 0}, [&] {
-      executive.sleep_until(at(25ms));
-      strand.wake();
-    });
-    strand.pause_until(kForever);
-    CHECK(executive.now() == at(25ms));
+STRAND_CASE("a strand with a watch is woken as one without", "[base][strand]") {
+  strand.set_watch([&] { return executive.now() + 10ms; });
+  const auto waker = executive.spawn({"waker", 0}, [&] {
+    executive.sleep_until(at(25ms));
+    strand.wake();
   });
+  strand.pause_until(kForever);
+  CHECK(executive.now() == at(25ms));
 }
 
-TEST_CASE("a watch with nothing to see does not keep virtual time going", "[base][strand]") {
-  with_strand([](Executive& executive, Strand& strand) {
-    strand.set_watch([&] { return executive.now() < at(50ms) ? at(50ms) : kForever; });
-    strand.pause_until(kForever);  // ends, because no task can ever run again
-    CHECK(executive.now() == at(50ms));
-  });
+STRAND_CASE("a watch with nothing to see does not keep virtual time going", "[base][strand]") {
+  strand.set_watch([&] { return executive.now() < at(50ms) ? at(50ms) : kForever; });
+  strand.pause_until(kForever);  // ends, because no task can ever run again
+  CHECK(executive.now() == at(50ms));
 }
 
 TEST_CASE("a strand counts its acts that cannot be repeated, from none", "[base][strand]") {
