@@ -11,38 +11,20 @@
 #include <memory>
 #include <span>
 
+#include "all_ports.hpp"
 #include "orca/base/log.hpp"
-#include "orca/idl/motion.hpp"
-#include "orca/idl/system.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
-#include "peer.hpp"
 
 namespace {
 
 using namespace orca;
-using idl::MotionCommand;
+using test::AllPorts;
+using test::port;
 using Input = std::span<const std::uint8_t>;
 
 constexpr std::size_t kCapacity = 4096;  // [bytes]
 
-struct Node : test::Peer {
-  explicit Node(Executive& executive) : Peer(executive, "node") {}
-  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
-  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
-  PushServer<MotionCommand> out{*this, "out"};
-  PushProxy<MotionCommand> in{*this, "in"};
-  SendProxy<MotionCommand> sender{*this, "sender"};
-  SendServer<MotionCommand> taker{*this, "taker", &Node::on_command};
-  QueryProxy<idl::Ask, MotionCommand> question{*this, "question"};
-  QueryServer<idl::Ask, MotionCommand> answerer{*this, "answerer", &Node::on_ask};
-};
-
-template <class Port>
-Port& port(Node& node, const std::string& name) {
-  return static_cast<Port&>(node.endpoint(name));
-}
-
-ShmEnd& make_end(Node& node, std::uint8_t choice, RingSegment segment, const ShmPeer& peer) {
+ShmEnd& make_end(AllPorts& node, std::uint8_t choice, RingSegment segment, const ShmPeer& peer) {
   switch (choice % 6) {
     case 0: return make_shm_end(port<PushServerEndpoint>(node, "out"), std::move(segment), peer, {});
     case 1:
@@ -56,7 +38,7 @@ ShmEnd& make_end(Node& node, std::uint8_t choice, RingSegment segment, const Shm
 }
 
 // Lets the component do whatever may make it write, or look at what it has received.
-void act(Node& node) {
+void act(AllPorts& node) {
   node.out.push(full_stop());
   if (node.in.connected()) (void)node.in.get_update_wait_max(Duration{0});
   if (const auto id = node.sender.send_request(full_stop())) (void)node.sender.send_receive(*id);
@@ -80,7 +62,7 @@ void run(Executive& executive, Input input) {
   const RingSegment theirs = RingSegment::map(file.descriptor()).value();
   DoorbellWord own{0};
   DoorbellWord others{0};
-  Node node(executive);
+  AllPorts node(executive, "node");
   node.strand().set_doorbell(own);
   ShmEnd& end = make_end(node, input[0], RingSegment::map(file.descriptor()).value(), {"peer.port", &others});
   node.open();

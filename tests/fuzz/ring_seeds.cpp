@@ -5,31 +5,18 @@
 #include <optional>
 #include <string>
 
-#include "orca/idl/motion.hpp"
-#include "orca/idl/system.hpp"
+#include "all_ports.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
-#include "peer.hpp"
 
 namespace {
 
 using namespace orca;
-using idl::MotionCommand;
-
-struct Node : test::Peer {
-  explicit Node(Executive& executive) : Peer(executive, "peer") {}
-  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
-  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
-  PushServer<MotionCommand> out{*this, "out"};
-  PushProxy<MotionCommand> in{*this, "in"};
-  SendProxy<MotionCommand> sender{*this, "sender"};
-  SendServer<MotionCommand> taker{*this, "taker", &Node::on_command};
-  QueryProxy<idl::Ask, MotionCommand> question{*this, "question"};
-  QueryServer<idl::Ask, MotionCommand> answerer{*this, "answerer", &Node::on_ask};
-};
+using test::AllPorts;
+using test::port;
 
 // One edge, with both ends here.
 struct Edge {
-  explicit Edge(Executive& executive) : client(executive), server(executive) {
+  explicit Edge(Executive& executive) : client(executive, "peer"), server(executive, "peer") {
     client.strand().set_doorbell(bells[0]);
     server.strand().set_doorbell(bells[1]);
     server.open();
@@ -37,10 +24,6 @@ struct Edge {
   RingSegment map() const { return RingSegment::map(file.descriptor()).value(); }
   ShmPeer to_client() { return {"client.port", &bells[0]}; }
   ShmPeer to_server() { return {"server.port", &bells[1]}; }
-  template <class Port>
-  static Port& port(Node& node, const std::string& name) {
-    return static_cast<Port&>(node.endpoint(name));
-  }
 
   void push() {
     make_shm_end(port<PushServerEndpoint>(server, "out"), map(), to_client(), {});
@@ -65,8 +48,8 @@ struct Edge {
 
   MemoryFile file = RingSegment::create("seed", 4096).value();
   DoorbellWord bells[2] = {};
-  Node client;
-  Node server;
+  AllPorts client;
+  AllPorts server;
 };
 
 void write_piece(std::ofstream& out, std::span<const std::byte> segment, std::size_t at, std::size_t count) {

@@ -3,16 +3,13 @@
 
 #include <vector>
 
+#include "all_ports.hpp"
 #include "executives.hpp"
-#include "orca/idl/motion.hpp"
-#include "orca/idl/system.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/local/local_links.hpp"
-#include "peer.hpp"
 
 using namespace orca;
 using namespace orca::test;
-using idl::MotionCommand;
 
 namespace {
 
@@ -36,23 +33,14 @@ Numbers numbers_of(const RequestCounters& counters) {
   return {sent, answered, failed, timed_out};
 }
 
-struct Ends : Peer {
-  explicit Ends(Executive& executive, const std::string& name) : Peer(executive, name) {}
+struct Ends : AllPorts {
+  using AllPorts::AllPorts;
   [[nodiscard]] IntakeCounters sent_here() const {
-    return static_cast<const SendServerEndpoint&>(endpoint("send_in")).counters();
+    return port<SendServerEndpoint>(*this, "taker").counters();
   }
   [[nodiscard]] IntakeCounters asked_here() const {
-    return static_cast<const QueryServerEndpoint&>(endpoint("answers")).counters();
+    return port<QueryServerEndpoint>(*this, "answerer").counters();
   }
-  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
-  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
-
-  PushServer<MotionCommand> push_out{*this, "push_out"};
-  PushProxy<MotionCommand> push_in{*this, "push_in"};
-  SendServer<MotionCommand> send_in{*this, "send_in", &Ends::on_command};
-  SendProxy<MotionCommand> send_out{*this, "send_out"};
-  QueryServer<idl::Ask, MotionCommand> answers{*this, "answers", &Ends::on_ask};
-  QueryProxy<idl::Ask, MotionCommand> asks{*this, "asks"};
 };
 
 }  // namespace
@@ -62,25 +50,25 @@ TEST_CASE("all counters of connected ports are 0 until something is sent", "[pat
     Ends a(executive, "a");
     Ends b(executive, "b");
     LocalLinks links;
-    REQUIRE(links.connect(a.endpoint("push_out"), b.endpoint("push_in")).ok());
-    REQUIRE(links.connect(a.endpoint("send_out"), b.endpoint("send_in")).ok());
-    REQUIRE(links.connect(a.endpoint("asks"), b.endpoint("answers")).ok());
-    b.push_in.subscribe();
+    REQUIRE(links.connect(a.endpoint("out"), b.endpoint("in")).ok());
+    REQUIRE(links.connect(a.endpoint("sender"), b.endpoint("taker")).ok());
+    REQUIRE(links.connect(a.endpoint("question"), b.endpoint("answerer")).ok());
+    b.in.subscribe();
     b.open();
-    CHECK(numbers_of(b.push_in.counters()) == Numbers(13, 0));
+    CHECK(numbers_of(b.in.counters()) == Numbers(13, 0));
     CHECK(numbers_of(b.sent_here()) == Numbers(9, 0));
     CHECK(numbers_of(b.asked_here()) == Numbers(9, 0));
-    CHECK(numbers_of(a.send_out.counters()) == Numbers(4, 0));
-    CHECK(numbers_of(a.asks.counters()) == Numbers(4, 0));
+    CHECK(numbers_of(a.sender.counters()) == Numbers(4, 0));
+    CHECK(numbers_of(a.question.counters()) == Numbers(4, 0));
   });
 }
 
 TEST_CASE("all counters of a proxy that is not connected are 0", "[patterns][counters]") {
   run_on({}, [](Executive& executive) {
     const Ends a(executive, "a");
-    CHECK(numbers_of(a.push_in.counters()) == Numbers(13, 0));
-    CHECK(numbers_of(a.send_out.counters()) == Numbers(4, 0));
-    CHECK(numbers_of(a.asks.counters()) == Numbers(4, 0));
+    CHECK(numbers_of(a.in.counters()) == Numbers(13, 0));
+    CHECK(numbers_of(a.sender.counters()) == Numbers(4, 0));
+    CHECK(numbers_of(a.question.counters()) == Numbers(4, 0));
   });
 }
 
@@ -90,16 +78,16 @@ TEST_CASE("an object that is delivered, sent or answered is counted once, and no
     Ends a(executive, "a");
     Ends b(executive, "b");
     LocalLinks links;
-    REQUIRE(links.connect(a.endpoint("push_out"), b.endpoint("push_in")).ok());
-    REQUIRE(links.connect(a.endpoint("send_out"), b.endpoint("send_in")).ok());
-    b.push_in.subscribe();
+    REQUIRE(links.connect(a.endpoint("out"), b.endpoint("in")).ok());
+    REQUIRE(links.connect(a.endpoint("sender"), b.endpoint("taker")).ok());
+    b.in.subscribe();
     b.open();
-    a.push_out.push(full_stop());
-    REQUIRE(a.send_out.send(full_stop()).ok());
-    const EdgeCounters edge = b.push_in.counters();
+    a.out.push(full_stop());
+    REQUIRE(a.sender.send(full_stop()).ok());
+    const EdgeCounters edge = b.in.counters();
     CHECK(numbers_of(edge) == Numbers{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1});
     CHECK(numbers_of(b.sent_here()) == Numbers{1, 0, 0, 0, 0, 0, 0, 1, 1});
-    CHECK(numbers_of(a.send_out.counters()) == Numbers{1, 1, 0, 0});
+    CHECK(numbers_of(a.sender.counters()) == Numbers{1, 1, 0, 0});
   });
 }
 

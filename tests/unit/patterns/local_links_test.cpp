@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
+#include "all_ports.hpp"
 #include "case_in.hpp"
 #include "executives.hpp"
-#include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
-#include "orca/idl/system.hpp"
 #include "orca/patterns/local/local_links.hpp"
-#include "peer.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -16,19 +14,10 @@ using idl::MotionCommand;
 
 namespace {
 
-struct Ends : Peer {
-  explicit Ends(Executive& executive, const std::string& name) : Peer(executive, name) {}
-  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
-  Result<Loan<MotionCommand>> on_ask(const ObjectPtr<idl::Ask>&) { return full_stop(); }
-
-  PushServer<MotionCommand> push_out{*this, "push_out"};
-  PushProxy<MotionCommand> push_in{*this, "push_in"};
+struct Ends : AllPorts {
+  using AllPorts::AllPorts;
   PushProxy<idl::Odometry> odometry{*this, "odometry"};
   PushProxyArray<MotionCommand> many{*this, "many"};
-  SendServer<MotionCommand> send_in{*this, "send_in", &Ends::on_command};
-  SendProxy<MotionCommand> send_out{*this, "send_out"};
-  QueryServer<idl::Ask, MotionCommand> answers{*this, "answers", &Ends::on_ask};
-  QueryProxy<idl::Ask, MotionCommand> asks{*this, "asks"};
   QueryProxy<idl::Ask, idl::Odometry> asks_odometry{*this, "asks_odometry"};
 };
 
@@ -51,67 +40,67 @@ Status connect(const Peer& a, const std::string& from, const Peer& b, const std:
 
 ENDS_CASE("ends of one pattern and one type are connected from the side that starts the flow",
           "[patterns][local]") {
-  CHECK(connect(a, "push_out", b, "push_in").ok());
-  CHECK(connect(a, "send_out", b, "send_in").ok());
-  CHECK(connect(a, "asks", b, "answers").ok());
-  CHECK(b.push_in.connected());
-  CHECK(a.send_out.connected());
-  CHECK(a.asks.connected());
+  CHECK(connect(a, "out", b, "in").ok());
+  CHECK(connect(a, "sender", b, "taker").ok());
+  CHECK(connect(a, "question", b, "answerer").ok());
+  CHECK(b.in.connected());
+  CHECK(a.sender.connected());
+  CHECK(a.question.connected());
 }
 
 ENDS_CASE("ends of different type, pattern or side are refused, and both are described",
           "[patterns][local]") {
-  const Status wrong_type = connect(a, "push_out", b, "odometry");
+  const Status wrong_type = connect(a, "out", b, "odometry");
   REQUIRE_FALSE(wrong_type.ok());
   CHECK(wrong_type.error().code == Code::invalid_argument);
-  CHECK_THAT(wrong_type.error().text(), Contains("a.push_out (PushServer of MotionCommand)") &&
+  CHECK_THAT(wrong_type.error().text(), Contains("a.out (PushServer of MotionCommand)") &&
                                             Contains("b.odometry (PushProxy of Odometry)"));
-  CHECK_FALSE(connect(b, "push_in", a, "push_out").ok());
-  CHECK_FALSE(connect(a, "push_out", b, "push_out").ok());
-  CHECK_FALSE(connect(a, "push_out", b, "send_in").ok());
-  CHECK_FALSE(connect(a, "send_out", b, "send_out").ok());
-  CHECK_FALSE(connect(a, "answers", b, "asks").ok());
-  CHECK_FALSE(connect(a, "asks_odometry", b, "answers").ok());
-  CHECK_FALSE(b.push_in.connected());
+  CHECK_FALSE(connect(b, "in", a, "out").ok());
+  CHECK_FALSE(connect(a, "out", b, "out").ok());
+  CHECK_FALSE(connect(a, "out", b, "taker").ok());
+  CHECK_FALSE(connect(a, "sender", b, "sender").ok());
+  CHECK_FALSE(connect(a, "answerer", b, "question").ok());
+  CHECK_FALSE(connect(a, "asks_odometry", b, "answerer").ok());
+  CHECK_FALSE(b.in.connected());
 }
 
 ENDS_CASE("within a process a server refuses a question at once", "[patterns][local]") {
-  REQUIRE(connect(a, "asks", b, "answers").ok());
-  const Result<QueryId> refused = a.asks.query_request(a.asks.loan());
+  REQUIRE(connect(a, "question", b, "answerer").ok());
+  const Result<QueryId> refused = a.question.query_request(a.question.loan());
   REQUIRE_FALSE(refused.has_value());
   CHECK(refused.error().code == Code::unavailable);
-  CHECK_THAT(refused.error().text(), Contains("b.answers") && Contains("has not been started yet"));
-  CHECK(a.asks.counters().sent == 1);
-  CHECK(a.asks.counters().failed == 1);
+  CHECK_THAT(refused.error().text(), Contains("b.answerer") && Contains("has not been started yet"));
+  CHECK(a.question.counters().sent == 1);
+  CHECK(a.question.counters().failed == 1);
 }
 
 ENDS_CASE("a proxy that is connected already is not connected again, but a port array takes any number",
           "[patterns][local]") {
   for (const auto& [from, to] :
-       {std::pair{"push_out", "push_in"}, std::pair{"send_out", "send_in"}, std::pair{"asks", "answers"}}) {
+       {std::pair{"out", "in"}, std::pair{"sender", "taker"}, std::pair{"question", "answerer"}}) {
     REQUIRE(connect(a, from, b, to).ok());
     const Status again = connect(a, from, b, to);
     REQUIRE_FALSE(again.ok());
     CHECK(again.error().code == Code::already_exists);
   }
-  REQUIRE(connect(a, "push_out", b, "many").ok());
-  REQUIRE(connect(b, "push_out", b, "many").ok());
+  REQUIRE(connect(a, "out", b, "many").ok());
+  REQUIRE(connect(b, "out", b, "many").ok());
   CHECK(b.many.sources().size() == 2);
 }
 
 ENDS_CASE("the edges of a port array are told apart by their sources and subscribed one by one",
           "[patterns][local]") {
-  REQUIRE(connect(a, "push_out", b, "many").ok());
-  REQUIRE(connect(b, "push_out", b, "many").ok());
+  REQUIRE(connect(a, "out", b, "many").ok());
+  REQUIRE(connect(b, "out", b, "many").ok());
   const auto from_a = b.many.sources()[0];
   const auto from_b = b.many.sources()[1];
-  CHECK(from_a.path() == "a.push_out");
-  CHECK(from_b.path() == "b.push_out");
+  CHECK(from_a.path() == "a.out");
+  CHECK(from_b.path() == "b.out");
   CHECK_FALSE(from_a == from_b);
   from_a.subscribe();
-  a.push_out.push(head(0.0, 1.0));
-  a.push_out.push(head(0.0, 2.0));
-  b.push_out.push(head(0.0, 3.0));
+  a.out.push(head(0.0, 1.0));
+  a.out.push(head(0.0, 2.0));
+  b.out.push(head(0.0, 3.0));
   CHECK(from_a.latest()->speed() == 2.0);
   CHECK(from_a.new_data_arrived());
   const auto newest = from_a.take_latest();
@@ -120,22 +109,22 @@ ENDS_CASE("the edges of a port array are told apart by their sources and subscri
   CHECK_FALSE(from_a.new_data_arrived());
   CHECK(from_b.take_latest() == nullptr);
   b.many.unsubscribe_all();
-  CHECK(a.push_out.subscriber_count() == 0);
+  CHECK(a.out.subscriber_count() == 0);
 }
 
 ENDS_CASE("what each source of a port array has brought is counted by itself", "[patterns][local]") {
-  REQUIRE(connect(a, "push_out", b, "many").ok());
-  REQUIRE(connect(b, "push_out", b, "many").ok());
+  REQUIRE(connect(a, "out", b, "many").ok());
+  REQUIRE(connect(b, "out", b, "many").ok());
   for (const auto& source : b.many.sources()) source.subscribe();
-  a.push_out.push(head(0.0, 1.0));
-  a.push_out.push(head(0.0, 2.0));
-  b.push_out.push(head(0.0, 3.0));
+  a.out.push(head(0.0, 1.0));
+  a.out.push(head(0.0, 2.0));
+  b.out.push(head(0.0, 3.0));
   const auto& many = static_cast<const PushClientEndpoint&>(b.endpoint("many"));
-  REQUIRE(many.counters_from("a.push_out"));
-  REQUIRE(many.counters_from("b.push_out"));
-  CHECK(many.counters_from("a.push_out")->delivered == 2);
-  CHECK(many.counters_from("b.push_out")->delivered == 1);
-  CHECK_FALSE(many.counters_from("c.push_out"));
+  REQUIRE(many.counters_from("a.out"));
+  REQUIRE(many.counters_from("b.out"));
+  CHECK(many.counters_from("a.out")->delivered == 2);
+  CHECK(many.counters_from("b.out")->delivered == 1);
+  CHECK_FALSE(many.counters_from("c.out"));
 }
 
 TEST_CASE("no edge can make a device wait", "[patterns][local]") {
@@ -146,12 +135,12 @@ TEST_CASE("no edge can make a device wait", "[patterns][local]") {
     };
     Driver driver(executive, "driver");
     Ends b(executive, "b");
-    const Status refused = LocalLinks().connect(driver.endpoint("out"), b.endpoint("push_in"),
+    const Status refused = LocalLinks().connect(driver.endpoint("out"), b.endpoint("in"),
                                                 {.depth = 2, .overflow = QueuePolicy::Overflow::block});
     REQUIRE_FALSE(refused.ok());
     CHECK(refused.error().code == Code::invalid_argument);
     CHECK_THAT(refused.error().text(), Contains("driver.out") && Contains("a device"));
-    CHECK(connect(driver, "out", b, "push_in").ok());
+    CHECK(connect(driver, "out", b, "in").ok());
   });
 }
 
@@ -163,7 +152,7 @@ TEST_CASE("without a policy an edge has the policy of the receiving port's autho
     };
     Ends a(executive, "a");
     In in(executive, "b");
-    REQUIRE(LocalLinks().connect(a.endpoint("push_out"), in.endpoint("in")).ok());
+    REQUIRE(LocalLinks().connect(a.endpoint("out"), in.endpoint("in")).ok());
     CHECK(in.edges("in").front()->policy().depth == 5);
   });
 }
@@ -171,9 +160,8 @@ TEST_CASE("without a policy an edge has the policy of the receiving port's autho
 TEST_CASE("an edge has a deadline as soon as it is longer than nothing", "[patterns][local]") {
   for (const Duration deadline : {0ns, 1ns}) {
     with_ends([&](Ends& a, Ends& b) {
-      REQUIRE(
-          LocalLinks().connect(a.endpoint("push_out"), b.endpoint("push_in"), {.deadline = deadline}).ok());
-      CHECK(static_cast<PushClientEndpoint&>(b.endpoint("push_in")).has_deadline() == (deadline > 0ns));
+      REQUIRE(LocalLinks().connect(a.endpoint("out"), b.endpoint("in"), {.deadline = deadline}).ok());
+      CHECK(port<PushClientEndpoint>(b, "in").has_deadline() == (deadline > 0ns));
     });
   }
 }
@@ -232,13 +220,12 @@ Status renew(const Peer& a, const std::string& from, const Peer& b, const std::s
 }
 
 void push_speeds(Ends& ends, int first, int last) {
-  for (int speed = first; speed <= last; ++speed) ends.push_out.push(head(0.0, speed));
+  for (int speed = first; speed <= last; ++speed) ends.out.push(head(0.0, speed));
 }
 
 std::vector<int> take_speeds(Ends& ends) {
   std::vector<int> speeds;
-  while (ends.push_in.new_data_arrived())
-    speeds.push_back(static_cast<int>(ends.push_in.get_update()->speed()));
+  while (ends.in.new_data_arrived()) speeds.push_back(static_cast<int>(ends.in.get_update()->speed()));
   return speeds;
 }
 
@@ -246,26 +233,26 @@ std::vector<int> take_speeds(Ends& ends) {
 
 ENDS_CASE("a connection that is renewed with a smaller queue keeps the newest objects",
           "[patterns][local][renew]") {
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
-  b.push_in.subscribe();
+  REQUIRE(renew(a, "out", b, "in", deep(4)).ok());
+  b.in.subscribe();
   push_speeds(a, 1, 4);
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(2)).ok());
-  CHECK(a.push_out.subscriber_count() == 1);
-  CHECK(b.push_in.counters().dropped_oldest == 2);
+  REQUIRE(renew(a, "out", b, "in", deep(2)).ok());
+  CHECK(a.out.subscriber_count() == 1);
+  CHECK(b.in.counters().dropped_oldest == 2);
   CHECK(take_speeds(b) == std::vector<int>{3, 4});
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(3)).ok());
+  REQUIRE(renew(a, "out", b, "in", deep(3)).ok());
   push_speeds(a, 5, 8);
   CHECK(take_speeds(b) == std::vector<int>{6, 7, 8});
 }
 
 ENDS_CASE("a connection that is renewed with an interval gets the new rate", "[patterns][local][renew]") {
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
-  b.push_in.subscribe();
-  a.push_out.start(10ms);
+  REQUIRE(renew(a, "out", b, "in", deep(1)).ok());
+  b.in.subscribe();
+  a.out.start(10ms);
   QueuePolicy slower = deep(1);
   slower.min_interval = 30ms;
-  REQUIRE(renew(a, "push_out", b, "push_in", slower).ok());
-  CHECK(b.push_in.granted().multiple == 3);
+  REQUIRE(renew(a, "out", b, "in", slower).ok());
+  CHECK(b.in.granted().multiple == 3);
 }
 
 TEST_CASE("deadlines that were missed stay counted when the connection gets another one, or none",
@@ -273,72 +260,72 @@ TEST_CASE("deadlines that were missed stay counted when the connection gets anot
   run_on(virtual_executives().front(), [](Executive& executive) {
     Ends a(executive, "a");
     Ends b(executive, "b");
-    const auto missed = [&] { return b.push_in.counters().missed_deadlines; };
-    REQUIRE(renew(a, "push_out", b, "push_in", {.deadline = 10ms}).ok());
-    b.push_in.subscribe();
+    const auto missed = [&] { return b.in.counters().missed_deadlines; };
+    REQUIRE(renew(a, "out", b, "in", {.deadline = 10ms}).ok());
+    b.in.subscribe();
     sleep(executive, 55ms);
     CHECK(missed() == 5);
-    REQUIRE(renew(a, "push_out", b, "push_in", {.deadline = 20ms}).ok());
+    REQUIRE(renew(a, "out", b, "in", {.deadline = 20ms}).ok());
     CHECK(missed() == 5);
     sleep(executive, 45ms);
     CHECK(missed() == 7);
-    REQUIRE(renew(a, "push_out", b, "push_in", {}).ok());
+    REQUIRE(renew(a, "out", b, "in", {}).ok());
     CHECK(missed() == 7);
     sleep(executive, 1s);
     CHECK(missed() == 7);
-    b.push_in.unsubscribe();
+    b.in.unsubscribe();
     CHECK(missed() == 7);
   });
 }
 
 ENDS_CASE("a connection in place of another one keeps what waits", "[patterns][local][renew]") {
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());
-  b.push_in.subscribe();
+  REQUIRE(renew(a, "out", b, "in", deep(4)).ok());
+  b.in.subscribe();
   push_speeds(a, 1, 1);
-  REQUIRE(renew(b, "push_out", b, "push_in", deep(4)).ok());
-  CHECK(a.push_out.subscriber_count() == 0);
-  CHECK(b.push_out.subscriber_count() == 1);
+  REQUIRE(renew(b, "out", b, "in", deep(4)).ok());
+  CHECK(a.out.subscriber_count() == 0);
+  CHECK(b.out.subscriber_count() == 1);
   push_speeds(b, 2, 2);
   CHECK(take_speeds(b) == std::vector<int>{1, 2});
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(4)).ok());  // and back
-  CHECK(a.push_out.subscriber_count() == 1);
-  CHECK(b.push_out.subscriber_count() == 0);
+  REQUIRE(renew(a, "out", b, "in", deep(4)).ok());  // and back
+  CHECK(a.out.subscriber_count() == 1);
+  CHECK(b.out.subscriber_count() == 0);
 }
 
 ENDS_CASE("a port without a connection that the runtime has subscribed hears the first one",
           "[patterns][local][renew]") {
-  b.push_in.subscribe();
-  REQUIRE(renew(a, "push_out", b, "push_in", deep(1)).ok());
-  CHECK(a.push_out.subscriber_count() == 1);
+  b.in.subscribe();
+  REQUIRE(renew(a, "out", b, "in", deep(1)).ok());
+  CHECK(a.out.subscriber_count() == 1);
 }
 
 ENDS_CASE("a Send connection that is renewed has room for more", "[patterns][local][renew]") {
   QueuePolicy policy{.depth = 1, .overflow = QueuePolicy::Overflow::refuse};
-  REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
+  REQUIRE(renew(a, "sender", b, "taker", policy).ok());
   b.open();
-  CHECK(a.send_out.send(full_stop()).ok());
+  CHECK(a.sender.send(full_stop()).ok());
   policy.depth = 2;
-  REQUIRE(renew(a, "send_out", b, "send_in", policy).ok());
-  CHECK(a.send_out.send(full_stop()).ok());
-  const IntakeCounters counters = static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters();
+  REQUIRE(renew(a, "sender", b, "taker", policy).ok());
+  CHECK(a.sender.send(full_stop()).ok());
+  const IntakeCounters counters = port<SendServerEndpoint>(b, "taker").counters();
   CHECK(counters.accepted == 2);
   CHECK(counters.waits == 0);
 }
 
 ENDS_CASE("ends that do not fit are not renewed", "[patterns][local][renew]") {
-  const Status refused = renew(a, "push_out", b, "odometry", deep(1));
+  const Status refused = renew(a, "out", b, "odometry", deep(1));
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.error().code == Code::invalid_argument);
 }
 
 ENDS_CASE("a connection that is renewed with another queue stays the one it was", "[patterns][local]") {
-  REQUIRE(connect(a, "send_out", b, "send_in").ok());
+  REQUIRE(connect(a, "sender", b, "taker").ok());
   b.open();
-  REQUIRE(a.send_out.send(MotionCommand()).ok());
+  REQUIRE(a.sender.send(MotionCommand()).ok());
   QueuePolicy longer;
   longer.depth = 8;
-  REQUIRE(LocalLinks().renew(a.endpoint("send_out"), b.endpoint("send_in"), longer).ok());
+  REQUIRE(LocalLinks().renew(a.endpoint("sender"), b.endpoint("taker"), longer).ok());
   // What waits is still counted as waiting, and handled.
-  CHECK(static_cast<SendServerEndpoint&>(b.endpoint("send_in")).counters().queued == 1);
+  CHECK(port<SendServerEndpoint>(b, "taker").counters().queued == 1);
   CHECK(b.handle_one());
 }

@@ -4,30 +4,15 @@
 
 #include <random>
 
+#include "all_ports.hpp"
 #include "executives.hpp"
 #include "orca/base/log.hpp"
-#include "orca/idl/motion.hpp"
 #include "two_processes.hpp"
 
 using namespace orca;
 using namespace orca::test;
-using idl::MotionCommand;
 
 namespace {
-
-struct Node : Peer {
-  Node(Executive& executive, const std::string& name) : Peer(executive, name) {}
-  Status on_command(const ObjectPtr<MotionCommand>&) { return ok(); }
-  PushServer<MotionCommand> out{*this, "out"};
-  PushProxy<MotionCommand> in{*this, "in"};
-  SendProxy<MotionCommand> sender{*this, "sender"};
-  SendServer<MotionCommand> taker{*this, "taker", &Node::on_command};
-};
-
-template <class Port>
-Port& port(Node& node, const std::string& name) {
-  return static_cast<Port&>(node.endpoint(name));
-}
 
 // Writes random words at random places of a segment, most of them near its beginning, for ever.
 [[noreturn]] void scribble(const MemoryFile& file, SharedPage& page, std::uint64_t seed) {
@@ -63,7 +48,7 @@ TEST_CASE("a peer that writes rubbish all over the segment is cut off, and no ca
                               RingSegment::create("c", 4096).value(), RingSegment::create("d", 4096).value()};
   OtherProcess enemy([&](Executive&) { scribble(files[seed % 4], page, seed); });
   run_on({}, [&](Executive& executive) {
-    Node node(executive, "node");
+    AllPorts node(executive, "node");
     node.strand().set_doorbell(page->parent);
     Error reason;
     const ShmPeer peer{"enemy.port", &page->child, [&](const Error& why) { reason = why; }};

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "all_ports.hpp"
 #include "executives.hpp"
 #include "orca/base/log.hpp"
 #include "orca/idl/motion.hpp"
@@ -67,11 +68,6 @@ struct Pilot : Peer {
   QueryProxy<idl::Ask, MotionCommand> question{*this, "question"};
   PushProxy<MotionCommand> commands{*this, "commands"};
 };
-
-template <class Port>
-Port& port(Peer& peer, const std::string& name) {
-  return static_cast<Port&>(peer.endpoint(name));
-}
 
 constexpr QueuePolicy kAll{.depth = 4, .overflow = QueuePolicy::Overflow::block, .block_limit = 10s};
 
