@@ -10,11 +10,13 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <thread>
 
 #include "deployer/exit_code.hpp"
 #include "deployer/options.hpp"
+#include "orca/component.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/hardware.hpp"
 #include "orca/host/catalogue.hpp"
@@ -27,7 +29,6 @@ namespace {
 
 constexpr Duration kStep = 1ms;
 constexpr Duration kLeave = 100ms;  // in which devices hear the last words of drivers
-constexpr const char* kType = "orca.test.Bench";
 
 // Takes down what the deployer would have written.
 class Writer final : public host::RunListener {
@@ -68,6 +69,9 @@ class BenchRun final : public hw::HardwareContainer {
     BenchRun* running = nullptr;
     TimePoint now{};  // of the last step
     std::exception_ptr thrown{};
+    hw::HardwareSeat* seat = nullptr;
+    std::function<Status()> job{};  // for the operator
+    std::optional<Status> done{};   // what it has returned
   };
   static Given* given;
 
@@ -123,6 +127,48 @@ class BenchRun final : public hw::HardwareContainer {
 
 BenchRun::Given* BenchRun::given = nullptr;
 
+namespace {
+
+// The component beside the server of the hardware, which does what the script wishes of components.
+class Operator final : public Component {
+ public:
+  explicit Operator(ComponentHost& host)
+      : Component(host), seat_(static_cast<hw::HardwareSeat*>(host.hardware())) {
+    lap_every(kStep);
+  }
+
+  SendProxy<idl::MotionCommand> motion{*this, "motion", {.optional = true}};
+  SendProxy<idl::HolonomicVelocity> velocity{*this, "velocity", {.optional = true}};
+  static Operator* working;
+
+ private:
+  Status start() override {
+    working = this;
+    BenchRun::given->seat = seat_;
+    return ok();
+  }
+  Outcome work() override {
+    if (const auto job = std::exchange(BenchRun::given->job, nullptr)) BenchRun::given->done = job();
+    return again();
+  }
+
+  hw::HardwareSeat* const seat_;
+};
+
+Operator* Operator::working = nullptr;
+
+// Returns the graph with the bench in it, and the operator if some component has hardware.
+std::string with_bench(std::string text) {
+  std::string more = R"(<hardware name="test_bench" type="orca.test.Bench"/>)";
+  std::smatch found;
+  if (std::regex_search(text, found, std::regex(R"(\shardware="[^"]*")")))
+    more +=
+        R"(<component name="test_operator" type="orca.test.Operator" autonomous="true")" + found.str() + "/>";
+  return text.insert(text.rfind("</graph>"), more);
+}
+
+}  // namespace
+
 Bench& bench() {
   static Bench only;
   return only;
@@ -153,6 +199,26 @@ bool Bench::until_log(const std::string& text, Duration limit) {
 
 std::string Bench::log() const { return BenchRun::given->writer.run.err; }
 
+Status Bench::in_operator(std::function<Status()> job) {
+  BenchRun::Given& given = *BenchRun::given;
+  given.job = std::move(job);
+  (void)until([&] { return given.done.has_value(); }, 1h);
+  return std::exchange(given.done, std::nullopt).value();
+}
+
+Status Bench::send(const idl::MotionCommand& command) {
+  return in_operator([command] { return Operator::working->motion.send(command); });
+}
+
+Status Bench::send(const idl::HolonomicVelocity& command) {
+  return in_operator([command] { return Operator::working->velocity.send(command); });
+}
+
+hw::HardwareSeat& Bench::seat() {
+  (void)until([] { return BenchRun::given->seat != nullptr; });
+  return *BenchRun::given->seat;
+}
+
 // Time stands still until the signal has been handled, so the run ends at the same moment each time.
 void Bench::stop() {
   kill(getpid(), SIGINT);
@@ -167,18 +233,21 @@ Run run_virtual(const Words& words, const std::function<void()>& script) {
       plugin::PluginIndex({fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins"}),
       ClockKind::virtual_time);
   static const TypeEntry kBench{
-      PluginKind::hardware, kType,
+      PluginKind::hardware, "orca.test.Bench",
       [](PluginHost& host) -> void* {
         return static_cast<hw::HardwareContainer*>(new BenchRun(static_cast<hw::HardwareHost&>(host)));
       },
       [](void* object) { delete static_cast<hw::HardwareContainer*>(object); }};
+  static const TypeEntry kOperator{PluginKind::component, "orca.test.Operator",
+                                   detail::create<Operator, Component, ComponentHost>,
+                                   detail::destroy<Component>};
   catalogue.add(kBench);
-  std::string text = read_text(options.file);
-  text.insert(text.rfind("</graph>"), std::string("<hardware name=\"test_bench\" type=\"") + kType + "\"/>");
+  catalogue.add(kOperator);
   xml::Diagnostics diagnostics;
   graph::LoadOptions load{options.profiles, options.settings};
   load.any_link = true;
-  const auto graph = graph::load_text(text, options.file, load, catalogue, diagnostics);
+  const auto graph =
+      graph::load_text(with_bench(read_text(options.file)), options.file, load, catalogue, diagnostics);
   Writer writer;
   writer.run.err = diagnostics.text();
   writer.run.ended = true;

@@ -14,6 +14,8 @@
 #include "desk.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/link/memory_link.hpp"
+#include "orca/hw/seat.hpp"
+#include "orca/idl/motion.hpp"
 
 namespace orca::test {
 
@@ -36,6 +38,13 @@ class Bench {
   bool until_log(const std::string& text, Duration limit = std::chrono::seconds(20));
   [[nodiscard]] std::string log() const;
 
+  /// Send a command from the component `test_operator`, whose ports `motion` and `velocity` the graph may connect.
+  /// @return what SendProxy::send() returns.
+  Status send(const idl::MotionCommand& command);
+  Status send(const idl::HolonomicVelocity& command);
+  /// Returns the place of the graph's hardware, as its server and the process see it. @pre  there is a server.
+  [[nodiscard]] hw::HardwareSeat& seat();
+
   /// Returns the time of the run.
   [[nodiscard]] TimePoint now() const;
 
@@ -43,6 +52,7 @@ class Bench {
   friend class BenchRun;
   static void stop();
   void step();
+  Status in_operator(std::function<Status()> job);
   std::vector<Device> devices_;
 };
 
