@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The driver of the Create 2 with the controller's emulation at the other end of a pseudo terminal.
+// The driver of the Create 2 with the controller's emulation at the other end of a line in memory, in virtual time; two cases at the end
+// have a pseudo terminal and real time.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <string>
 #include <thread>
 
-#include "bad_line.hpp"
-#include "deployer.hpp"
-#include "device_on_desk.hpp"
-#include "orca/base/steady_clock.hpp"
+#include "base_on_desk.hpp"
 #include "orca/emulators/create2_firmware.hpp"
 #include "temp_folder.hpp"
 
@@ -23,125 +22,164 @@ using emulators::Create2Settings;
 
 namespace {
 
-using BadCreate = BadLine<Create2Firmware>;
-using Create = DeviceOnDesk<BadCreate, PlainBody>;
+using Create = VirtualBase<Create2Firmware>;
+using CreateInRealTime = BaseOn<DeviceOnDesk, Create2Firmware>;
 
 constexpr int kStart = 128;  // leads to passive mode, in which the wheels stand
 constexpr int kSafe = 131;
 constexpr int kDriveDirect = 145;
 
-Words drive(const std::string& device, const Words& more = {}) {
-  return Words{system_graph("create2.xml"), "--set", "device=" + device} + more;
+Run run(const Words& more = {}, const std::function<void()>& script = {}) {
+  return run_virtual(on_line("create2.xml", "memory:create", more), script);
 }
 
-Words far_goal() { return {"--set", "goals=far: 30 0"}; }
-
-Twist2 velocity(Create& create) {
-  return create.with([](BadCreate&, PlainBody& body) { return body.velocity(); });
+template <class AnyCreate>
+Create2Mode mode(AnyCreate& create) {
+  return create.look([](Create2Firmware& firmware) { return firmware.mode(); });
 }
-bool is_moving(Create& create) { return velocity(create).forward > 0.1; }
-bool stands(Create& create) { return velocity(create) == Twist2{}; }
-Create2Mode mode(Create& create) {
-  return create.with([](BadCreate& line, PlainBody&) { return line.device().mode(); });
-}
-Pose2 pose(Create& create) {
-  return create.with([](BadCreate&, PlainBody& body) { return body.odometry(); });
-}
-std::vector<int> commands(Create& create) {
-  return create.with([](BadCreate& line, PlainBody&) { return line.device().commands(); });
+template <class AnyCreate>
+std::vector<int> commands(AnyCreate& create) {
+  return create.look([](Create2Firmware& firmware) { return firmware.commands(); });
 }
 
-// Drives to the goals of the graph, and checks that the robot got there.
-void check_goals(Create& create, const std::string& device) {
-  const Run run = run_deployer(drive(device), Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  REQUIRE(run.arrivals().size() == 2);
-  const Pose2 end = pose(create);
-  CHECK(std::hypot(end.x - run.arrivals()[1].x, end.y - run.arrivals()[1].y) < 0.1);
-  CHECK(stands(create));
-}
-
-// Waits until the robot moves.
-void set_off(Create& create) {
-  REQUIRE(eventually([&] { return is_moving(create); }));
-}
-
-void check_release(Create& create) {
-  CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
-  CHECK(eventually([&] { return is_moving(create); }));
+// Checks that it stands in passive mode until an operator lets it go.
+void check_waits(Create& create) {
+  bench().sleep(500ms);
+  CHECK(create.stands());
+  CHECK(mode(create) == Create2Mode::passive);
+  create.check_waits_for_operator();
 }
 
 }  // namespace
 
-TEST_CASE("a Create 2 drives to its goals over a serial line, and its interface is off before and after",
+TEST_CASE("a Create 2's safe mode comes with the first command to move, and its interface is off at the end",
           "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  check_goals(create, device);
+  Create create("create");
+  create.check_at_goal(run());
   CHECK(mode(create) == Create2Mode::off);
   const std::vector<int> all = commands(create);
   const auto safe = std::ranges::find(all, kSafe);
   REQUIRE(safe != all.end());
-  CHECK(std::ranges::find(all, kDriveDirect) - safe == 1);  // safe mode comes with the first command to move
+  CHECK(std::ranges::find(all, kDriveDirect) - safe == 1);
 }
 
 TEST_CASE("the rate of a Create 2 that was started with 19200 baud is found", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
   Create2Settings settings;
   settings.baud = 19200;
-  Create create(device, settings);
-  const Run run = run_deployer(drive(device), Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
-  CHECK(run.says("connected to a Create 2 at 19200 baud"));
+  Create create("create", settings);
+  const Run ended = run();
+  CHECK(ended.exit_code() == 0);
+  CHECK(ended.says("connected to a Create 2 at 19200 baud"));
 }
 
 TEST_CASE("a Roomba whose firmware reports its mode plus one drives to its goals", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
   Create2Settings settings;
   settings.mode_offset = 1;
-  Create create(device, settings);
-  check_goals(create, device);
+  Create create("create", settings);
+  create.check_at_goal(run());
 }
 
 TEST_CASE("without a Create 2 on the line nothing starts, and what to look at is said",
           "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
+  Create create("create");
   create.fall_silent(true);
-  const Run run = run_deployer(drive(device), Seconds(60));
-  CHECK(run.exit_code() == 3);
-  CHECK_THAT(run.err, Contains("no Create 2 answers at serial:" + device +
-                               " at 115200, 19200 baud; press its Clean button"));
+  const Run ended = run();
+  CHECK(ended.exit_code() == 3);
+  CHECK_THAT(ended.err,
+             Contains("no Create 2 answers at memory:create at 115200, 19200 baud; press its Clean "
+                      "button"));
 }
 
 TEST_CASE("a Create 2 that is unplugged drives on, is stopped when it is back, and stands until it is let go",
           "[system][hardware]") {
+  Create create("create");
+  const Run ended = run(far_goal(), [&] {
+    create.set_off();
+    create.unplug();
+    CHECK(bench().until_log("the other end of the line is closed"));
+    bench().sleep(500ms);
+    CHECK_FALSE(create.stands());  // it has no watchdog
+    create.plug_in();
+    REQUIRE(bench().until_log("it works again"));
+    CHECK(create.stands());
+    check_waits(create);
+  });
+  CHECK(ended.exit_code() == 0);
+}
+
+TEST_CASE("a Create 2 that is switched off and on in mid-motion is found again, and stands",
+          "[system][hardware]") {
+  Create create("create");
+  (void)run(far_goal(), [&] {
+    create.set_off();
+    create.reset();
+    CHECK(bench().until_log("is it still connected and switched on?"));
+    REQUIRE(bench().until_log("it works again"));
+    check_waits(create);
+  });
+}
+
+TEST_CASE("a Create 2 that bumps into something stands, and does not drive on towards it",
+          "[system][hardware]") {
+  Create create("create");
+  (void)run(far_goal(), [&] {
+    create.set_off();
+    create.body([](PlainBody& body) { body.touch(1); });
+    create.check_stays();
+  });
+}
+
+TEST_CASE("a Create 2 stops at a cliff, and is not driven on over it", "[system][hardware]") {
+  Create create("create");
+  (void)run(far_goal(), [&] {
+    create.set_off();
+    create.body([](PlainBody& body) { body.drop(2); });
+    create.check_stays();
+    CHECK(mode(create) == Create2Mode::passive);
+    CHECK(create.look([](Create2Firmware& firmware) { return firmware.safety_stops(); }) == 1);
+  });
+}
+
+TEST_CASE("a Create 2 that is lifted up or connected to its charger stands until it is let go",
+          "[system][hardware]") {
+  Create create("create");
+  const bool is_lift = GENERATE(true, false);
+  const auto disturb = [&](bool on) {
+    create.with([&](Create::Line& line, PlainBody& body) {
+      is_lift ? body.lift(on) : line.device().connect_charger(on);
+    });
+  };
+  (void)run(far_goal(), [&] {
+    create.set_off();
+    disturb(true);
+    CHECK(bench().until_log(is_lift ? "a wheel hangs; put it down" : "it is connected to its charger"));
+    CHECK(bench().until([&] { return create.stands(); }));
+    disturb(false);
+    check_waits(create);
+  });
+}
+
+TEST_CASE("a Create 2 that is held is told to stop, although it would drive on by itself",
+          "[system][hardware]") {
+  Create2Settings settings;
+  settings.heeds_charger = false;
+  Create create("create", settings);
+  (void)run(far_goal(), [&] {
+    create.set_off();
+    create.look([](Create2Firmware& firmware) { firmware.connect_charger(true); });
+    CHECK(bench().until_log("alarm ESTOP: the base is held: it is connected to its charger"));
+    CHECK(bench().until([&] { return create.stands(); }));
+    CHECK(mode(create) == Create2Mode::safe);
+  });
+}
+
+TEST_CASE("a Create 2 drives to its goals over a serial line, and its interface is off after",
+          "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  create.unplug();
-  CHECK(program.wait_for_output("the device has gone: was it unplugged or switched off?",
-                                Seconds(20 * kSlowdown)));
-  CHECK_FALSE(stands(create));  // it has no watchdog
-  create.plug_in();
-  const bool back = program.wait_for_output("it works again", Seconds(30));
-  INFO(program.err());
-  REQUIRE(back);
-  CHECK(stands(create));
-  std::this_thread::sleep_for(500ms);
-  CHECK(stands(create));
-  CHECK(mode(create) == Create2Mode::passive);
-  check_release(create);
-  program.send(SIGINT);
-  CHECK(finish(program, Seconds(20)).exit_code() == 0);
+  CreateInRealTime create(device);
+  create.check_at_goal(run_deployer(on_line("create2.xml", device), Seconds(60)));
+  CHECK(mode(create) == Create2Mode::off);
 }
 
 TEST_CASE(
@@ -150,105 +188,15 @@ TEST_CASE(
     "[system][hardware]") {
   const TempFolder folder;
   const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal() + Words{"--in-process"})));
-  set_off(create);
-  program.send(SIGKILL);
+  CreateInRealTime create(device);
+  (void)kill_while_it_drives(create, on_line("create2.xml", device), [] { return true; });
   std::this_thread::sleep_for(1s);
-  CHECK(is_moving(create));
+  CHECK(create.moves());
   const std::size_t before = commands(create).size();
-  const Run run = run_deployer(drive(device, {"--set", "goals=here: 0 0"}), Seconds(60));
-  INFO(run.err);
-  CHECK(run.exit_code() == 0);
+  const Run again = run_deployer(on_line("create2.xml", device, {"--set", "goals=here: 0 0"}), Seconds(60));
+  INFO(again.err);
+  CHECK(again.exit_code() == 0);
   REQUIRE(commands(create).size() > before);
   CHECK(commands(create)[before] == kStart);
-  CHECK(stands(create));
-}
-
-TEST_CASE("a Create 2 that is switched off and on in mid-motion is found again, and stands",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  create.with([](BadCreate& line, PlainBody&) { line.reset(steady_now()); });
-  CHECK(program.wait_for_output("is it still connected and switched on?", Seconds(20 * kSlowdown)));
-  REQUIRE(program.wait_for_output("it works again", Seconds(30 * kSlowdown)));
-  std::this_thread::sleep_for(500ms);
-  CHECK(stands(create));
-  CHECK(mode(create) == Create2Mode::passive);
-  check_release(create);
-}
-
-TEST_CASE("a Create 2 that bumps into something stands, and does not drive on towards it",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  create.with([](BadCreate&, PlainBody& body) { body.touch(1); });
-  REQUIRE(eventually([&] { return stands(create); }));
-  const double there = pose(create).x;
-  std::this_thread::sleep_for(1s);
-  CHECK(pose(create).x - there < 0.01);
-}
-
-TEST_CASE("a Create 2 stops at a cliff, and is not driven on over it", "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  create.with([](BadCreate&, PlainBody& body) { body.drop(2); });
-  REQUIRE(eventually([&] { return stands(create); }));
-  const double there = pose(create).x;
-  std::this_thread::sleep_for(1s);
-  CHECK(pose(create).x - there < 0.01);
-  CHECK(mode(create) == Create2Mode::passive);
-  CHECK(create.with([](BadCreate& line, PlainBody&) { return line.device().safety_stops(); }) == 1);
-}
-
-TEST_CASE("a Create 2 that is lifted up or connected to its charger stands until it is let go",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create create(device);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  const bool is_lift = GENERATE(true, false);
-  const auto disturb = [&](bool on) {
-    create.with([&](BadCreate& line, PlainBody& body) {
-      if (is_lift)
-        body.lift(on);
-      else
-        line.device().connect_charger(on);
-    });
-  };
-  disturb(true);
-  CHECK(program.wait_for_output(is_lift ? "a wheel hangs; put it down" : "it is connected to its charger",
-                                Seconds(20 * kSlowdown)));
-  CHECK(eventually([&] { return stands(create); }));
-  disturb(false);
-  std::this_thread::sleep_for(500ms);
-  CHECK(stands(create));
-  CHECK(mode(create) == Create2Mode::passive);
-  check_release(create);
-}
-
-TEST_CASE("a Create 2 that is held is told to stop, although it would drive on by itself",
-          "[system][hardware]") {
-  const TempFolder folder;
-  const std::string device = folder.file("create");
-  Create2Settings settings;
-  settings.heeds_charger = false;
-  Create create(device, settings);
-  Subprocess program(deployer(drive(device, far_goal())));
-  set_off(create);
-  create.with([](BadCreate& line, PlainBody&) { line.device().connect_charger(true); });
-  CHECK(program.wait_for_output("alarm ESTOP: the base is held: it is connected to its charger",
-                                Seconds(20 * kSlowdown)));
-  CHECK(eventually([&] { return stands(create); }));
-  CHECK(mode(create) == Create2Mode::safe);
+  CHECK(create.stands());
 }
