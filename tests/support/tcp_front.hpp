@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 /// A device that is reached over TCP: it listens on a port of this machine that the kernel has chosen, and has one client at a time. Its
 /// firmware runs as long as this lives.
-/// @tparam Body  has go_on(Duration) beside what the firmware wants of it.
+/// @tparam Body  has go_on(Duration, TimePoint) beside what the firmware wants of it.
 ///
 /// Thread contract: one thread.
 template <class Firmware, class Body>
@@ -88,7 +88,7 @@ class TcpFront {
     for (TimePoint last = steady_now(); !ends_; std::this_thread::sleep_for(1ms)) {
       const std::lock_guard lock(mutex_);
       const TimePoint now = steady_now();
-      body_.go_on(now - last);
+      body_.go_on(now - last, now);
       last = now;
       exchange(now);
     }
