@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every driver on a line must stand, with the emulation of its device at the other end of a pseudo terminal.
+// What every driver on a line must stand, with the emulation of its device at the other end: of a line in memory, in virtual time; and
+// where terminals are the subject of a pseudo terminal, in real time.
 #include <catch2/catch.hpp>
 
 #include <fcntl.h>
 #include <termios.h>
 
-#include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <list>
 #include <string>
@@ -32,10 +31,10 @@
 #include "orca/hw/sick_lms/telegram.hpp"
 #include "orca/hw/xr4000/frame.hpp"
 #include "temp_folder.hpp"
+#include "virtual_desk.hpp"
 
 using namespace orca;
 using namespace orca::test;
-using Catch::Contains;
 using hw::framing::Protocol;
 
 namespace {
@@ -111,20 +110,49 @@ struct Lidar {
   static constexpr bool moves = false;
 };
 
+// A line in memory, in virtual time; only during run_virtual().
+struct InMemory {
+  template <class Line, class Surroundings>
+  using Desk = VirtualDevice<Line, Surroundings>;
+  static bool until(const std::function<bool()>& condition) { return bench().until(condition); }
+  static bool says(const std::string& text) { return bench().until_log(text, 30s); }
+  static void sleep(Duration time) { bench().sleep(time); }
+  static std::uint64_t frames() { return bench().seat().statistics().frames(); }
+  static bool let_go() { return bench().seat().let_go(); }
+  static std::string log() { return bench().log(); }
+};
+
+// A pseudo terminal, in real time.
+struct OnTerminal {
+  template <class Line, class Surroundings>
+  using Desk = DeviceOnDesk<Line, Surroundings>;
+  static bool until(const std::function<bool()>& condition) { return eventually(condition); }
+  [[nodiscard]] bool says(const std::string& text) const {
+    return program->wait_for_output(text, Seconds(30 * kSlowdown));
+  }
+  static void sleep(Duration time) { std::this_thread::sleep_for(time); }
+  [[nodiscard]] std::uint64_t frames() const {
+    const Run run = run_orcactl({"query", server + ".DeviceStatisticsQuery", "<Ask/>"});
+    const std::string before = " frames=\"";
+    const std::size_t at = run.out.find(before);
+    return at == std::string::npos ? 0 : std::stoull(run.out.substr(at + before.size()));
+  }
+  static bool let_go() { return run_orcactl({"estop", "--release"}).exit_code() == 0; }
+  [[nodiscard]] std::string log() const { return program->err(); }
+  Subprocess* program;
+  std::string server;
+};
+
 // A driver at work, and its device.
-template <class Kind>
+template <class Kind, class World>
 class AtWork {
  public:
   using Line = BadLine<typename Kind::Firmware>;
+  using Desk = typename World::template Desk<Line, typename Kind::Surroundings>;
 
-  AtWork() : desk_(DeskLine(path_), Kind::settings()) {
-    if constexpr (!Kind::moves)
-      desk_.with([](Line&, MirrorOnDesk& mirror) { mirror.show(-1.5708, 0.0174533, std::vector(181, 2.0)); });
-    Words words{system_graph(Kind::graph), "--set", "device=" + path_};
-    if constexpr (Kind::moves) words = words + Words{"--set", "goals=far: 100 0"};
-    program_.emplace(deployer(words));
+  AtWork(const World& world, Desk& desk) : world_(world), desk_(desk) {
     // A laser's first frames are answers to questions; then it scans.
-    REQUIRE(eventually([this] { return Kind::moves ? works() : done() > 50.0; }));
+    REQUIRE(World::until([this] { return Kind::moves ? works() : done() > 50.0; }));
   }
 
   // Returns whether it does what it is for: the base moves, scans arrive.
@@ -132,14 +160,14 @@ class AtWork {
     if constexpr (Kind::moves)
       return desk_.with([](Line&, PlainBody& body) { return body.velocity().forward > 0.1; });
     else
-      return frames_since_last_time() > 0;
+      return world_.frames() > std::exchange(last_, world_.frames());
   }
   // Returns what it has done so far: the way of the base [m], or the number of its frames.
   double done() {
     if constexpr (Kind::moves)
       return desk_.with([](Line&, PlainBody& body) { return body.odometry().x; });
     else
-      return static_cast<double>(counted("frames"));
+      return static_cast<double>(world_.frames());
   }
   bool stands() {
     if constexpr (Kind::moves)
@@ -147,55 +175,62 @@ class AtWork {
     else
       return true;
   }
-
-  long frames_since_last_time() {
-    const long frames = counted("frames");
-    return frames - std::exchange(last_, frames);
-  }
-
-  // Returns what the driver has counted.
-  long counted(const std::string& what) {
-    const Run run = run_orcactl({"query", std::string(Kind::server) + ".DeviceStatisticsQuery", "<Ask/>"});
-    const std::size_t at = run.out.find(" " + what + "=\"");
-    long number = 0;
-    if (at == std::string::npos) return number;
-    const char* const begin = run.out.data() + at + what.size() + 3;
-    std::from_chars(begin, run.out.data() + run.out.size(), number);
-    return number;
-  }
-
   void spoil(const std::function<void(Bytes&)>& change) {
     desk_.with([&](Line& line, auto&) { line.spoil(change); });
   }
-  void echo(bool on) {
-    desk_.with([&](Line& line, auto&) { line.echo(on); });
+  Desk& desk() { return desk_; }
+  void check_says(const std::string& text) {
+    const bool says = world_.says(text);
+    INFO(world_.log());
+    REQUIRE(says);
   }
-  DeviceOnDesk<Line, typename Kind::Surroundings>& desk() { return desk_; }
-  [[nodiscard]] const std::string& path() const { return path_; }
-  bool says(const std::string& text, Duration limit) {
-    return program_->wait_for_output(text, Seconds(to_seconds(limit) * kSlowdown));
-  }
-  [[nodiscard]] std::string err() const { return program_->err(); }
 
   // Comes back by itself. A base then stands until an operator lets it go.
   void check_comes_back() {
-    const bool back = says("it works again", 30s);
-    INFO(err());
-    REQUIRE(back);
+    check_says("it works again");
     if constexpr (Kind::moves) {
-      REQUIRE(eventually([this] { return stands(); }));  // one that drove on by itself is told to stop first
-      for (int i = 0; i < 50; ++i, std::this_thread::sleep_for(10ms)) REQUIRE(stands());
-      CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);
+      REQUIRE(
+          World::until([this] { return stands(); }));  // one that drove on by itself is told to stop first
+      for (int i = 0; i < 50; ++i, World::sleep(10ms)) REQUIRE(stands());
+      CHECK(World::let_go());
     }
-    CHECK(eventually([this] { return works(); }));
+    CHECK(World::until([this] { return works(); }));
   }
 
  private:
-  const TempFolder folder_;
-  const std::string path_ = folder_.file("line");
-  DeviceOnDesk<Line, typename Kind::Surroundings> desk_;
-  std::optional<Subprocess> program_;
-  long last_ = 0;  // frames
+  const World world_;
+  Desk& desk_;
+  std::uint64_t last_ = 0;  // frames
+};
+
+// Makes a device, and returns the words for its system.
+template <class Kind, class Desk>
+Words set_up(Desk& desk, const std::string& line) {
+  if constexpr (!Kind::moves)
+    desk.with([](auto&, MirrorOnDesk& mirror) { mirror.show(-1.5708, 0.0174533, std::vector(181, 2.0)); });
+  Words words{system_graph(Kind::graph), "--set", "device=" + line};
+  return Kind::moves ? words + Words{"--set", "goals=far: 100 0"} : words;
+}
+
+// Calls a script with a driver at work in virtual time.
+template <class Kind>
+void in_memory(const std::function<void(AtWork<Kind, InMemory>&)>& script) {
+  typename AtWork<Kind, InMemory>::Desk desk(DeskLine("line"), Kind::settings());
+  (void)run_virtual(set_up<Kind>(desk, "memory:line"), [&] {
+    AtWork<Kind, InMemory> driver({}, desk);
+    script(driver);
+  });
+}
+
+// A driver at work in real time.
+template <class Kind>
+struct TerminalAtWork {
+  using Driver = AtWork<Kind, OnTerminal>;
+  const TempFolder folder;
+  const std::string path = folder.file("line");
+  typename Driver::Desk desk{DeskLine(path), Kind::settings()};
+  Subprocess program{deployer(set_up<Kind>(desk, path))};
+  Driver driver{OnTerminal{&program, Kind::server}, desk};
 };
 
 // A terminal, opened as by another program: through it the test holds the line back.
@@ -209,68 +244,69 @@ Descriptor terminal_at(const std::string& path) {
 
 TEMPLATE_TEST_CASE("a driver works on over a bad line", "[system][hardware]", Pioneer, Scout, Create, Nomad,
                    Laser, Lidar) {
-  AtWork<TestType> driver;
-  const auto check_works_on = [&](const char* fault) {
-    INFO(fault << ": " << driver.err());
-    const double before = driver.done();
-    std::this_thread::sleep_for(2s);
-    CHECK(driver.done() >
-          before + (TestType::moves ? 0.4 : 10.0));  // at 0.5 m/s; a scan takes less than 50 ms
-    driver.spoil(nullptr);
-  };
-  driver.spoil(garbage_after(TestType::moves ? 701 : 1501, {0x13, 0xFA, 0x02, 0x00}));
-  check_works_on("garbage between and within frames");
-  driver.spoil(glued(60));
-  check_works_on("frames that come together");
-  driver.spoil(one_frame_spoiled_in(100, TestType::protocol));
-  check_works_on("one frame in a hundred spoiled");
-  driver.echo(true);
-  check_works_on("what is sent comes back");
-  CHECK(driver.counted("connections") == 1);
-  CHECK(driver.counted("resynchronisations") > 0);
+  in_memory<TestType>([](auto& driver) {
+    const auto check_works_on = [&](const char* fault) {
+      INFO(fault << ": " << bench().log());
+      const double before = driver.done();
+      bench().sleep(2s);
+      CHECK(driver.done() >
+            before + (TestType::moves ? 0.4 : 10.0));  // at 0.5 m/s; a scan takes less than 50 ms
+      driver.spoil(nullptr);
+    };
+    driver.spoil(garbage_after(TestType::moves ? 701 : 1501, {0x13, 0xFA, 0x02, 0x00}));
+    check_works_on("garbage between and within frames");
+    driver.spoil(glued(60));
+    check_works_on("frames that come together");
+    driver.spoil(one_frame_spoiled_in(100, TestType::protocol));
+    check_works_on("one frame in a hundred spoiled");
+    driver.desk().echo(true);
+    check_works_on("what is sent comes back");
+    const idl::DeviceStatistics counts = bench().seat().statistics();
+    CHECK(counts.connections() == 1);
+    CHECK(counts.resynchronisations() > 0);
+  });
 }
 
 TEMPLATE_TEST_CASE("a driver whose frames are all spoiled stops its base, and comes back with a good line",
                    "[system][hardware]", Pioneer, Scout, Create, Nomad, Laser, Lidar) {
-  AtWork<TestType> driver;
-  driver.spoil(one_frame_spoiled_in(1, TestType::protocol));
-  const bool says = driver.says("is it still connected and switched on?", 20s);
-  INFO(driver.err());
-  REQUIRE(says);
-  CHECK(eventually([&] { return driver.stands(); }));
-  driver.spoil(nullptr);
-  driver.check_comes_back();
+  in_memory<TestType>([](auto& driver) {
+    driver.spoil(one_frame_spoiled_in(1, TestType::protocol));
+    driver.check_says("is it still connected and switched on?");
+    CHECK(bench().until([&] { return driver.stands(); }));
+    driver.spoil(nullptr);
+    driver.check_comes_back();
+  });
 }
 
 TEMPLATE_TEST_CASE("a base whose line is held back stops where it can, and is told nothing late",
                    "[system][hardware]", Pioneer, Scout, Create, Nomad) {
-  AtWork<TestType> driver;
-  const Descriptor terminal = terminal_at(driver.path());
+  TerminalAtWork<TestType> at_work;
+  const Descriptor terminal = terminal_at(at_work.path);
   REQUIRE(tcflow(terminal.number(), TCOOFF) == 0);
-  REQUIRE(driver.says("the device takes nothing any more", 20s));
-  if constexpr (TestType::has_watchdog) CHECK(eventually([&] { return driver.stands(); }));
+  at_work.driver.check_says("the device takes nothing any more");
+  if constexpr (TestType::has_watchdog) CHECK(eventually([&] { return at_work.driver.stands(); }));
   REQUIRE(tcflow(terminal.number(), TCOON) == 0);
-  driver.check_comes_back();
+  at_work.driver.check_comes_back();
 }
 
 TEMPLATE_TEST_CASE("a laser whose line is held back goes on to send scans", "[system][hardware]", Laser,
                    Lidar) {
-  AtWork<TestType> driver;
-  const Descriptor terminal = terminal_at(driver.path());
+  TerminalAtWork<TestType> at_work;
+  const Descriptor terminal = terminal_at(at_work.path);
   REQUIRE(tcflow(terminal.number(), TCOOFF) == 0);
   for (int i = 0; i < 4; ++i) {
     std::this_thread::sleep_for(500ms);
-    CHECK(driver.works());
+    CHECK(at_work.driver.works());
   }
   REQUIRE(tcflow(terminal.number(), TCOON) == 0);
 }
 
 TEMPLATE_TEST_CASE("a device that is unplugged and comes back under another name is found again",
                    "[system][hardware]", Pioneer, Scout, Create, Nomad, PlayerRobot, Laser, Lidar) {
-  AtWork<TestType> driver;
-  const std::string before = std::filesystem::canonical(driver.path());
-  driver.desk().unplug();
-  REQUIRE(driver.says("the device has gone: was it unplugged or switched off?", 20s));
+  TerminalAtWork<TestType> at_work;
+  const std::string before = std::filesystem::canonical(at_work.path);
+  at_work.desk.unplug();
+  at_work.driver.check_says("the device has gone: was it unplugged or switched off?");
   // Until its number is taken: the driver gives it back a moment later, and lower ones may be free, since other programs end.
   std::list<hw::link::PtyLink> others;
   REQUIRE(eventually([&] {
@@ -278,7 +314,7 @@ TEMPLATE_TEST_CASE("a device that is unplugged and comes back under another name
     std::this_thread::sleep_for(50ms);
     return std::filesystem::exists(before);
   }));
-  driver.desk().plug_in();
-  CHECK(std::filesystem::canonical(driver.path()) != before);
-  driver.check_comes_back();
+  at_work.desk.plug_in();
+  CHECK(std::filesystem::canonical(at_work.path) != before);
+  at_work.driver.check_comes_back();
 }
