@@ -2,7 +2,6 @@
 // Bases without a graph around them: commands come one by one from outside, and nobody repeats them.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -15,7 +14,9 @@
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/player_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
+#include "orca/idl/sensing.hpp"
 #include "temp_folder.hpp"
+#include "virtual_desk.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -51,6 +52,15 @@ std::string lonely_base(const std::string& driver, const std::string& device,
          R"(</hardware><component name="base" type="orca.RobotBaseServer" hardware="robot" autonomous="true"/></graph>)";
 }
 
+// Runs such a base in virtual time; the script commands it.
+void in_memory(const std::string& driver, const std::string& params, const std::function<void()>& script) {
+  const TempFolder folder;
+  std::string graph = lonely_base(driver, "memory:line", params);
+  graph.insert(graph.rfind("</graph>"),
+               R"(<connect from="test_operator.motion" to="base.MotionCommandSend"/>)");
+  (void)run_virtual({folder.write("graph.xml", graph)}, script);
+}
+
 long counted(const std::string& what) {
   const Run run = run_orcactl({"query", "base.DeviceStatisticsQuery", "<Ask/>"});
   const std::size_t at = run.out.find(" " + what + "=\"");
@@ -73,30 +83,29 @@ int watchdog_stops(Firmware& firmware) {
 TEMPLATE_TEST_CASE("a base whose commander says nothing more is told to stand, while its line goes on",
                    "[system][hardware]", Pioneer, Scout, Create, Nomad, PlayerRobot) {
   using Firmware = typename TestType::Firmware;
-  const TempFolder folder;
-  const std::string device = folder.file("line");
-  DeviceOnDesk<Firmware, PlainBody> desk(DeskLine{device});
-  Subprocess program(deployer({folder.write("graph.xml", lonely_base(TestType::driver, device))}));
+  VirtualDevice<Firmware, PlainBody> desk("line");
   const auto way = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.odometry().x; }); };
   const auto stands = [&] {
     return desk.with([](Firmware&, PlainBody& body) { return body.velocity() == Twist2{}; });
   };
-  INFO(program.err());
-  REQUIRE(eventually([&] { return counted("frames") > 0; }));
-  REQUIRE(stands());
+  in_memory(TestType::driver, "", [&] {
+    const auto frames = [] { return bench().seat().statistics().frames(); };
+    REQUIRE(bench().until([&] { return frames() > 0; }));
+    REQUIRE(stands());
 
-  REQUIRE(
-      run_orcactl({"send", "base.MotionCommandSend", R"(<MotionCommand speed="0.3 m/s"/>)"}).exit_code() ==
-      0);
-  REQUIRE(eventually([&] { return way() > 0.01; }));
-  REQUIRE(eventually(stands));
-  CHECK(desk.with([](Firmware& firmware, PlainBody&) { return watchdog_stops(firmware); }) == 0);
-  const double there = way();
-  const long frames = counted("frames");
-  std::this_thread::sleep_for(1s);
-  CHECK(counted("frames") > frames);
-  CHECK(counted("connections") == 1);
-  CHECK(way() == there);
+    idl::MotionCommand ahead;
+    ahead.speed(0.3);
+    REQUIRE(bench().send(ahead).ok());
+    REQUIRE(bench().until([&] { return way() > 0.01; }));
+    REQUIRE(bench().until(stands));
+    CHECK(desk.with([](Firmware& firmware, PlainBody&) { return watchdog_stops(firmware); }) == 0);
+    const double there = way();
+    const auto before = frames();
+    bench().sleep(1s);
+    CHECK(frames() > before);
+    CHECK(bench().seat().statistics().connections() == 1);
+    CHECK(way() == there);
+  });
 }
 
 TEST_CASE("with --hold a base stands until an operator releases it", "[system][hardware]") {
@@ -165,45 +174,47 @@ TEMPLATE_TEST_CASE(
     "a calibrated base is told so much less or more, and its odometry tells what it has really done",
     "[system][hardware]", Pioneer, Scout, Create, Nomad) {
   using Firmware = typename TestType::Firmware;
-  const TempFolder folder;
-  const std::string device = folder.file("line");
-  DeviceOnDesk<Firmware, PlainBody> desk(DeskLine{device});
-  Subprocess program(deployer({folder.write(
-      "graph.xml",
-      lonely_base(TestType::driver, device,
-                  R"(<param name="distance_scale" value="1.25"/><param name="turn_scale" value="0.8"/>)"))}));
-  INFO(program.err());
-  REQUIRE(eventually([&] { return counted("frames") > 5; }));  // odometry counts from the first
-
+  VirtualDevice<Firmware, PlainBody> desk("line");
   const auto counts = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.odometry(); }); };
-  Twist2 fastest;
-  const auto look = [&] {
-    const Twist2 velocity = desk.with([](Firmware&, PlainBody& body) { return body.velocity(); });
-    fastest.forward = std::max(fastest.forward, velocity.forward);
-    fastest.turn_rate = std::max(fastest.turn_rate, velocity.turn_rate);
-    return velocity;
-  };
+  const auto velocity = [&] { return desk.with([](Firmware&, PlainBody& body) { return body.velocity(); }); };
   // Some controllers take their time to get fast.
-  const auto go_on_with = [&](const std::string& command, double Twist2::*speed, double wanted) {
-    REQUIRE(eventually([&] {
-      REQUIRE(run_orcactl({"send", "base.MotionCommandSend", command}).exit_code() == 0);
-      return look().*speed > 0.97 * wanted;
+  const auto go_on_with = [&](const idl::MotionCommand& command, double Twist2::*speed, double wanted) {
+    double fastest = 0.0;
+    REQUIRE(bench().until([&] {
+      REQUIRE(bench().send(command).ok());
+      fastest = std::max(fastest, velocity().*speed);
+      return fastest > 0.97 * wanted;
     }));
-    REQUIRE(eventually([&] { return look() == Twist2{}; }));
-    CHECK(fastest.*speed == Approx(wanted).margin(0.02));
+    REQUIRE(bench().until([&] {
+      fastest = std::max(fastest, velocity().*speed);
+      return velocity() == Twist2{};
+    }));
+    CHECK(fastest == Approx(wanted).margin(0.02));
   };
-  go_on_with(R"(<MotionCommand speed="0.25 m/s"/>)", &Twist2::forward, 0.2);
-  go_on_with(R"(<MotionCommand steering="BY_TURN_RATE" turn_rate="0.4 rad/s"/>)", &Twist2::turn_rate, 0.5);
+  const auto told = [] {
+    const auto sensors = bench().seat().sensors();
+    const auto odometry = std::ranges::find(sensors, "Odometry", &hw::HardwareSeat::Sensor::port_stem);
+    REQUIRE(odometry != sensors.end());
+    (void)bench().send(idl::MotionCommand());  // a base that nobody uses passes no readings on
+    const ObjectRef latest = bench().seat().latest(*odometry);
+    return latest ? *object_cast<idl::Odometry>(latest) : idl::Odometry();
+  };
+  const std::string scales =
+      R"(<param name="distance_scale" value="1.25"/><param name="turn_scale" value="0.8"/>)";
+  in_memory(TestType::driver, scales, [&] {
+    // Odometry counts from the first frames.
+    REQUIRE(bench().until([] { return bench().seat().statistics().frames() > 5; }));
+    idl::MotionCommand ahead;
+    ahead.speed(0.25);
+    go_on_with(ahead, &Twist2::forward, 0.2);
+    idl::MotionCommand round;
+    round.steering(idl::MotionSteering::BY_TURN_RATE);
+    round.turn_rate(0.4);
+    go_on_with(round, &Twist2::turn_rate, 0.5);
 
-  // A base that nobody uses passes no readings on.
-  const auto told = [](const std::string& field) {
-    (void)run_orcactl({"send", "base.MotionCommandSend", "<MotionCommand/>"});
-    const Run run = run_orcactl({"query", "base.OdometryQuery", "<AskReading/>"});
-    const std::size_t at = run.out.find(" " + field + "=\"");
-    return at != std::string::npos ? std::stod(run.out.substr(at + field.size() + 3)) : std::nan("");
-  };
-  CHECK(counts().x > 0.01);
-  CHECK(eventually([&] { return std::abs(told("x") - 1.25 * counts().x) < 0.005; }));
-  CHECK(counts().yaw > 0.01);
-  CHECK(eventually([&] { return std::abs(told("steer_angle") - 0.8 * counts().yaw) < 0.005; }));
+    CHECK(counts().x > 0.01);
+    CHECK(bench().until([&] { return std::abs(told().x() - 1.25 * counts().x) < 0.005; }));
+    CHECK(counts().yaw > 0.01);
+    CHECK(bench().until([&] { return std::abs(told().steer_angle() - 0.8 * counts().yaw) < 0.005; }));
+  });
 }
