@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/vocabulary.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -10,13 +10,13 @@
 
 #include "control/exchanging.hpp"
 #include "control/operating.hpp"
-#include "control/reply.hpp"
+#include "members/member.hpp"
+#include "members/reply.hpp"
 #include "orca/base/executive.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/member.hpp"
 #include "run/renewal.hpp"
 
 namespace orca::supervisor {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "control/joint_orders.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/vocabulary.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "control/joint_orders.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

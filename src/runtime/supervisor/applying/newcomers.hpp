@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "members/member.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/record.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

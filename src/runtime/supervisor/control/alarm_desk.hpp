@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "control/reply.hpp"
-#include "run/ledger.hpp"
+#include "members/ledger.hpp"
+#include "members/reply.hpp"
 
 namespace orca::supervisor {
 

@@ -19,11 +19,11 @@
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
 #include "machines/system_hold.hpp"
+#include "members/ledger.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/ledger.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "control/reply.hpp"
+#include "members/reply.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/control.hpp"
 #include "orca/supervisor/control_socket.hpp"

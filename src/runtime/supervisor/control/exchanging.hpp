@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "control/operating.hpp"
-#include "control/reply.hpp"
 #include "control/system_names.hpp"
 #include "control/trial/tryout.hpp"
+#include "members/member.hpp"
+#include "members/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/record.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

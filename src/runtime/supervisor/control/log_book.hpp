@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "control/reply.hpp"
+#include "members/reply.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "members/ledger.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
-#include "run/ledger.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

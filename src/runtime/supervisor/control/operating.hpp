@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "control/joint_orders.hpp"
-#include "control/reply.hpp"
 #include "control/system_names.hpp"
+#include "members/member.hpp"
+#include "members/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/host/component_report.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

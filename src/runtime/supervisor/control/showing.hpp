@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "control/exchanging.hpp"
-#include "control/reply.hpp"
+#include "members/ledger.hpp"
+#include "members/member.hpp"
+#include "members/reply.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/ledger.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

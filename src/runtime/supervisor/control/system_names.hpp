@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/port_list.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "members/listening.hpp"
 #include "orca/base/log.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/supervisor/log_name.hpp"
-#include "run/listening.hpp"
 
 namespace orca::supervisor {
 namespace {

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "members/member.hpp"
 #include "orca/idl/machines.hpp"
 #include "orca/supervisor/host_start.hpp"
 #include "orca/supervisor/moment.hpp"
 #include "orca/supervisor/vocabulary.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -8,9 +8,9 @@
 #include "machines/gathering.hpp"
 #include "machines/messenger.hpp"
 #include "machines/motors_accord.hpp"
+#include "members/ledger.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_result.hpp"
-#include "run/ledger.hpp"
 
 namespace orca::supervisor {
 

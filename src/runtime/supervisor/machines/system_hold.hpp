@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "control/motor_hold.hpp"
-#include "control/reply.hpp"
 #include "machines/motors_accord.hpp"
+#include "members/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/moment.hpp"
 

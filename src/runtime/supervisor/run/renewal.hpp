@@ -6,11 +6,11 @@
 #include <set>
 #include <string>
 
-#include "member.hpp"
+#include "members/member.hpp"
+#include "members/roster.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/moment.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "roster.hpp"
 #include "starting/starter.hpp"
 
 namespace orca::supervisor {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "member.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/host/stop_signal.hpp"
 #include "orca/supervisor/moment.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "machines/neighbours.hpp"
-#include "member.hpp"
+#include "members/member.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/edge_choice.hpp"
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "members/ledger.hpp"
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/host_process.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "run/ledger.hpp"
-#include "run/member.hpp"
 #include "run_identity.hpp"
 
 namespace orca::supervisor {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "adoption.hpp"
+#include "members/alarm_relay.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
-#include "run/alarm_relay.hpp"
 
 namespace orca::supervisor {
 

@@ -11,10 +11,10 @@
 #include "bring_up.hpp"
 #include "control/control_desk.hpp"
 #include "machines/neighbours.hpp"
+#include "members/ledger.hpp"
+#include "members/member.hpp"
 #include "orca/supervisor/heartbeats.hpp"
 #include "run/conclusion.hpp"
-#include "run/ledger.hpp"
-#include "run/member.hpp"
 #include "run/trading.hpp"
 #include "starter.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

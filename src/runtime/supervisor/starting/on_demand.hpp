@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "run/ledger.hpp"
-#include "run/member.hpp"
+#include "members/ledger.hpp"
+#include "members/member.hpp"
 #include "starter.hpp"
 
 namespace orca::supervisor {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "bring_up.hpp"
+#include "members/member.hpp"
+#include "members/roster.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/supervisor/supervised_run.hpp"
-#include "run/member.hpp"
-#include "run/roster.hpp"
 #include "run_identity.hpp"
 #include "wiring.hpp"
 

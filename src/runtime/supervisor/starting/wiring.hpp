@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/shared_memory.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/patterns/shm/ring_segment.hpp"
 #include "orca/supervisor/vocabulary.hpp"
-#include "run/member.hpp"
 
 namespace orca::supervisor {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The answer to a client of the control socket, whatever the client does with it.
-#include "control/reply.hpp"
+#include "members/reply.hpp"
 
 #include <catch2/catch.hpp>
 

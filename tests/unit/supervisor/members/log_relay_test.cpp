@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/log_relay.hpp"
+#include "members/log_relay.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/ledger.hpp"
+#include "members/ledger.hpp"
 
 #include <catch2/catch.hpp>
 

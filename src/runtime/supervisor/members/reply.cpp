@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "control/reply.hpp"
+#include "reply.hpp"
 
 #include <utility>
 

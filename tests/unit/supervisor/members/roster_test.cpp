@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The processes of a machine, and their places in the run page.
-#include "run/roster.hpp"
+#include "members/roster.hpp"
 
 #include <catch2/catch.hpp>
 

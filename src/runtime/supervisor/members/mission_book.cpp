@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "control/mission_book.hpp"
+#include "mission_book.hpp"
 
 #include <algorithm>
 #include <utility>

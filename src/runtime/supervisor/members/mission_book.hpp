@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "control/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/supervisor/vocabulary.hpp"
+#include "reply.hpp"
 
 namespace orca::supervisor {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "control/mission_book.hpp"
+#include "members/mission_book.hpp"
 
 #include <catch2/catch.hpp>
 

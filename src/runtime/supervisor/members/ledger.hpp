@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "alarm_relay.hpp"
-#include "control/mission_book.hpp"
+#include "mission_book.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/alarm_store.hpp"
