@@ -8,8 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "agreed/graph_mark.hpp"
+#include "agreed/run_wishes.hpp"
 #include "doorbells.hpp"
-#include "graph_mark.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -26,7 +27,6 @@
 #include "order_desk.hpp"
 #include "peers_process.hpp"
 #include "report_sender.hpp"
-#include "run_wishes.hpp"
 
 namespace orca::supervisor {
 namespace {

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "agreed/graph_mark.hpp"
 #include "counter_records.hpp"
-#include "graph_mark.hpp"
 #include "orca/base/distant_log.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/idl/object_type.hpp"

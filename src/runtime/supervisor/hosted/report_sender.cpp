@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "agreed/tallying.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/supervisor/meeting_place.hpp"
-#include "tallying.hpp"
 
 namespace orca::supervisor {
 namespace {

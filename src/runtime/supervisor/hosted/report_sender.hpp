@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "agreed/run_wishes.hpp"
 #include "backlog.hpp"
 #include "orca/base/log.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 #include "recollection.hpp"
-#include "run_wishes.hpp"
 
 namespace orca::supervisor {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hosted/tallying.hpp"
+#include "agreed/tallying.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"

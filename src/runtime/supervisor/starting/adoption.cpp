@@ -13,8 +13,8 @@
 #include <thread>
 #include <utility>
 
-#include "hosted/graph_mark.hpp"
-#include "hosted/run_wishes.hpp"
+#include "agreed/graph_mark.hpp"
+#include "agreed/run_wishes.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"

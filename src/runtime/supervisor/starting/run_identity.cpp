@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-#include "hosted/graph_mark.hpp"
+#include "agreed/graph_mark.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"

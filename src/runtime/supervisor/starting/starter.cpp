@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "hosted/run_wishes.hpp"
+#include "agreed/run_wishes.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"

@@ -13,7 +13,7 @@
 #include "members/roster.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
-#include "orca/supervisor/supervised_run.hpp"
+#include "orca/supervisor/supervised_options.hpp"
 #include "run_identity.hpp"
 #include "wiring.hpp"
 

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "agreed/graph_mark.hpp"
+#include "agreed/run_wishes.hpp"
 #include "channel/samples.hpp"
-#include "hosted/graph_mark.hpp"
-#include "hosted/run_wishes.hpp"
 #include "hosted/vigil.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hosted/tallying.hpp"
+#include "agreed/tallying.hpp"
 
 #include <catch2/catch.hpp>
 

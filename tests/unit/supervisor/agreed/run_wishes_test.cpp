@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hosted/run_wishes.hpp"
+#include "agreed/run_wishes.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/executive.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/time.hpp"
+#include "orca/host/planned_failure.hpp"
+#include "orca/host/run_outputs.hpp"
+#include "orca/supervisor/log_name.hpp"
+#include "orca/supervisor/system_facts.hpp"
+
+namespace orca::supervisor {
+
+/// The options of a run in host processes.
+struct SupervisedOptions {
+  std::string program;                 ///< Path of the program of a host process.
+  std::vector<std::string> arguments;  ///< What its main() gets, from argv[0] on.
+  std::string machine;                 ///< The one of the graph that this is; empty: it declares none.
+  std::optional<std::uint64_t> seed;   ///< None: the graph's seed, or 1 if it has none.
+  std::optional<Duration> until;    ///< Time limit [s], counted from when everything is up; none: no limit.
+  std::optional<Backend> executor;  ///< Of all processes; none: as the graph says.
+  std::vector<host::PlannedFailure> planned_failures;
+  log::Level log_level = log::Level::info;
+  std::string log_name = kLogName;  ///< Name in the log for what concerns the run as a whole.
+  host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
+  SystemFacts facts;         ///< For operators.
+  SystemReader read;         ///< Reads graphs that are to be carried out; empty: none are.
+  std::vector<std::string> graph_files;  ///< That the graph was read from, the main one first.
+  /// Code of components that is built anew takes the place of the old one, and a graph that is saved is carried out.
+  bool watches = false;
+  bool holds = false;  ///< What moves is held from the start, until an operator releases it.
+};
+
+}  // namespace orca::supervisor
