@@ -17,7 +17,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
-#include "run/renewal.hpp"
+#include "starting/renewal.hpp"
 
 namespace orca::supervisor {
 

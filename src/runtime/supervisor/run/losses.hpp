@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "arrivals.hpp"
 #include "conclusion.hpp"
-#include "control/control_desk.hpp"
+#include "control_desk.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "members/roster.hpp"
@@ -13,9 +14,8 @@
 #include "orca/supervisor/exit_reason.hpp"
 #include "orca/supervisor/heartbeats.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "renewal.hpp"
-#include "starting/arrivals.hpp"
 #include "starting/on_demand.hpp"
+#include "starting/renewal.hpp"
 #include "starting/starter.hpp"
 
 namespace orca::supervisor {

@@ -7,10 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "arrivals.hpp"
 #include "conclusion.hpp"
-#include "control/control_desk.hpp"
+#include "control_desk.hpp"
 #include "losses.hpp"
 #include "machines/neighbours.hpp"
+#include "machines/trading.hpp"
 #include "members/alarm_relay.hpp"
 #include "members/ledger.hpp"
 #include "members/listening.hpp"
@@ -28,14 +30,12 @@
 #include "orca/supervisor/heartbeats.hpp"
 #include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "renewal.hpp"
 #include "starting/adoption.hpp"
-#include "starting/arrivals.hpp"
 #include "starting/on_demand.hpp"
+#include "starting/renewal.hpp"
 #include "starting/run_identity.hpp"
 #include "starting/starter.hpp"
 #include "taking_down.hpp"
-#include "trading.hpp"
 
 namespace orca::supervisor {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <utility>
 
-#include "adoption.hpp"
 #include "members/alarm_relay.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "starting/adoption.hpp"
 
 namespace orca::supervisor {
 

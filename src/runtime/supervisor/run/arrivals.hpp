@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "bring_up.hpp"
-#include "control/control_desk.hpp"
+#include "conclusion.hpp"
+#include "control_desk.hpp"
 #include "machines/neighbours.hpp"
+#include "machines/trading.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "orca/supervisor/heartbeats.hpp"
-#include "run/conclusion.hpp"
-#include "run/trading.hpp"
-#include "starter.hpp"
+#include "starting/bring_up.hpp"
+#include "starting/starter.hpp"
 
 namespace orca::supervisor {
 

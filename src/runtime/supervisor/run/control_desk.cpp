@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "control/control_desk.hpp"
+#include "control_desk.hpp"
 
 #include <algorithm>
 #include <charconv>

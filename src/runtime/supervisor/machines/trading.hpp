@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "machines/neighbours.hpp"
 #include "members/member.hpp"
+#include "neighbours.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/edge_choice.hpp"
 

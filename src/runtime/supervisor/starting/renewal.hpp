@@ -11,7 +11,7 @@
 #include "orca/base/result.hpp"
 #include "orca/supervisor/moment.hpp"
 #include "orca/supervisor/restart_policy.hpp"
-#include "starting/starter.hpp"
+#include "starter.hpp"
 
 namespace orca::supervisor {
 
