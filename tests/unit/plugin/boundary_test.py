@@ -28,7 +28,7 @@ INSIDE = (
     (f"{PORTS}/endpoints/push_edge.hpp", "  std::uint32_t first_ = 0;\n"),
     (f"{PORTS}/endpoints/request_client.hpp", "  Pending pending_;\n"),
     (f"{PORTS}/endpoints/send_server_endpoint.hpp", "  std::deque<Accepted> waiting_;\n"),
-    ("src/runtime/host/run/component/port_set.hpp", "  PortHome& home_;\n"),
+    ("src/runtime/host/run/component/parts/port_set.hpp", "  PortHome& home_;\n"),
 )
 
 # The type that changes, file, the text in front of which something is added, what is added.

@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "counters.hpp"
-#include "live_view.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
@@ -23,7 +21,9 @@
 #include "recording/run_files.hpp"
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
-#include "watched_system.hpp"
+#include "system/counters.hpp"
+#include "system/live_view.hpp"
+#include "system/watched_system.hpp"
 
 namespace orca::host {
 namespace {

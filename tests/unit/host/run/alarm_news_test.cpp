@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/alarm_news.hpp"
+#include "run/reporting/alarm_news.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "run/component/component_states.hpp"
+#include "run/component/parts/component_states.hpp"
 
 using namespace orca;
 using namespace orca::host;

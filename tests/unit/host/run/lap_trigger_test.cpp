@@ -6,7 +6,7 @@
 #include "orca/idl/motion.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "peer.hpp"
-#include "run/component/lap_trigger.hpp"
+#include "run/component/parts/lap_trigger.hpp"
 
 using namespace orca;
 using namespace orca::host;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "run/line_limit.hpp"
+#include "run/reporting/line_limit.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -9,7 +9,7 @@
 #include "diary.hpp"
 #include "executives.hpp"
 #include "orca/host/catalogue.hpp"
-#include "run/system.hpp"
+#include "run/system/system.hpp"
 
 namespace orca::test {
 

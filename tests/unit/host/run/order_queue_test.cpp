@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "executives.hpp"
-#include "run/component/order_queue.hpp"
+#include "run/component/parts/order_queue.hpp"
 
 using namespace orca;
 using namespace orca::host;

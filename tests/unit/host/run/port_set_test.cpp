@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ports of a component meet its code.
-#include "run/component/port_set.hpp"
+#include "run/component/parts/port_set.hpp"
 
 #include <catch2/catch.hpp>
 

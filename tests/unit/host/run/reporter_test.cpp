@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lines that the runtime writes about connections in trouble, and the results of missions that it reports.
-#include "run/reporter.hpp"
+#include "run/reporting/reporter.hpp"
 
 #include <catch2/catch.hpp>
 

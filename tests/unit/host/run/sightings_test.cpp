@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where robots are and to which places they drive, from the objects that are delivered.
-#include "run/sightings.hpp"
+#include "run/reporting/sightings.hpp"
 
 #include <catch2/catch.hpp>
 

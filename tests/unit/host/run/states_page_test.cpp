@@ -5,7 +5,7 @@
 
 #include "approval.hpp"
 #include "hardware_states.hpp"
-#include "run/component/component_states.hpp"
+#include "run/component/parts/component_states.hpp"
 
 using namespace orca;
 
@@ -165,7 +165,7 @@ std::string page() {
   return R"(<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->
 # The states of components and hardware
 
-Made from the tables that the runtime follows, `src/runtime/host/run/component/component_states.cpp` and
+Made from the tables that the runtime follows, `src/runtime/host/run/component/parts/component_states.cpp` and
 `src/hw/api/hardware_states.cpp`, by `tests/unit/host/run/states_page_test.cpp`; do not edit it by hand. Thesis Fig. 9.1 is the
 model of the first; [ADR 0007](adr/0007-state-machine.md) says where it differs and why.
 

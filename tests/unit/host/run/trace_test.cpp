@@ -8,7 +8,7 @@
 #include "executives.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/idl/motion.hpp"
-#include "run/trace.hpp"
+#include "run/recording/trace.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;

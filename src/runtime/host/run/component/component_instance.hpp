@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "component_loop.hpp"
-#include "component_parts.hpp"
 #include "lifecycle.hpp"
 #include "orca/host/component_report.hpp"
-#include "residency.hpp"
+#include "parts/component_parts.hpp"
+#include "parts/residency.hpp"
 #include "state/state_keeper.hpp"
 #include "state/succession.hpp"
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "component_parts.hpp"
 #include "lifecycle.hpp"
-#include "residency.hpp"
+#include "parts/component_parts.hpp"
+#include "parts/residency.hpp"
 
 namespace orca::host {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "component_parts.hpp"
-#include "component_states.hpp"
-#include "residency.hpp"
+#include "parts/component_parts.hpp"
+#include "parts/component_states.hpp"
+#include "parts/residency.hpp"
 #include "state/state_keeper.hpp"
 #include "state/succession.hpp"
 

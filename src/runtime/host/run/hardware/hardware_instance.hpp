@@ -12,7 +12,7 @@
 #include "containment/guard.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/hw/container.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

@@ -17,12 +17,12 @@
 #include "outer_edges.hpp"
 #include "outer_offers.hpp"
 #include "part_changes.hpp"
-#include "run/counters.hpp"
 #include "run/recording/run_files.hpp"
-#include "run/sightings.hpp"
+#include "run/reporting/sightings.hpp"
 #include "run/swap/rewiring.hpp"
 #include "run/swap/swaps.hpp"
-#include "run/watched_system.hpp"
+#include "run/system/counters.hpp"
+#include "run/system/watched_system.hpp"
 
 namespace orca::host {
 namespace {

@@ -9,7 +9,7 @@
 #include "orca/base/network_address.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
-#include "run/component_making.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 namespace {

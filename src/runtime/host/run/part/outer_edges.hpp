@@ -15,7 +15,7 @@
 #include "orca/host/catalogue.hpp"
 #include "orca/patterns/dds/dds_backend.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
-#include "run/system.hpp"
+#include "run/system/system.hpp"
 
 namespace orca::host {
 

@@ -15,7 +15,7 @@
 #include "outer_offers.hpp"
 #include "run/swap/rewiring.hpp"
 #include "run/swap/swaps.hpp"
-#include "run/watched_system.hpp"
+#include "run/system/watched_system.hpp"
 
 namespace orca::host {
 

@@ -11,9 +11,9 @@
 #include <thread>
 #include <utility>
 
+#include "lock_before.hpp"
 #include "orca/host/port_taps.hpp"
 #include "orca/idl/object_type.hpp"
-#include "run/lock_before.hpp"
 #include "table_file.hpp"
 
 namespace orca::host {

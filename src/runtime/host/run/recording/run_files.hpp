@@ -9,7 +9,7 @@
 #include "orca/graph/port_list.hpp"
 #include "orca/host/run_outputs.hpp"
 #include "recorder.hpp"
-#include "run/trace.hpp"
+#include "trace.hpp"
 
 namespace orca::host {
 

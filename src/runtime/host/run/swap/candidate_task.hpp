@@ -8,7 +8,7 @@
 #include "candidate_clock.hpp"
 #include "orca/base/executive.hpp"
 #include "orca/base/time.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

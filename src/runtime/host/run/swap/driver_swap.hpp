@@ -11,7 +11,7 @@
 #include "exchange.hpp"
 #include "orca/host/catalogue.hpp"
 #include "run/hardware/hardware_place.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

@@ -8,7 +8,7 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/settings.hpp"
-#include "run/component/port_set.hpp"
+#include "run/component/parts/port_set.hpp"
 
 namespace orca::host {
 namespace {

@@ -9,8 +9,8 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
-#include "run/component/component_settings.hpp"
-#include "run/component/parameters.hpp"
+#include "run/component/parts/component_settings.hpp"
+#include "run/component/parts/parameters.hpp"
 
 namespace orca::host {
 

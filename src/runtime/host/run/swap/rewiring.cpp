@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "orca/patterns/local/local_links.hpp"
-#include "run/component_making.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 

@@ -6,7 +6,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
-#include "run/system.hpp"
+#include "run/system/system.hpp"
 
 namespace orca::host {
 

@@ -16,7 +16,7 @@
 #include "orca/host/swap.hpp"
 #include "orca/plugin/image.hpp"
 #include "run/component/component_instance.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 #include "run/trial/backdrop.hpp"
 #include "run/trial/quiet_run.hpp"
 

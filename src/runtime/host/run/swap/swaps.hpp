@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "exchange.hpp"
-#include "run/system.hpp"
+#include "run/system/system.hpp"
 
 namespace orca::host {
 

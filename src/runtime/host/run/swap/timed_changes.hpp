@@ -9,8 +9,8 @@
 #include "orca/base/time.hpp"
 #include "orca/host/timed_change.hpp"
 #include "run/swap/swaps.hpp"
-#include "run/system.hpp"
-#include "run/watched_system.hpp"
+#include "run/system/system.hpp"
+#include "run/system/watched_system.hpp"
 
 namespace orca::host {
 

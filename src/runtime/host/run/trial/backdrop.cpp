@@ -3,7 +3,7 @@
 
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "orca/patterns/local/local_links.hpp"
-#include "run/component_making.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "orca/host/run_listener.hpp"
-#include "run/reporter.hpp"
-#include "run/run_context.hpp"
-#include "run/trace.hpp"
+#include "run/recording/trace.hpp"
+#include "run/reporting/reporter.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

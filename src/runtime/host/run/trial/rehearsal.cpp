@@ -12,7 +12,7 @@
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/plugin/trial.hpp"
 #include "quiet_run.hpp"
-#include "run/component_making.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 namespace {

@@ -8,7 +8,7 @@
 #include "orca/idl/object_type.hpp"
 #include "orca/patterns/endpoints/query_client_endpoint.hpp"
 #include "orca/patterns/endpoints/send_client_endpoint.hpp"
-#include "run/component_making.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "orca/base/result.hpp"
 #include "orca/host/kept_state.hpp"
-#include "run/component/component_parts.hpp"
-#include "run/component/component_states.hpp"
-#include "run/component/residency.hpp"
+#include "run/component/parts/component_parts.hpp"
+#include "run/component/parts/component_states.hpp"
+#include "run/component/parts/residency.hpp"
 
 namespace orca::host {
 

@@ -16,9 +16,9 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
-#include "recording/recorder.hpp"
+#include "run/recording/recorder.hpp"
+#include "run/recording/trace.hpp"
 #include "sightings.hpp"
-#include "trace.hpp"
 
 namespace orca::host {
 

@@ -8,7 +8,7 @@
 #include "lap_trigger.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/host/planned_failure.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "component/component_instance.hpp"
 #include "orca/host/run_view.hpp"
+#include "run/component/component_instance.hpp"
 
 namespace orca::host {
 

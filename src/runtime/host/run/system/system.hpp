@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "component_list.hpp"
-#include "hardware/hardware_place.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_view.hpp"
 #include "orca/hw/scene.hpp"
-#include "run_context.hpp"
+#include "run/hardware/hardware_place.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

@@ -12,7 +12,7 @@
 #include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "reporter.hpp"
-#include "trace.hpp"
+#include "run/recording/trace.hpp"
 
 namespace orca::host {
 

@@ -3,8 +3,8 @@
 
 #include "orca/base/executive.hpp"
 #include "orca/host/run_view.hpp"
-#include "reporter.hpp"
-#include "sightings.hpp"
+#include "run/reporting/reporter.hpp"
+#include "run/reporting/sightings.hpp"
 #include "system.hpp"
 
 namespace orca::host {

@@ -15,7 +15,7 @@
 #include "order_queue.hpp"
 #include "parameters.hpp"
 #include "port_set.hpp"
-#include "run/run_context.hpp"
+#include "run/reporting/run_context.hpp"
 
 namespace orca::host {
 

@@ -16,10 +16,10 @@
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
-#include "reporter.hpp"
-#include "run_context.hpp"
+#include "run/recording/trace.hpp"
+#include "run/reporting/reporter.hpp"
+#include "run/reporting/run_context.hpp"
 #include "system.hpp"
-#include "trace.hpp"
 
 namespace orca::host {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "component/component_instance.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/patterns/endpoints/links.hpp"
+#include "run/component/component_instance.hpp"
 
 namespace orca::host {
 

@@ -8,17 +8,17 @@
 #include <optional>
 #include <utility>
 
-#include "backdrop.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "orca/plugin/trial.hpp"
-#include "quiet_run.hpp"
-#include "run/component_making.hpp"
-#include "run/part/outer_offers.hpp"
+#include "outer_offers.hpp"
 #include "run/swap/fit.hpp"
-#include "trial_servers.hpp"
+#include "run/system/component_making.hpp"
+#include "run/trial/backdrop.hpp"
+#include "run/trial/quiet_run.hpp"
+#include "run/trial/trial_servers.hpp"
 
 namespace orca::host {
 namespace {
