@@ -2,7 +2,7 @@
 #include <set>
 #include <string>
 
-#include "orca/batch/batch.hpp"
+#include "orca/batch/inputs.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "worker.hpp"
+#include "making/worker.hpp"
 
 namespace orca::batch {
 namespace {

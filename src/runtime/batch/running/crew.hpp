@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "making/process.hpp"
 #include "orca/batch/batch.hpp"
-#include "process.hpp"
 #include "stop_requests.hpp"
 
 namespace orca::batch {

@@ -7,23 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "orca/base/executive.hpp"
 #include "orca/base/result.hpp"
 #include "orca/batch/experiment.hpp"
+#include "orca/batch/one_run.hpp"
 #include "orca/batch/record.hpp"
-#include "orca/xml/diagnostics.hpp"
 
 namespace orca::batch {
-
-struct BatchOptions {
-  std::vector<std::string> plugin_folders;  ///< Where plugins are looked for.
-  Backend backend = Backend::fiber;         ///< fiber or baton.
-  std::size_t jobs = 1;                     ///< Runs at a time, each in a process of its own.
-  /// The words that start a program which calls make_alone() with what follows them: the experiment's file, the run's number, the
-  /// descriptors for outcome and trace, the executor and the plugin folders. Empty: runs in other circumstances are made by
-  /// copies of this process, too, and then have its addresses of code.
-  std::vector<std::string> alone{};
-};
 
 /// The application's observer of a batch.
 ///
@@ -43,14 +32,6 @@ class BatchListener {
   /// Called a few times a second.
   virtual void tick(std::size_t running) = 0;
 };
-
-/// Checks the graphs of all variants in all worlds against their plugins, as deployer --check does. It runs nothing.
-/// @param experiment   may be one of which errors are in `diagnostics` already, see read_parts().
-/// @param diagnostics  receives everything that is wrong, each once.
-/// @param watch        is called before each graph; empty: nobody watches.
-/// @thread  the main thread, while there is no other.
-void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
-                  const std::function<void(std::size_t done, std::size_t all)>& watch = {});
 
 /// The runs of a batch, by their numbers.
 struct BatchPlan {
@@ -74,12 +55,5 @@ enum class BatchEnd {
 /// @thread  the main thread, while there is no other.
 [[nodiscard]] Result<BatchEnd> run_batch(const Experiment& experiment, const BatchPlan& plan,
                                          const BatchOptions& options, BatchListener& listener);
-
-/// Makes one run in this process, with another memory layout and in another folder, and ends the process.
-/// @param to     descriptor for the outcome.
-/// @param trace  descriptor for all deliveries; -1: none.
-/// @thread  the main thread, while there is no other.
-[[noreturn]] void make_alone(const Experiment& experiment, std::size_t number, const BatchOptions& options,
-                             int to, int trace);
 
 }  // namespace orca::batch

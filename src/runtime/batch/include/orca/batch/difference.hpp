@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "orca/base/result.hpp"
-#include "orca/batch/batch.hpp"
 #include "orca/batch/experiment.hpp"
+#include "orca/batch/one_run.hpp"
 
 namespace orca::batch {
 

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
 #include "orca/batch/experiment.hpp"
+#include "orca/batch/one_run.hpp"
 #include "orca/batch/store.hpp"
+#include "orca/xml/diagnostics.hpp"
 
 namespace orca::batch {
+
+/// Checks the graphs of all variants in all worlds against their plugins, as deployer --check does. It runs nothing.
+/// @param experiment   may be one of which errors are in `diagnostics` already, see read_parts().
+/// @param diagnostics  receives everything that is wrong, each once.
+/// @param watch        is called before each graph; empty: nobody watches.
+/// @thread  the main thread, while there is no other.
+void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
+                  const std::function<void(std::size_t done, std::size_t all)>& watch = {});
 
 /// Returns what the runs of an experiment depend on besides its own file: this program and Orca's libraries, the plugins, the
 /// files that this process has read for the graphs or that the graphs name, and what the experiment says of each world. Names of

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "orca/batch/batch.hpp"
+#include "orca/batch/one_run.hpp"
 
 namespace orca::batch {
 

@@ -2,26 +2,34 @@
 #include "worker.hpp"
 
 #include <fcntl.h>
+#include <malloc.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "circumstances.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_system.hpp"
 
 namespace orca::batch {
 namespace {
+
+constexpr std::size_t kLargestBlock = 512;  // [bytes] of what a component keeps many of
+constexpr std::size_t kBlocksEach = 1000;
+constexpr std::size_t kMovedBy = 37UL << 20;  // [bytes]
+constexpr int kFill = 0xa5;
 
 // Writes all of it, or what the pipe takes: the other side tells a text that is not whole.
 void write_all(int to, std::string_view text) {
@@ -36,6 +44,37 @@ std::string hexadecimal(std::uint64_t hash) {
   std::array<char, 17> digits{};
   std::snprintf(digits.data(), digits.size(), "%016" PRIx64, hash);
   return digits.data();
+}
+
+// Changes the environment of this process: where its home is, its time zone, the user's name and the size of the whole, which
+// moves the stack. Variables that the dynamic linker, sanitizers and Orca's tests read stay. To be called in a copy of the
+// process that is about to start another program.
+void change_environment() {
+  setenv("ORCA_ANOTHER_RUN", std::string(5000, 'x').c_str(), 1);
+  setenv("HOME", "/", 1);
+  setenv("USER", "somebody", 1);
+  setenv("LOGNAME", "somebody", 1);
+  setenv("TZ", "Pacific/Chatham", 1);
+  unsetenv("PWD");
+}
+
+// Holes of each size between blocks that stay: the library hands the hole out first that became free last.
+// Makes the next blocks of memory come in another order, at other addresses, and filled with another pattern, while there is
+// no other thread.
+void scramble_heap() {
+  mallopt(M_PERTURB, kFill);
+  std::minstd_rand random(1);  // the same each time, so that what is found once is found again
+  std::vector<void*> holes;
+  for (std::size_t size = 16; size <= kLargestBlock; size += 16) {
+    for (std::size_t i = 0; i < 2 * kBlocksEach; ++i) {
+      void* const block = std::malloc(size);
+      if (i % 2 == 0) holes.push_back(block);
+    }
+  }
+  std::shuffle(holes.begin(), holes.end(), random);
+  for (void* const hole : holes) std::free(hole);
+  // Whatever is mapped from here on lies elsewhere.
+  (void)mmap(nullptr, kMovedBy, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
 }
 
 Ending ending_of(const host::RunResult& result) {
