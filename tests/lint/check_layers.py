@@ -16,7 +16,10 @@ SCOPE = re.compile(
 
 
 def layer_of_file(path):
-    """Returns the layer whose folder is the longest prefix of the path; src/base/log means both log.cpp and log/."""
+    """Returns the layer of a public header, or that with the longest folder; src/base/log means both log.cpp and log/."""
+    if "/include/orca/" in path:
+        return layer_of_header(path.split("/include/")[1])
+
     def match(layer):
         return max((len(f) for f in layer.folders if re.match(re.escape(f) + r"[/.]", path)), default=0)
     best = max(LAYERS, key=match)
@@ -161,6 +164,46 @@ def _declared(path, declaration, owner, definition):
     return {path: f"#pragma once\n{declaration}\n", owner: f"#pragma once\n{definition}\n"}
 
 
+def _arrow(module, room, target):
+    return {f"src/runtime/{module}/{room}/a.cpp": f'#include "{target}/b.hpp"\n', f"src/runtime/{module}/{target}/b.hpp": "\n"}
+
+
+# (module, layer of the target, room, target): a wrong arrow out of each room that has rooms above it.
+ARROWS_UP = [
+    ("host", "host_run", "containment", "run"),
+    ("host", "host_reporting", "run/recording", "run/reporting"),
+    ("host", "host_component", "run/reporting", "run/component"),
+    ("host", "host_component_state", "run/component/parts", "run/component/state"),
+    ("host", "host_component", "run/component/state", "run/component"),
+    ("host", "host_system", "run/component", "run/system"),
+    ("host", "host_system", "run/hardware", "run/system"),
+    ("host", "host_trial", "run/system", "run/trial"),
+    ("host", "host_swap", "run/trial", "run/swap"),
+    ("host", "host_part", "run/swap", "run/part"),
+    ("host", "host_run", "run/part", "run"),
+    ("host", "host_run", "run/judging", "run"),
+    ("supervisor", "supervisor_processes", "channel", "processes"),
+    ("supervisor", "supervisor_members", "processes", "members"),
+    ("supervisor", "supervisor_members", "agreed", "members"),
+    ("supervisor", "supervisor_members", "hosted", "members"),
+    ("supervisor", "supervisor_hosted", "members", "hosted"),
+    ("supervisor", "supervisor_control", "members", "control"),
+    ("supervisor", "supervisor_run", "members", "run"),
+    ("supervisor", "supervisor_applying", "control", "applying"),
+    ("supervisor", "supervisor_run", "control", "run"),
+    ("supervisor", "supervisor_run", "machines", "run"),
+    ("supervisor", "supervisor_control", "starting", "control"),
+    ("supervisor", "supervisor_run", "starting", "run"),
+    ("supervisor", "supervisor_run", "applying", "run"),
+    ("batch", "batch_results", "measures", "results"),
+    ("batch", "batch_experiment", "results", "experiment"),
+    ("batch", "batch_making", "experiment", "making"),
+    ("batch", "batch_running", "report", "running"),
+    ("batch", "batch_comparing", "making", "comparing"),
+    ("batch", "batch_running", "comparing", "running"),
+    ("batch", "batch_running", "checking", "running"),
+    ("batch", "batch_checking", "running", "checking"),
+]
 BAD = [
     (_one("src/base/include/orca/base/x.hpp", '#include "orca/patterns/push.hpp"'), "x.hpp:2: layer base"),
     (_one("src/components/avoid/avoid.cpp", '#include "orca/graph/graph.hpp"'), "layer components must not include"),
@@ -175,6 +218,10 @@ BAD = [
     (_one("sim/world/x.cpp", '#include "orca/host/host.hpp"'), "layer sim_world must not include"),
     (_one("sim/rays/x.cpp", '#include "orca/sim/world.hpp"'), "layer sim_rays must not include"),
     (_one("sim/world/x.cpp", "#include <png.h>"), "(png)"),
+    # A public header belongs to the room that makes what it promises.
+    (_one("src/runtime/supervisor/run/include/orca/supervisor/outputs.hpp", '#include "orca/supervisor/supervised_run.hpp"'),
+     "layer supervisor_starting must not include"),
+    (_one("src/runtime/host/run/system/x.cpp", '#include "orca/host/hosted_part.hpp"'), "of layer host_part"),
     (_one("src/patterns/push.cpp", '#include "orca/unheard/of.hpp"'), "belongs to no layer"),
     (_one("src/newfolder/x.cpp", ""), "this folder belongs to no layer"),
     ({"src/components/a/a.cpp": '#include "../b/b.hpp"\n', "src/components/b/b.hpp": "\n"}, "belongs to a sibling"),
@@ -183,8 +230,7 @@ BAD = [
     # Between rooms of one module.
     ({"src/runtime/graph/reading/a.cpp": '#include "checking/b.hpp"\n', "src/runtime/graph/checking/b.hpp": "\n"},
      "private header of graph_checking"),
-    ({"src/runtime/host/containment/a.cpp": '#include "run/b.hpp"\n', "src/runtime/host/run/b.hpp": "\n"},
-     "private header of host_run"),
+    *((_arrow(module, *arrow), f"private header of {layer}") for module, layer, *arrow in ARROWS_UP),
     ({"sim/model/a.hpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"}, "private header of sim_rays"),
     ({"src/runtime/plugin/inspection/a.cpp": '#include "../b.hpp"\n', "src/runtime/plugin/b.hpp": "\n"},
      "private header of plugin"),
@@ -206,6 +252,9 @@ GOOD = [
     {"src/components/a/a.cpp": '#include "algorithm.hpp"\n', "src/components/a/algorithm.hpp": "\n"},
     {"src/base/executive/a.cpp": '#include "../b.hpp"\n', "src/base/b.hpp": "\n"},
     {"src/runtime/graph/checking/a.cpp": '#include "reading/b.hpp"\n', "src/runtime/graph/reading/b.hpp": "\n"},
+    _arrow("supervisor", "run", "members"),
+    _arrow("host", "run/swap", "run/trial"),
+    _arrow("batch", "comparing", "making"),
     {"sim/world/a.cpp": '#include "rays/b.hpp"\n', "sim/rays/b.hpp": "\n"},
     _declared("src/component_api/include/orca/component/x.hpp", "namespace orca {\nclass Strand;\n}  // namespace orca",
               "src/base/include/orca/base/strand.hpp", "namespace orca {\n\nclass Strand final {"),
