@@ -12,9 +12,6 @@
 
 #include "fake_catalogue.hpp"
 #include "orca/graph/diff.hpp"
-#include "orca/graph/dot.hpp"
-#include "orca/graph/json.hpp"
-#include "orca/graph/mermaid.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-#include "build_id.hpp"
+#include "elf_file.hpp"
 #include "orca/base/hash.hpp"
 
 namespace orca::plugin {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "elf_file.hpp"
 
+#include <cxxabi.h>
 #include <elf.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <tuple>
 
-#include "build_id.hpp"
 #include "elf_extent.hpp"
 
 namespace orca::plugin {
@@ -318,6 +320,53 @@ std::optional<ElfFile::Bytes> ElfFile::section(std::string_view name) const {
       return at_offset(section->sh_offset, section->sh_size);
   }
   return std::nullopt;
+}
+
+std::string demangled(std::string_view symbol) {
+  constexpr std::size_t kLongest = 4096;  // the demangler of the C++ library recurses
+  std::string name(symbol);
+  if (name.size() > kLongest || !name.starts_with("_Z")) return name;
+  int status = 0;
+  char* const text = abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status);
+  if (status == 0) name = text;
+  std::free(text);
+  return name;
+}
+
+namespace {
+
+constexpr std::string_view kOwner{"GNU\0", 4};  // of a note, with the zero at its end
+constexpr std::size_t kMostIdBytes = 64;        // [bytes] that are shown; real ones have 8 to 32
+
+std::uint64_t padded(std::uint64_t size, std::uint64_t align) {
+  const std::uint64_t step = align == 8 ? 8 : 4;
+  return (size + step - 1) / step * step;
+}
+
+std::string hexadecimal(std::span<const std::byte> bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const std::byte byte : bytes) {
+    text += kDigits[std::to_integer<std::size_t>(byte >> 4)];
+    text += kDigits[std::to_integer<std::size_t>(byte & std::byte{15})];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string build_id_in(std::span<const std::byte> notes, std::uint64_t align) {
+  Elf64_Nhdr head{};
+  while (notes.size() >= sizeof head) {
+    std::memcpy(&head, notes.data(), sizeof head);
+    const std::uint64_t text_at = padded(sizeof head + std::uint64_t{head.n_namesz}, align);
+    if (text_at > notes.size() || head.n_descsz > notes.size() - text_at) return {};
+    const std::string_view owner(reinterpret_cast<const char*>(notes.data()) + sizeof head, head.n_namesz);
+    if (head.n_type == NT_GNU_BUILD_ID && owner == kOwner)
+      return hexadecimal(notes.subspan(text_at, std::min<std::size_t>(head.n_descsz, kMostIdBytes)));
+    notes = notes.subspan(std::min<std::uint64_t>(padded(text_at + head.n_descsz, align), notes.size()));
+  }
+  return {};
 }
 
 }  // namespace orca::plugin

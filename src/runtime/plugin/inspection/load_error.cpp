@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "demangle.hpp"
+#include "elf_file.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::plugin {

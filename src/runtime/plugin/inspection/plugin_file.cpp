@@ -9,7 +9,7 @@
 #include <fstream>
 #include <optional>
 
-#include "demangle.hpp"
+#include "elf_file.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/input_file.hpp"
 #include "orca/base/layout.hpp"

@@ -3,7 +3,7 @@
 #include "inspection/plugin_file.hpp"
 
 #include "elf_image.hpp"
-#include "inspection/demangle.hpp"
+#include "inspection/elf_file.hpp"
 #include "orca/base/text.hpp"
 
 using namespace orca;
