@@ -21,8 +21,8 @@
 #include "recording/run_files.hpp"
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
-#include "system/counters.hpp"
 #include "system/live_view.hpp"
+#include "system/system.hpp"
 #include "system/watched_system.hpp"
 
 namespace orca::host {

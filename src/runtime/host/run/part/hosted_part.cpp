@@ -21,7 +21,7 @@
 #include "run/reporting/sightings.hpp"
 #include "run/swap/rewiring.hpp"
 #include "run/swap/swaps.hpp"
-#include "run/system/counters.hpp"
+#include "run/system/system.hpp"
 #include "run/system/watched_system.hpp"
 
 namespace orca::host {

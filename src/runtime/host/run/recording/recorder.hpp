@@ -8,7 +8,7 @@
 #include "orca/base/executive.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/port_list.hpp"
-#include "orca/host/recording.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::host {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "orca/base/time.hpp"
 
@@ -22,7 +23,15 @@ class LineLimit {
   /// @param about  what the line is about. The names of all things are kept, so they should be few.
   /// @return nothing if the line is to be left out. Otherwise the number of lines that were left out since
   /// the last one that was written.
-  [[nodiscard]] std::optional<std::uint64_t> admit(const std::string& about, TimePoint now);
+  [[nodiscard]] std::optional<std::uint64_t> admit(const std::string& about, TimePoint now) {
+    Entry& entry = entries_.try_emplace(about, Entry{now}).first->second;
+    if (now < entry.next) {
+      ++entry.left_out;
+      return std::nullopt;
+    }
+    entry.next = saturating_add(now, interval_);
+    return std::exchange(entry.left_out, 0);
+  }
 
  private:
   struct Entry {

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "driver_fit.hpp"
 #include "fit.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"

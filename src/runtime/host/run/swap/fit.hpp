@@ -11,6 +11,7 @@
 #include "orca/graph/graph.hpp"
 #include "run/component/parts/component_settings.hpp"
 #include "run/component/parts/parameters.hpp"
+#include "run/hardware/hardware_instance.hpp"
 
 namespace orca::host {
 
@@ -38,5 +39,11 @@ namespace orca::host {
 ///          those given.
 [[nodiscard]] Result<ParamValues> inherited(const std::vector<ParamContract>& offered, ParamValues values,
                                             const std::map<std::string, std::string>& given);
+
+/// Returns why a driver cannot take the present one's place under its servers, one difference each; empty if it can. It
+/// must have the same sensors with the same periods, the same kind of base, and every device that the present one describes.
+/// It may have more.
+/// @pre  both were constructed.
+[[nodiscard]] std::vector<std::string> driver_misfits(HardwareInstance& present, HardwareInstance& offered);
 
 }  // namespace orca::host

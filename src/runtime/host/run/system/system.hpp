@@ -12,6 +12,7 @@
 #include "component_list.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
 #include "orca/hw/scene.hpp"
 #include "run/hardware/hardware_place.hpp"
@@ -133,5 +134,11 @@ class System {
   std::set<std::string> fresh_;  // components that were added and not configured yet
   ComponentList components_;     // in the order of the graph at first; destroyed before the hardware
 };
+
+/// Collects the counters of all connections that end in this process: of each edge at its receiving end, of each port that
+/// sends, asks or serves.
+/// @param graph  of the whole system, of which this process may run a part.
+/// @thread  any.
+[[nodiscard]] RunCounters collect_counters(const graph::Graph& graph, const System& system);
 
 }  // namespace orca::host

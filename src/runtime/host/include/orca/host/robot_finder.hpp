@@ -5,7 +5,7 @@
 #include <string>
 
 #include "orca/graph/graph.hpp"
-#include "orca/host/robot_names.hpp"
+#include "orca/host/run_result.hpp"
 
 namespace orca::host {
 

@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "orca/host/picture.hpp"
-#include "orca/host/recording.hpp"
 
 namespace orca::host {
+
+/// A table that a run writes: what passes through some ports, as CSV.
+struct RecordingOptions {
+  std::string file;
+  std::vector<std::string> ports;  ///< "component.port", by their names in the graph.
+};
 
 /// What a run leaves behind and shows besides its log. A plain value.
 struct RunOutputs {

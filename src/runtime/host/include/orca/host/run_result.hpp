@@ -9,7 +9,6 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/host/robot_names.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -17,6 +16,20 @@
 #include "orca/patterns/counters.hpp"
 
 namespace orca::host {
+
+/// The robots of a system, and which of its components serves which. A plain value.
+struct RobotNames {
+  std::vector<std::string> robots;                  ///< Each one word, in the order of the graph.
+  std::map<std::string, std::string> by_component;  ///< Only components that serve one robot alone.
+
+  [[nodiscard]] bool several() const { return robots.size() > 1; }
+  /// Returns the robot that a component serves; empty: none, or several equally.
+  [[nodiscard]] std::string of(const std::string& component) const {
+    const auto found = by_component.find(component);
+    return found == by_component.end() ? std::string() : found->second;
+  }
+  friend bool operator==(const RobotNames&, const RobotNames&) = default;
+};
 
 /// The way in which a run ended.
 enum class RunOutcome {

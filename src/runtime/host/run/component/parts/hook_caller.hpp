@@ -26,7 +26,12 @@ class HookCaller {
   /// Calls `body` as this hook.
   /// @param port  port of a handler; "" for other hooks. It must outlive the call.
   /// @return the exception or interruption; nothing if the call returned.
-  std::optional<PluginFault> call(Hook hook, const std::function<void()>& body, const char* port = "");
+  std::optional<PluginFault> call(Hook hook, const std::function<void()>& body, const char* port = "") {
+    hook_.store(hook == Hook::handler ? port : to_string(hook), std::memory_order_release);
+    std::optional<PluginFault> fault = guarded_call({component_.c_str(), hook, code_, port}, body);
+    hook_.store("", std::memory_order_release);
+    return fault;
+  }
 
   /// Returns the hook that the strand is in now, for people: "work()"; for a handler its port; else "".
   [[nodiscard]] const char* current() const { return hook_.load(std::memory_order_acquire); }
