@@ -5,7 +5,6 @@
 #include <sstream>
 #include <utility>
 
-#include "codes.hpp"
 #include "number_list.hpp"
 #include "orca/base/text.hpp"
 #include "orca/batch/experiment.hpp"

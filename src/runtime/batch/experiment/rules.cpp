@@ -3,8 +3,6 @@
 
 #include <array>
 
-#include "codes.hpp"
-
 namespace orca::batch {
 namespace {
 

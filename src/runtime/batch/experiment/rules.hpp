@@ -3,6 +3,24 @@
 
 #include "orca/xml/rules.hpp"
 
+/// The codes of what may be wrong with an experiment; docs/comparing.md explains them. A code keeps its meaning for ever.
+namespace orca::batch::codes {
+
+inline constexpr const char* kWrongRoot = "E001";
+inline constexpr const char* kUnknownElement = "E002";
+inline constexpr const char* kUnknownAttribute = "E003";
+inline constexpr const char* kMissing = "E004";
+inline constexpr const char* kBadValue = "E005";
+inline constexpr const char* kStrayText = "E006";
+inline constexpr const char* kDuplicateName = "E007";
+inline constexpr const char* kNumbers = "E008";
+inline constexpr const char* kValueOrFile = "E009";
+inline constexpr const char* kNoGraph = "E010";
+inline constexpr const char* kTooMany = "E011";
+inline constexpr const char* kReferences = "E012";
+
+}  // namespace orca::batch::codes
+
 namespace orca::batch {
 
 extern const xml::ElementRule kExperimentRule;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "candidates.hpp"
+#include "checking/wiring.hpp"
 
 #include "checking/trading/providers.hpp"
 #include "endpoints.hpp"

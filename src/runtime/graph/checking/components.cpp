@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "components.hpp"
+#include "checking/checks.hpp"
 
 #include <cstdint>
 #include <set>
@@ -9,7 +9,6 @@
 #include "ports.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
-#include "reading/node_name.hpp"
 #include "reading/parameters.hpp"
 #include "reading/trading/properties.hpp"
 #include "reading/values.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "configuration.hpp"
+#include "checking/checks.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "hardware.hpp"
+#include "checking/checks.hpp"
 
 #include <algorithm>
 
-#include "emulated_lines.hpp"
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
-#include "reading/node_name.hpp"
 #include "reading/parameters.hpp"
+#include "reading/values.hpp"
 
 namespace orca::graph {
 namespace {

@@ -3,19 +3,10 @@
 
 #include <algorithm>
 
-#include "checking/operation/changes.hpp"
-#include "checking/operation/groups.hpp"
-#include "checking/placing/demand.hpp"
-#include "checking/placing/placement.hpp"
-#include "checking/placing/processes.hpp"
-#include "components.hpp"
-#include "configuration.hpp"
+#include "checking/checks.hpp"
 #include "endpoints.hpp"
-#include "hardware.hpp"
-#include "influence.hpp"
 #include "model.hpp"
 #include "orca/xml/document.hpp"
-#include "order.hpp"
 #include "reading/assembly.hpp"
 #include "reading/command_line.hpp"
 #include "reading/merging/parameter_settings.hpp"
@@ -23,8 +14,6 @@
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
 #include "types.hpp"
-#include "waiting_room.hpp"
-#include "wiring.hpp"
 
 namespace orca::graph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "wiring.hpp"
+#include "checking/checks.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,11 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "candidates.hpp"
-#include "checking/placing/links.hpp"
-#include "checking/trading/choices.hpp"
 #include "checking/trading/providers.hpp"
-#include "edges.hpp"
+#include "checking/wiring.hpp"
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"

@@ -9,7 +9,6 @@
 #include "codes.hpp"
 #include "files.hpp"
 #include "naming.hpp"
-#include "node_name.hpp"
 #include "orca/base/text.hpp"
 #include "prefix.hpp"
 #include "structure.hpp"

@@ -4,11 +4,11 @@
 #include <map>
 
 #include "codes.hpp"
-#include "node_name.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/matching.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
+#include "values.hpp"
 
 namespace orca::graph {
 namespace {

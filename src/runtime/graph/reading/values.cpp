@@ -119,4 +119,15 @@ std::string resolved_path(const std::string& path, const Text& origin) {
   return (problem ? folder / path : absolute).lexically_normal().string();
 }
 
+void check_name(const Node& node, const char* attribute, Report& report) {
+  const Text* name = node.known(attribute);
+  if (name == nullptr) return;
+  const auto fault = name_fault(name->value);
+  if (fault && !report.tolerates(name->value)) {
+    report.error(codes::kBadName, name->position,
+                 "the " + std::string(attribute) + " " + in_quotes(name->value) + " of a " +
+                     std::string(node.rule->name) + ": " + *fault);
+  }
+}
+
 }  // namespace orca::graph

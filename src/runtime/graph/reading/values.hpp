@@ -35,4 +35,7 @@ std::optional<T> read_attribute(const Node& node, const char* name, Report& repo
 // names it, or at the current folder if the command line names it.
 std::string resolved_path(const std::string& path, const Text& origin);
 
+// Reports a bad name of the node. Names that are missing or unknown are reported already.
+void check_name(const Node& node, const char* attribute, Report& report);
+
 }  // namespace orca::graph

@@ -3,7 +3,7 @@
 
 #include "attributes.hpp"
 #include "orca/base/json.hpp"
-#include "orca/graph/json.hpp"
+#include "orca/graph/print.hpp"
 
 namespace orca::graph {
 namespace {

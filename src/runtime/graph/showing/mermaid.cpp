@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/graph/mermaid.hpp"
 #include "drawing.hpp"
+#include "orca/graph/print.hpp"
 
 namespace orca::graph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/graph/schema.hpp"
+#include "orca/graph/print.hpp"
 
 #include "orca/xml/document.hpp"
 #include "reading/rules.hpp"

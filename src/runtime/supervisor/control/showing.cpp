@@ -7,7 +7,6 @@
 #include <set>
 
 #include "orca/base/text.hpp"
-#include "orca/graph/json.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/component_state.hpp"

@@ -2,7 +2,6 @@
 // Groups as the reader and the checks understand them. Most of their errors are in tests/data/graphs/broken.
 #include "loading.hpp"
 #include "orca/graph/diff.hpp"
-#include "orca/graph/json.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 

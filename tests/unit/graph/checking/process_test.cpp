@@ -2,7 +2,6 @@
 // Processes, machines and links as the reader and the checks understand them. Their errors are in
 // tests/data/graphs/broken.
 #include "loading.hpp"
-#include "orca/graph/json.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 

@@ -5,8 +5,6 @@
 
 #include "loading.hpp"
 #include "orca/graph/diff.hpp"
-#include "orca/graph/dot.hpp"
-#include "orca/graph/json.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
 

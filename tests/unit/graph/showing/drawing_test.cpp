@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The pictures are checked with a reader of our own; with Graphviz itself where it is installed.
-#include "orca/graph/dot.hpp"
-#include "orca/graph/json.hpp"
-#include "orca/graph/mermaid.hpp"
 #include "orca/graph/print.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // graphs/orca-graph.xsd is the output of --schema, and all graphs of the repository fit it.
-#include "orca/graph/schema.hpp"
+#include "orca/graph/print.hpp"
 
 #include <map>
 #include <set>

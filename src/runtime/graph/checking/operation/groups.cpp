@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "groups.hpp"
+#include "checking/checks.hpp"
 
 #include <set>
 #include <string>
@@ -7,7 +7,7 @@
 #include "orca/base/text.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
-#include "reading/node_name.hpp"
+#include "reading/values.hpp"
 
 namespace orca::graph {
 namespace {

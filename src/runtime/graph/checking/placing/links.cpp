@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "links.hpp"
+#include "checking/wiring.hpp"
 
 #include <array>
 #include <map>

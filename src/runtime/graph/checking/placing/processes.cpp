@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "processes.hpp"
+#include "checking/checks.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -16,7 +16,6 @@
 #include "orca/xml/values.hpp"
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
-#include "reading/node_name.hpp"
 #include "reading/values.hpp"
 
 namespace orca::graph {

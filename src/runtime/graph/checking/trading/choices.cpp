@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "choices.hpp"
+#include "checking/wiring.hpp"
 
 #include <algorithm>
 #include <string>

@@ -18,4 +18,23 @@ namespace orca::graph {
 /// Does the same for all values of some parameters, by name.
 [[nodiscard]] std::map<std::string, std::string> print_values(const Params& params);
 
+/// The graph as JSON, for programs: an object with machines, processes, hardware, components, groups and connections;
+/// attributes as in XML, parameters as numbers, flags and texts, in SI.
+[[nodiscard]] std::string graph_json(const Graph& graph);
+
+/// Returns the graph as a picture for Graphviz (`deployer GRAPH --dot | dot -Tsvg`): components and hardware
+/// with their types, connections with their ports, processes and sub-graphs as boxes, late-bound edges dashed.
+///
+/// @param profiles  the profiles merged into it, for the title; may be empty.
+[[nodiscard]] std::string dot(const Graph& graph, const std::string& profiles);
+
+/// Returns the graph as a Mermaid flow chart, which many web pages and editors draw. Shows what dot() shows.
+///
+/// @param profiles  the profiles merged into it, for the title; may be empty.
+[[nodiscard]] std::string mermaid(const Graph& graph, const std::string& profiles);
+
+/// Returns the graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the
+/// rules that the reader follows, but is less strict than the reader: any value may be "${arg}".
+[[nodiscard]] std::string schema();
+
 }  // namespace orca::graph
