@@ -3,18 +3,17 @@
 // pseudo terminal and real time.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "deployer.hpp"
 #include "device_on_desk.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
+#include "record_table.hpp"
 #include "temp_folder.hpp"
 #include "virtual_desk.hpp"
 
@@ -65,42 +64,22 @@ Words recorded(const TempFolder& folder, const Words& more = {}) {
   return Words{"--record", folder.file("scans.csv") + "=laser.LaserRangeReadingsPush"} + more;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-// The recorded scans: a row each, by the names of their columns.
+// The recorded scans.
 struct Scans {
-  explicit Scans(const TempFolder& folder) {
-    const std::vector<std::string> lines = split_lines(read_text(folder.file("scans.csv")));
-    names = cells_of(lines.at(0));
-    for (std::size_t i = 1; i < lines.size(); ++i) rows.push_back(cells_of(lines[i]));
-  }
+  explicit Scans(const TempFolder& folder)
+      : rows(RecordTable(folder.file("scans.csv")).rows("laser.LaserRangeReadingsPush")) {}
   [[nodiscard]] double value(std::size_t row, const std::string& name) const {
-    const auto at = std::ranges::find(names, name) - names.begin();
-    return std::stod(rows.at(row).at(static_cast<std::size_t>(at)));
+    return number(rows.at(row), name);
   }
-  [[nodiscard]] double range(std::size_t row, std::size_t beam) const {
-    return value(row, "ranges[" + std::to_string(beam) + "]");
-  }
-  [[nodiscard]] std::size_t beams() const {
-    const auto is_beam = [](const std::string& name) {
-      return name.starts_with("ranges[") && name != "ranges[rest]";
-    };
-    return static_cast<std::size_t>(std::ranges::count_if(names, is_beam));
-  }
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<RecordTable::Row> rows;
 };
 
 // Checks that each beam of the row shows what the mirror shows in its direction.
 void check_ranges(const Scans& scans, std::size_t row, double angle, double resolution, double unit) {
   const std::vector<double> shown = ranges_of_place();
   const auto beams = static_cast<std::size_t>(std::lround(angle / resolution)) + 1;
-  REQUIRE(scans.beams() == beams);
+  const std::vector<double> got = numbers(scans.rows.at(row), "ranges");
+  REQUIRE(got.size() == beams);
   CHECK(scans.value(row, "angle_start") == Approx(-0.5 * angle * kDegree));
   CHECK(scans.value(row, "angle_increment") == Approx(resolution * kDegree));
   for (std::size_t i = 0; i < beams; ++i) {
@@ -108,9 +87,9 @@ void check_ranges(const Scans& scans, std::size_t row, double angle, double reso
     const double range = shown[static_cast<std::size_t>(std::lround((degrees + 90.0) / 0.25))];
     INFO("beam " << i);
     if (std::isfinite(range))
-      CHECK(std::abs(scans.range(row, i) - range) <= 0.501 * unit);
+      CHECK(std::abs(got[i] - range) <= 0.501 * unit);
     else
-      CHECK(scans.range(row, i) >= scans.value(row, "max_range"));
+      CHECK(got[i] >= scans.value(row, "max_range"));
   }
 }
 
