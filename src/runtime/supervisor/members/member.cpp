@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::string_view kLastWordsMark = "error: ";  // as host::LastWords writes them
 constexpr Duration kDeafLimit = 200ms;  // from the loss of the channel to the end of a process
-constexpr Duration kJustBefore = 1s;    // older words tell of something else
+constexpr Duration kJustBefore =
+    5s;  // a starved process takes long to die; older words tell of something else
 
 }  // namespace
 
