@@ -38,6 +38,7 @@ class BenchHost final : public hw::HardwareHost {
   void report(const idl::Contact&) override {}
   [[nodiscard]] std::uint64_t run_seed() const override { return 1; }
   void state_changed(hw::HardwareState) override {}
+  void held(const std::optional<std::string>&) override {}
   void pausing() override {}
   [[nodiscard]] Executive& executive() override { return executive_; }
 
