@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hardware container whose device may come back: it is opened again after a while, and its base stands until an operator lets
-// it move. Cases that mostly wait have a virtual clock; one with a steady clock shows that recovery works on threads too.
+// it move. Cases that mostly wait have a virtual clock, and threads in the slow tests; one shows always that recovery works on threads.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -9,6 +9,7 @@
 #include <catch2/catch.hpp>
 
 #include "fake_scout.hpp"
+#include "patient_executives.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -90,7 +91,7 @@ struct CableRobot {
 }  // namespace
 
 TEST_CASE("a device that is unplugged stops its motors, and works again when it is back", "[hw][recovery]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     CableRobot robot(executive);
     robot.drive();
     robot.outside.plugged = false;
@@ -169,7 +170,7 @@ TEST_CASE("a device that stays away is told once, and asked for less and less of
 
 TEST_CASE("a device that fails for one reason after the other is told each, and comes back",
           "[hw][recovery]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     CableRobot robot(executive);
     std::atomic<const char*> reason{"the device has gone"};
     robot.scout.trouble["open"] = robot.scout.trouble["poll"] = [&] {
@@ -188,7 +189,7 @@ TEST_CASE("a device that fails for one reason after the other is told each, and 
 }
 
 TEST_CASE("a device that was never there is a fault for good: the system does not start", "[hw][recovery]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     CableRobot robot(executive);
     robot.outside.plugged = false;
     robot.scout.run();
@@ -201,7 +202,7 @@ TEST_CASE("a device that was never there is a fault for good: the system does no
 
 TEST_CASE("a container is probing until its driver knows what is there, and can be shut down meanwhile",
           "[hw][recovery]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     CableRobot robot(executive);
     robot.outside.answers = false;
     robot.scout.run();
@@ -224,7 +225,7 @@ TEST_CASE("a container is probing until its driver knows what is there, and can 
 }
 
 TEST_CASE("a device that falls silent has failed, with advice", "[hw][recovery]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     CableRobot robot(executive);
     robot.drive();
     robot.outside.speaks = false;

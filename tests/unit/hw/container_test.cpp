@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "fake_scout.hpp"
+#include "patient_executives.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -209,7 +210,7 @@ TEST_CASE("observers of a container are woken when its state changes", "[hw][con
 }
 
 TEST_CASE("an observer that has gone is not woken", "[hw][container]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     Strand watcher(executive, {"watcher", 0});
     RunningScout robot(executive);
     robot.scout.watch(watcher);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "patient_executives.hpp"
 #include "scout_base.hpp"
 
 using namespace orca;
@@ -74,7 +75,7 @@ TEST_CASE("a server offers a port only for what its base can do", "[hw][server][
 }
 
 TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires", "[hw][server][motion]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     ScoutBase base(executive, {}, with(idl::HOLONOMIC));
     base.connect("velocity", "HolonomicVelocitySend");
     base.run();
@@ -103,7 +104,7 @@ TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases
 
 TEST_CASE("the command of an actuator starts idle hardware, and is not undone when the hardware is released",
           "[hw][server][actuators]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     Nomad base(executive);
     REQUIRE(base.client.turret.send(pointing(1.5)).ok());
     CHECK(base.robot.notes("turret 1.5"));

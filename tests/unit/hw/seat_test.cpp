@@ -2,6 +2,7 @@
 // The seat of a driver: what a server notices while the driver closes its device and opens it again.
 #include <catch2/catch.hpp>
 
+#include "patient_executives.hpp"
 #include "scout_base.hpp"
 
 using namespace orca;
@@ -32,7 +33,7 @@ struct DrivenBase : ScoutBase {
 }  // namespace
 
 TEST_CASE("a driver that was closed opens its device again, for as many users as there are", "[hw][seat]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     DrivenBase base(executive);
     base.close();
     base.robot.scout.run();
@@ -44,7 +45,7 @@ TEST_CASE("a driver that was closed opens its device again, for as many users as
 }
 
 TEST_CASE("in a pause the base stands, a command is refused, and the server works on", "[hw][seat]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     DrivenBase base(executive);
     base.close();
     CHECK(base.robot.diary.has("drive 0 0"));

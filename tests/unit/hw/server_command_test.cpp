@@ -2,6 +2,7 @@
 // Motion commands through a hardware server.
 #include <catch2/catch.hpp>
 
+#include "patient_executives.hpp"
 #include "scout_base.hpp"
 
 using namespace orca;
@@ -27,7 +28,7 @@ TEST_CASE("a motion command starts an idle base and is carried out", "[hw][serve
 }
 
 TEST_CASE("a base that gets no more commands stops, and is released a little later", "[hw][server][motion]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     ScoutBase base(executive);
     base.run();
     REQUIRE(base.client.motion.send(turn(0.25, 0.5)).ok());
@@ -93,7 +94,7 @@ TEST_CASE("a full stop overrules a command that the base had no time to start fo
 
 TEST_CASE("a command that waited longer for the hardware than a command may live is not carried out",
           "[hw][server][motion]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     ScoutBase base(executive, {{"start", [&] {
                                   sleep(executive, kScoutCommandAge + 50ms);
                                   return ok();

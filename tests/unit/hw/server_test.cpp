@@ -2,6 +2,7 @@
 // The contract of a hardware server: the five interfaces of a Scout's base (thesis 11.1, Fig. 11.3).
 #include <catch2/catch.hpp>
 
+#include "patient_executives.hpp"
 #include "scout_base.hpp"
 
 using namespace orca;
@@ -88,7 +89,7 @@ TEST_CASE("subscribing starts the hardware, readings come with the server's head
 
 TEST_CASE("a query to idle hardware starts it, waits for its first reading, and releases it again",
           "[hw][server]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     ScoutBase base(executive);
     base.run();
     const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
@@ -193,7 +194,7 @@ TEST_CASE("a server of one type offers the sensors that deliver it, and no other
 
 TEST_CASE("two servers around one sensor hand out the same readings, each an object of its own",
           "[hw][server]") {
-  run_on_each(virtual_executives(), [](Executive& executive) {
+  run_on_each(patient_executives(), [](Executive& executive) {
     RunningScout robot(executive);
     hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
     const int first = 1;
