@@ -21,6 +21,12 @@ elseif(ORCA_SANITIZE MATCHES "address")
   set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0")
 endif()
 
+# The environment of tests that compile: the compiler cache, also for what lies in a new folder each time.
+set(ORCA_CACHED_COMPILER)
+if(ORCA_CCACHE)
+  set(ORCA_CACHED_COMPILER "CMAKE_CXX_COMPILER_LAUNCHER=${ORCA_CCACHE}" CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1)
+endif()
+
 # Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs three entries per processor.
 cmake_host_system_information(RESULT ORCA_PROCESSORS QUERY NUMBER_OF_LOGICAL_CORES)
 
@@ -38,14 +44,15 @@ endfunction()
 # All slots of any machine: ctest lets an entry that needs more than there are run alone.
 set(ORCA_ALONE 1024)
 
-# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES] [OPTIMISED] [TOGETHER])
+# orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES] [OPTIMISED] [TOGETHER] [SLOW_RUN])
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 300 s.
 # COST [s] is what it takes on an idle machine; ctest starts the dearest first. It is given from about 20 s on. COMPUTES is for an
-# entry that keeps a processor busy for most of its time. OPTIMISED is for tests that compute much themselves. TOGETHER are sources whose unnamed namespaces have no name in common:
-# they are compiled in units if the preset does so.
+# entry that keeps a processor busy for most of its time. OPTIMISED is for tests that compute much themselves. TOGETHER are
+# sources whose unnamed namespaces have no name in common: they are compiled in units if the preset does so. SLOW_RUN adds the
+# entry NAME_whole to the slow tests, for all that slow_run.hpp leaves out of the normal suite.
 function(orca_add_test name)
-  cmake_parse_arguments(arg "OPTIMISED;TOGETHER;COMPUTES" "TIMEOUT;COST" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "OPTIMISED;TOGETHER;COMPUTES;SLOW_RUN" "TIMEOUT;COST" "SOURCES;LINK;LABELS;DEPENDS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -68,6 +75,7 @@ function(orca_add_test name)
   if(arg_DEPENDS)
     add_dependencies(${name} ${arg_DEPENDS})
   endif()
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
   add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]~[quiet]")
@@ -78,6 +86,11 @@ function(orca_add_test name)
   endif()
   if(arg_COMPUTES)
     orca_computes(${name})
+  endif()
+  if(arg_SLOW_RUN)
+    add_test(NAME ${name}_whole COMMAND ${name} --use-colour no "~[.]~[data]~[tool]~[quiet]")
+    set_tests_properties(${name}_whole PROPERTIES LABELS slow TIMEOUT 3600
+                         ENVIRONMENT "ORCA_SLOW=1;${ORCA_TEST_ENVIRONMENT}")
   endif()
 endfunction()
 

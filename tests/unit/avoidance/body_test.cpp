@@ -8,6 +8,7 @@
 
 #include "orca/avoidance/advice.hpp"
 #include "orca/base/random.hpp"
+#include "slow_run.hpp"
 
 using namespace orca::avoid;
 using orca::Vec2;
@@ -73,7 +74,8 @@ TEST_CASE("straight ahead the way of a body ends where its front with its margin
 TEST_CASE("the room to turn ends where a corner comes within 3 cm of an echo", "[avoidance]") {
   orca::RandomStream random(1, "test", "turn");
   int limited = 0;
-  for (int i = 0; i < 2000; ++i) {
+  const int cases = orca::test::part_of(2000);
+  for (int i = 0; i < cases; ++i) {
     const double range = random.uniform(0.2, 0.4);
     const double bearing = random.uniform(-pi, pi);
     if (is_in_body(at(range, bearing))) continue;
@@ -90,7 +92,7 @@ TEST_CASE("the room to turn ends where a corner comes within 3 cm of an echo", "
     CHECK(room.left == Approx(left).margin(2e-4));
     CHECK(room.right == Approx(right).margin(2e-4));
   }
-  CHECK(limited > 200);
+  CHECK(limited > cases / 10);
 }
 
 TEST_CASE("an echo that is too near already lets only that corner turn away from it", "[avoidance]") {

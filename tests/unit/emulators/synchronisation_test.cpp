@@ -23,6 +23,7 @@
 #include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/sick_lms/telegram.hpp"
 #include "orca/hw/xr4000/frame.hpp"
+#include "slow_run.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -198,8 +199,8 @@ void check_never_lost(Duration time) {
 
 }  // namespace
 
-TEST_CASE("the frames of a device are found without a loss, for an hour", "[emulators][framing]") {
-  check_never_lost(1h);
+TEST_CASE("the frames of a device are found without a loss", "[emulators][framing]") {
+  check_never_lost(orca::test::part_of(60) * 1min);
 }
 
 TEST_CASE("the frames of a device are found without a loss, for a thousand hours",
@@ -213,10 +214,11 @@ TEST_CASE("when one frame in a hundred is spoiled, at most one good one is lost 
     RestlessBody body;
     Device device = make_device(which, body);
     Comparison comparison(device.protocol, 100);
-    let_send(device, body, 5h, comparison);
+    const Duration time = orca::test::part_of(300) * 1min;
+    let_send(device, body, time, comparison);
     const Count count = comparison.result();
     INFO(device.name << ": " << count.sent << " frames, " << count.spoiled << " spoiled");
-    CHECK(count.spoiled >= 180);
+    CHECK(count.spoiled >= time / 100s);
     CHECK(count.most_missed <= 1);
     CHECK(count.found + 2 * count.spoiled >= count.sent);
     CHECK(count.statistics.resynchronisations > 0);

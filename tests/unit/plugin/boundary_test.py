@@ -6,6 +6,7 @@ What is private to endpoints, their queues and the host must change no byte of i
 its table of layouts, and the loader must then refuse it with the type's name and both hashes.
 """
 import argparse
+import os
 import re
 import shutil
 import subprocess
@@ -53,6 +54,9 @@ class Old final : public orca::Component {
 ORCA_COMPONENT(Old, "test.Old")
 """
 
+# The compiler cache, if there is one. CMake reads the same variable.
+LAUNCHER = os.environ.get("CMAKE_CXX_COMPILER_LAUNCHER", "").split()
+
 failures = []
 
 
@@ -83,7 +87,7 @@ class Tree:
 
     def compile(self, source, out, *more):
         flags = [f"-I{self.root / folder / 'include'}" for folder in INCLUDES]
-        subprocess.run([self.options.compiler, "-std=c++20", "-fPIC", "-fvisibility=hidden", "-DORCA_BUILD_ID=\"test\"",
+        subprocess.run([*LAUNCHER, self.options.compiler, "-std=c++20", "-fPIC", "-fvisibility=hidden", "-DORCA_BUILD_ID=\"test\"",
                         f"-ffile-prefix-map={self.root}=.", *flags, "-isystem", self.options.build / "idl/include", *more,
                         "-c", source, "-o", out], check=True, cwd=self.root)
         return out

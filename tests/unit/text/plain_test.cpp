@@ -11,6 +11,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
 #include "reading.hpp"
+#include "slow_run.hpp"
 
 using namespace orca;
 using namespace std::string_literals;
@@ -58,7 +59,7 @@ std::int64_t ns_of(const std::string& stamp) {
 
 TEST_CASE("any 64 bits of a double come back", "[text][number]") {
   RandomStream random(20, "test", "doubles");
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < orca::test::part_of(20'000); ++i) {
     const auto value = std::bit_cast<double>(random());
     REQUIRE(bits(round_trip(value)) == bits(value));
   }

@@ -5,6 +5,7 @@
 #include "orca/graph/print.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
+#include "slow_run.hpp"
 
 using namespace orca;
 using namespace orca::graph;
@@ -148,7 +149,7 @@ class RandomGraph {
 }  // namespace
 
 TEST_CASE("parse, print, parse is the identity", "[graph][property]") {
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+  for (std::uint64_t seed = 1; seed <= orca::test::part_of<std::uint64_t>(400); ++seed) {
     const std::string text = RandomGraph(seed).text();
     INFO("seed " << seed);
     const Graph first = must_load(text, kAnyLink, "/srv/graphs/random.xml");
@@ -179,7 +180,7 @@ TEST_CASE("a printed graph has its profile merged and its arguments replaced", "
 
 TEST_CASE("any damage to a graph ends in a graph or in errors", "[graph][property]") {
   RandomStream random(1, "graph", "damage");
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= orca::test::part_of<std::uint64_t>(60); ++seed) {
     const std::string good = RandomGraph(seed).text();
     for (int run = 0; run < 40; ++run) {
       std::string bad = good;

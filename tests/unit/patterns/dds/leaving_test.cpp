@@ -24,6 +24,7 @@
 #include "orca/base/hash.hpp"
 #include "orca/idl/motion.hpp"
 #include "peer.hpp"
+#include "slow_run.hpp"
 
 using namespace orca;
 using namespace orca::test;
@@ -127,7 +128,7 @@ TEST_CASE("a process may leave while another talks to it", "[patterns][dds]") {
   run_on(steady_executives().front(), [](Executive& executive) {
     const std::string run = fresh_run();
     const Talker talker(run, "leaver");
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < part_of(40); ++i) {
       const std::unique_ptr<DdsBackend> leaver = make_dds("leaver", run);
       Publisher publisher(executive);
       REQUIRE(leaver->connect(publisher.endpoint("out"), {"x.in", "talker", {}, 1}, {}, Duration{0}).ok());

@@ -9,6 +9,7 @@
 
 #include "motion/encounter.hpp"
 #include "orca/base/random.hpp"
+#include "slow_run.hpp"
 
 using namespace orca::sim;
 using namespace orca::sim::detail;
@@ -118,7 +119,8 @@ TEST_CASE(
   RandomStream random(17, "test", "approach");
   int hits = 0;
   int misses = 0;
-  for (int i = 0; i < 100'000; ++i) {
+  const int cases = orca::test::part_of(100'000);
+  for (int i = 0; i < cases; ++i) {
     const Rounded& footprint = kFootprints[static_cast<std::size_t>(i) % kFootprints.size()];
     const Rounded& obstacle = kObstacles[static_cast<std::size_t>(i / 7) % kObstacles.size()];
     const Approach approach = random_approach(random, footprint, obstacle);
@@ -144,8 +146,8 @@ TEST_CASE(
     ++misses;
     REQUIRE(time == most);
   }
-  CHECK(hits > 30'000);
-  CHECK(misses > 30'000);
+  CHECK(hits > 3 * cases / 10);
+  CHECK(misses > 3 * cases / 10);
 }
 
 TEST_CASE("the gap of two plans is the largest way by which a line keeps them apart", "[sim][contact]") {
@@ -155,7 +157,7 @@ TEST_CASE("the gap of two plans is the largest way by which a line keeps them ap
     for (const Vec2& p : plan.corners) most = std::max(most, dot(p, n));
     return most + plan.radius;
   };
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < orca::test::part_of(300); ++i) {
     const Approach pair =
         random_approach(random, kFootprints[static_cast<std::size_t>(i) % kFootprints.size()],
                         kObstacles[static_cast<std::size_t>(i / 4) % kObstacles.size()]);

@@ -7,6 +7,7 @@
 #include "bases.hpp"
 #include "motion/physics.hpp"
 #include "orca/base/random.hpp"
+#include "slow_run.hpp"
 
 using namespace orca::sim;
 using namespace orca::sim::test;
@@ -130,7 +131,8 @@ TEST_CASE("robots and walkers in a crowd never overlap, and none gets faster tha
     robots.push_back(*world.add_robot("r" + std::to_string(k), robot, {-3.5 + k, -4.5 + 0.9 * (k % 3), 0.8}));
   }
   std::size_t touches = 0;
-  for (int i = 0; i < 12'000; ++i) {
+  const int ticks = orca::test::part_of(60'000);
+  for (int i = 0; i < ticks; ++i) {
     if (i % 200 == 0)
       for (const RobotId r : robots)
         REQUIRE(world.set_velocity_command(r, random.uniform(-1.0, 1.0), random.uniform(-2.0, 2.0)));
@@ -148,7 +150,7 @@ TEST_CASE("robots and walkers in a crowd never overlap, and none gets faster tha
       REQUIRE(std::hypot(v.forward, v.left) <= 1.0 * 1.001);
     }
   }
-  CHECK(touches > 50);
+  CHECK(touches > static_cast<std::size_t>(ticks) / 240);
 }
 
 TEST_CASE("nothing passes through a thin post or plate, however fast", "[sim][contact]") {

@@ -4,6 +4,7 @@
 #include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "orca/sim/caster.hpp"
+#include "slow_run.hpp"
 
 using namespace orca::sim;
 using orca::direction;
@@ -66,12 +67,12 @@ double room_range(Vec2 p, double angle) {
 
 }  // namespace
 
-TEST_CASE("a cast equals the brute-force closed form on 300,000 random rays within 1e-9 m", "[sim][caster]") {
+TEST_CASE("a cast equals the brute-force closed form on random rays within 1e-9 m", "[sim][caster]") {
   orca::RandomStream random(11, "test", "caster");
   const WorldModel world = clutter(random);
   const Caster caster(world);
   double worst = 0.0;
-  for (int i = 0; i < 300'000; ++i) {
+  for (int i = 0; i < orca::test::part_of(300'000); ++i) {
     const Ray ray{{random.uniform(-2, 32), random.uniform(-2, 22)},
                   direction(random.uniform(-kPi, kPi)),
                   random.uniform(0.0, 40.0),
@@ -86,7 +87,7 @@ TEST_CASE("a cast equals the brute-force closed form on 300,000 random rays with
 TEST_CASE("no ray leaves a closed room, wherever it starts and also through the corners", "[sim][caster]") {
   const Caster caster(room());
   orca::RandomStream random(12, "test", "room");
-  for (int i = 0; i < 50'000; ++i) {
+  for (int i = 0; i < orca::test::part_of(50'000); ++i) {
     Vec2 p{random.uniform(0, 4), random.uniform(0, 3)};
     if (i % 3 == 0) p.x = i % 2 == 0 ? 1e-10 : 4.0 - 1e-10;
     if (i % 5 == 0) p.y = i % 2 == 0 ? 0.0 : 3.0;

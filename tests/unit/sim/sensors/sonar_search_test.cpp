@@ -9,6 +9,7 @@
 #include "furnished_room.hpp"
 #include "orca/base/random.hpp"
 #include "sensors/sonar_beam.hpp"
+#include "slow_run.hpp"
 
 using namespace orca::sim;
 using namespace orca::sim::test;
@@ -72,9 +73,8 @@ void compare_poses(int poses) {
 
 }  // namespace
 
-TEST_CASE("in 20,000 random poses the nearest echo is that of a cone of 2,001 rays",
-          "[sim][sonar][validation]") {
-  compare_poses(20'000);
+TEST_CASE("in random poses the nearest echo is that of a cone of 2,001 rays", "[sim][sonar][validation]") {
+  compare_poses(orca::test::part_of(20'000));
 }
 
 TEST_CASE("in a million random poses the nearest echo is that of a cone of 2,001 rays", "[.][slow]") {

@@ -21,7 +21,7 @@ namespace {
 constexpr double kEye = 0.8;  // [m]
 
 RobotModel robot_of(std::vector<Part> parts) {
-  RobotModel m = test::scout();
+  RobotModel m = sim::test::scout();
   m.parts = std::move(parts);
   m.footprint = footprint_of(m.parts);
   std::tie(m.bottom, m.top) = height_range_of(m.parts);
@@ -117,7 +117,7 @@ TEST_CASE("a sonar hears a robot's mast, and the base only if its cone reaches d
   const auto hear = [](double distance) {
     World world({"empty", {}, {}}, {.seed = 1, .realism = Realism::ideal});
     RobotModel watcher = robot_of({{Part::Cylinder{0.1, 1.0}, {.z = 0.5}}});
-    SonarRing ring = test::scout().sonars.at(0);
+    SonarRing ring = sim::test::scout().sonars.at(0);
     ring.height = kEye;
     ring.radius = 0.1;
     ring.quantum = 0.0;

@@ -55,8 +55,8 @@ TEST_CASE(
 
 TEST_CASE("a world keeps the way of a robot only if it is asked to", "[sim][picture]") {
   World world({"empty", {}, {}}, {.seed = 1, .realism = Realism::ideal});
-  const RobotId drawn = *world.add_robot("drawn", test::scout(), {});
-  const RobotId other = *world.add_robot("other", test::scout(), {0.0, 3.0, 0.0});
+  const RobotId drawn = *world.add_robot("drawn", sim::test::scout(), {});
+  const RobotId other = *world.add_robot("other", sim::test::scout(), {0.0, 3.0, 0.0});
   world.keep_trajectory(drawn);
   for (const RobotId robot : {drawn, other}) REQUIRE(world.set_velocity_command(robot, 0.5, 0.1));
   for (int tick = 0; tick < 1000; ++tick) world.step();
