@@ -44,7 +44,7 @@ class Writer final : public host::RunListener {
     run.out += "failed " + failed.name() + " " + failed.reason() + "\n";
   }
   void alarm(const idl::Alarm& alarm) override {
-    run.err += alarm.source() + ": alarm " + alarm.kind() + ": " + alarm.text() + "\n";
+    run.err += alarm.source() + ": alarm " + kind_text(alarm) + ": " + alarm.text() + "\n";
   }
   void logged(log::Level /*level*/, std::string_view who, std::string_view text) override {
     run.err += std::string(who) + ": " + std::string(text) + "\n";

@@ -268,7 +268,7 @@ void Avoider::feel_ahead() {
 bool Avoider::are_motors_held() const {
   const std::vector<idl::Alarm> alarms = kept_alarms();
   return std::ranges::any_of(
-      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == "ESTOP" && alarm.active(); });
+      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
 
 nav::Footprint Avoider::outline_of(const std::optional<Rectangle>& body) const {

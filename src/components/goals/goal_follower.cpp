@@ -229,7 +229,7 @@ bool GoalFollower::is_hopeless(const Pose2& pose) {
 bool GoalFollower::are_motors_held() const {
   const std::vector<idl::Alarm> alarms = kept_alarms();
   return std::ranges::any_of(
-      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == "ESTOP" && alarm.active(); });
+      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
 
 // Names what the robot drives to now, for people.

@@ -21,7 +21,7 @@ class AlarmListener final : public orca::Component {
 
   orca::Outcome work() override {
     const auto alarm = alarms_.get_update_wait();
-    log_info("hears " + alarm->kind() + " of " + alarm->source() + ": " + alarm->text());
+    log_info("hears " + orca::kind_text(*alarm) + " of " + alarm->source() + ": " + alarm->text());
     return orca::again();
   }
 

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// Ask, ClientList, LogRecord, Alarm. idl/orca/system.idl gives the meaning, unit and frame of each field.
+/// Ask, ClientList, LogRecord, Alarm and its kind as text. idl/orca/system.idl gives the meaning, unit and frame of each field.
 #pragma once
+
+#include <string>
 
 #include "orca/idl/generated/system.h"
 #include "orca/idl/generated/system.types.hpp"
 #include "orca/idl/object.hpp"
+
+namespace orca {
+
+/// Returns the kind of an alarm in capitals: "SIGNAL_MASK", or the name that a component gave to its own.
+/// @thread  pure function, as the next; any thread.
+[[nodiscard]] std::string kind_text(const idl::Alarm& alarm);
+[[nodiscard]] std::string kind_text(idl::AlarmKind kind);
+
+}  // namespace orca

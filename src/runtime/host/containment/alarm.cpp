@@ -2,49 +2,40 @@
 #include "orca/host/alarm.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "orca/base/log.hpp"
+#include "orca/idl/generated/system.reflection.hpp"
 
 namespace orca::host {
 namespace {
 
-// By the number of the enumerator.
-constexpr auto kNames = std::to_array<const char*>(
-    {"FAILED",         "HARDWARE_FAULT", "STALLED", "PLUGIN_PINNED",     "FORK",
-     "FOREIGN_THREAD", "FLOATING_POINT", "LOCALE",  "TERMINATE_HANDLER", "SIGNAL_MASK",
-     "SIGNAL_HANDLER", "WORKING_FOLDER", "UMASK",   "RESOURCE_LIMIT",    "REDIRECTION",
-     "DESCRIPTORS",    "PROCESS_ENDED",  "GAVE_UP", "MACHINE_LOST",      "ESTOP",
-     "CONTROL_LOST",   "SWAP_UNDONE"});
-static_assert(kNames.size() == static_cast<std::size_t>(AlarmKind::swap_undone) + 1);
+constexpr auto& kNames = EnumReflection<AlarmKind>::names;
 
 idl::AlarmSeverity severity_of(AlarmKind kind) {
   switch (kind) {
-    case AlarmKind::hardware_fault:
-    case AlarmKind::machine_lost:
-    case AlarmKind::estop:
-    case AlarmKind::control_lost:
-    case AlarmKind::gave_up: return idl::ALARM_CRITICAL;
-    case AlarmKind::failed:
-    case AlarmKind::process_ended:
-    case AlarmKind::stalled:
-    case AlarmKind::swap_undone:
-    case AlarmKind::foreign_thread:
-    case AlarmKind::descriptors: return idl::ALARM_WARNING;
+    case idl::HARDWARE_FAULT:
+    case idl::MACHINE_LOST:
+    case idl::ESTOP:
+    case idl::CONTROL_LOST:
+    case idl::GAVE_UP: return idl::ALARM_CRITICAL;
+    case idl::FAILED:
+    case idl::PROCESS_ENDED:
+    case idl::STALLED:
+    case idl::SWAP_UNDONE:
+    case idl::FOREIGN_THREAD:
+    case idl::DESCRIPTORS: return idl::ALARM_WARNING;
     default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet
   }
 }
 
 }  // namespace
 
-const char* to_string(AlarmKind kind) { return kNames.at(static_cast<std::size_t>(kind)); }
-
 idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
                       const std::string& text) {
   idl::Alarm alarm;
   alarm.severity(severity_of(kind));
-  alarm.kind() = to_string(kind);
+  alarm.kind(kind);
   alarm.source() = component;
   alarm.hook() = hook;
   alarm.active(true);
@@ -52,11 +43,12 @@ idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::s
   return alarm;
 }
 
-idl::Alarm make_alarm(const std::string& kind, idl::AlarmSeverity severity, const std::string& component,
+idl::Alarm make_alarm(const std::string& own_kind, idl::AlarmSeverity severity, const std::string& component,
                       const std::string& text) {
   idl::Alarm alarm;
   alarm.severity(severity);
-  alarm.kind() = kind;
+  alarm.kind(idl::OWN_KIND);
+  alarm.own_kind() = own_kind;
   alarm.source() = component;
   alarm.active(true);
   alarm.text() = text;
@@ -65,18 +57,20 @@ idl::Alarm make_alarm(const std::string& kind, idl::AlarmSeverity severity, cons
 
 bool is_own_alarm_kind(std::string_view kind) {
   const auto fits = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
-  return !kind.empty() && std::ranges::all_of(kind, fits) &&
-         std::ranges::find(kNames, kind, [](const char* name) { return std::string_view(name); }) ==
-             kNames.end();
+  return !kind.empty() && std::ranges::all_of(kind, fits) && std::ranges::find(kNames, kind) == kNames.end();
+}
+
+bool are_about_the_same(const idl::Alarm& one, const idl::Alarm& other) {
+  return one.kind() == other.kind() && one.own_kind() == other.own_kind() && one.source() == other.source();
 }
 
 std::string alarm_text(const idl::Alarm& alarm) {
-  return (alarm.source().empty() ? "" : alarm.source() + " ") + alarm.kind() + ": " + alarm.text();
+  return (alarm.source().empty() ? "" : alarm.source() + " ") + kind_text(alarm) + ": " + alarm.text();
 }
 
 void log_alarm(const idl::Alarm& alarm, const std::string& log_name) {
   log::error(alarm.source().empty() ? log_name : alarm.source(),
-             "alarm " + alarm.kind() + ": " + alarm.text());
+             "alarm " + kind_text(alarm) + ": " + alarm.text());
 }
 
 std::string hook_text(Hook hook, const char* port) {

@@ -7,8 +7,7 @@ namespace orca::host {
 
 std::uint64_t AlarmStore::take(const idl::Alarm& alarm, const std::string& process) {
   const auto same = std::ranges::find_if(kept_, [&](const KeptAlarm& kept) {
-    return kept.process == process && kept.alarm.kind() == alarm.kind() &&
-           kept.alarm.source() == alarm.source();
+    return kept.process == process && are_about_the_same(kept.alarm, alarm);
   });
   if (same != kept_.end()) {
     same->alarm = alarm;

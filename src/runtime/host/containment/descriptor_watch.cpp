@@ -33,7 +33,7 @@ void DescriptorWatch::keep() {
 std::optional<Finding> DescriptorWatch::look_at_streams() {
   const std::string changes = own_.restore_redirected();
   if (changes.empty()) return std::nullopt;
-  return Finding{AlarmKind::redirection, "redirected " + changes};
+  return Finding{idl::REDIRECTION, "redirected " + changes};
 }
 
 void DescriptorWatch::accept() {
@@ -56,7 +56,7 @@ std::optional<Finding> DescriptorWatch::look(const std::string* alone) {
 
 std::optional<Finding> DescriptorWatch::look_for_exhaustion() {
   if (std::exchange(exhausted_, true)) return std::nullopt;
-  return Finding{AlarmKind::descriptors, "left the process without a free descriptor"};
+  return Finding{idl::DESCRIPTORS, "left the process without a free descriptor"};
 }
 
 std::optional<Finding> DescriptorWatch::count_for(const std::string& who) {
@@ -67,8 +67,8 @@ std::optional<Finding> DescriptorWatch::count_for(const std::string& who) {
   add_new(opened, *known_, *open);
   known_ = open;
   if (opened.size() < kMany) return std::nullopt;
-  return Finding{AlarmKind::descriptors, "opened " + std::to_string(opened.size()) +
-                                             " descriptors and not closed them: " + names_of(opened)};
+  return Finding{idl::DESCRIPTORS, "opened " + std::to_string(opened.size()) +
+                                       " descriptors and not closed them: " + names_of(opened)};
 }
 
 void DescriptorBalance::begin(bool anew, bool alone, const Descriptors* open) {

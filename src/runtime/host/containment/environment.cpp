@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned kTurnsPerLook = 64;
 
 const char* advice(AlarmKind kind) {
-  if (kind == AlarmKind::descriptors) return "; what is opened must be closed";
+  if (kind == idl::DESCRIPTORS) return "; what is opened must be closed";
   return "; it is put back where it can be: a component must leave alone what all share";
 }
 
@@ -233,7 +233,7 @@ void Environment::end_balance(Guest& guest, Hook hook) {
   guest.balance.end(only_guest && opening_ == 0 && guest.own_openings == own_openings_);
   const Descriptors left_open = guest.balance.left_open();
   if (hook == Hook::stop && !left_open.empty())
-    accuse_one(guest, {AlarmKind::descriptors,
+    accuse_one(guest, {idl::DESCRIPTORS,
                        "left open what start() or itself has opened: descriptor " + names_of(left_open)});
 }
 
@@ -264,10 +264,10 @@ std::string Environment::culprit(const Guests& possible) {
 void Environment::forked(const Activity& turn) {
   {
     const std::lock_guard lock(mutex_);
-    if (!said_.emplace(turn.who(), AlarmKind::fork).second) return;
+    if (!said_.emplace(turn.who(), idl::FORK).second) return;
   }
   const std::string hook = hook_text(turn.hook(), turn.port());
-  sink_(make_alarm(AlarmKind::fork, turn.who(), hook,
+  sink_(make_alarm(idl::FORK, turn.who(), hook,
                    hook + " has called fork(); the copy is ended, because two must not drive one robot. "
                           "Start programs with posix_spawn()"));
 }

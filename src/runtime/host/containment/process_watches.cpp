@@ -59,7 +59,7 @@ std::optional<Finding> LocaleWatch::look() {
   if (current == reference_) return std::nullopt;
   const std::string now(current);
   setlocale(LC_ALL, reference_.c_str());
-  return Finding{AlarmKind::locale, "changed the locale from \"" + reference_ + "\" to \"" + now + "\""};
+  return Finding{idl::LOCALE, "changed the locale from \"" + reference_ + "\" to \"" + now + "\""};
 }
 
 void SignalHandlerWatch::keep() {
@@ -77,7 +77,7 @@ std::optional<Finding> SignalHandlerWatch::look() {
     changed += std::string(changed.empty() ? "SIG" : ", SIG") + sigabbrev_np(kept.signal);
   }
   if (changed.empty()) return std::nullopt;
-  return Finding{AlarmKind::signal_handler, "changed what happens at " + changed};
+  return Finding{idl::SIGNAL_HANDLER, "changed what happens at " + changed};
 }
 
 void TerminateWatch::keep() { reference_ = LastWords::terminate_handler(); }
@@ -85,8 +85,7 @@ void TerminateWatch::keep() { reference_ = LastWords::terminate_handler(); }
 std::optional<Finding> TerminateWatch::look() {
   if (std::get_terminate() == reference_) return std::nullopt;
   std::set_terminate(reference_);
-  return Finding{AlarmKind::terminate_handler,
-                 "changed what std::terminate() does, with std::set_terminate()"};
+  return Finding{idl::TERMINATE_HANDLER, "changed what std::terminate() does, with std::set_terminate()"};
 }
 
 void FolderWatch::keep() { reference_ = current_folder(); }
@@ -96,7 +95,7 @@ std::optional<Finding> FolderWatch::look() {
   if (now == reference_) return std::nullopt;
   const bool back = chdir(reference_.c_str()) == 0;
   if (!back) reference_ = now;
-  return Finding{AlarmKind::working_folder,
+  return Finding{idl::WORKING_FOLDER,
                  "changed the working folder to " + now + (back ? "" : ", and the way back fails")};
 }
 
@@ -107,7 +106,7 @@ void UmaskWatch::keep() {
 
 std::optional<Finding> UmaskWatch::look() {
   if (umask(reference_) == reference_) return std::nullopt;
-  return Finding{AlarmKind::umask, "changed the umask"};
+  return Finding{idl::UMASK, "changed the umask"};
 }
 
 void LimitWatch::keep() {
@@ -129,7 +128,7 @@ std::optional<Finding> LimitWatch::look() {
     if (!back) kept.value = present(kept.resource);
   }
   if (changes.empty()) return std::nullopt;
-  return Finding{AlarmKind::resource_limit, "changed " + changes};
+  return Finding{idl::RESOURCE_LIMIT, "changed " + changes};
 }
 
 }  // namespace orca::host

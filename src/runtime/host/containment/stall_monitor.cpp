@@ -62,7 +62,7 @@ void StallMonitor::look(Duration hang_limit) {
   if (hang_limit > Duration{0})
     standstill_(stuck->name, text);
   else if (said_.insert(stuck->name).second)
-    sink_(make_alarm(AlarmKind::stalled, stuck->name, "", text));
+    sink_(make_alarm(idl::STALLED, stuck->name, "", text));
 }
 
 }  // namespace orca::host

@@ -29,13 +29,13 @@ void FloatingPointWatch::keep() { reference_ = floating_point_control(); }
 std::optional<Finding> FloatingPointWatch::look() {
   if (floating_point_control() == reference_) return std::nullopt;
   set_floating_point_control(reference_);
-  return Finding{AlarmKind::floating_point, "changed how numbers are rounded or which results are trapped"};
+  return Finding{idl::FLOATING_POINT, "changed how numbers are rounded or which results are trapped"};
 }
 
 std::optional<Finding> ThreadLocaleWatch::look() {
   if (uselocale(nullptr) == LC_GLOBAL_LOCALE) return std::nullopt;
   uselocale(LC_GLOBAL_LOCALE);
-  return Finding{AlarmKind::locale, "given its thread a locale of its own"};
+  return Finding{idl::LOCALE, "given its thread a locale of its own"};
 }
 
 void SignalMaskWatch::keep() { pthread_sigmask(SIG_BLOCK, nullptr, &reference_); }
@@ -45,7 +45,7 @@ std::optional<Finding> SignalMaskWatch::look() {
   pthread_sigmask(SIG_SETMASK, &reference_, &now);
   const std::string changes = difference(now, reference_);
   if (changes.empty()) return std::nullopt;
-  return Finding{AlarmKind::signal_mask, changes};
+  return Finding{idl::SIGNAL_MASK, changes};
 }
 
 }  // namespace orca::host

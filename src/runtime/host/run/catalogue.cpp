@@ -56,7 +56,7 @@ Result<LoadedType> PluginCatalogue::type_in(std::shared_ptr<plugin::PluginLibrar
 
 void PluginCatalogue::raise_pinned(const std::string& file, const std::string& why) const {
   const std::string name = std::filesystem::path(file).filename().string();
-  const idl::Alarm alarm = make_alarm(AlarmKind::plugin_pinned, name, "", why);
+  const idl::Alarm alarm = make_alarm(idl::PLUGIN_PINNED, name, "", why);
   if (sink_) return sink_(alarm);
   log_alarm(alarm, name);
 }

@@ -24,7 +24,7 @@ Record record_of(const host::KeptAlarm& kept, TimePoint start) {
   return {{"number", kept.number},
           {"time", to_seconds(to_time_point(alarm.stamp()) - start), 3},
           {"severity", name_of(alarm.severity())},
-          {"kind", alarm.kind()},
+          {"kind", kind_text(alarm)},
           {"source", alarm.source()},
           {"process", kept.process},
           {"times", kept.times},

@@ -43,7 +43,7 @@ void MotorHold::stop(Done done) {
   for (Member* const member : members_)
     if (member->is_built())
       member->ask(StopMotors{kReason}, [answers](const Status& outcome) { answers->hear(outcome); });
-  ledger_.raise(host::AlarmKind::estop, "", "all motors are held until orcactl estop --release");
+  ledger_.raise(idl::ESTOP, "", "all motors are held until orcactl estop --release");
 }
 
 // A base may also be held because its device had failed.
@@ -57,7 +57,7 @@ void MotorHold::release(Done done) {
     member->ask(ReleaseMotors{}, [answers](const Status& outcome) { answers->hear(outcome); });
   }
   const std::string text = "the emergency stop is released; motors obey commands again";
-  if (ledger_.settle_all(host::AlarmKind::estop, text)) log::warning(kLogName, text);
+  if (ledger_.settle_all(idl::ESTOP, text)) log::warning(kLogName, text);
 }
 
 void MotorHold::recall() {
@@ -71,15 +71,14 @@ void MotorHold::recall() {
 void MotorHold::take_in(Member& member) {
   if (holds_) return member.tell(StopMotors{kReason});
   const std::string& process = member.name();
-  const bool was_held =
-      ledger_.is_active(host::AlarmKind::estop, process);  // under an earlier supervisor, too
+  const bool was_held = ledger_.is_active(idl::ESTOP, process);  // under an earlier supervisor, too
   if (!lost_.contains(process) && !was_held) return;
   lost_.insert(process);
   member.ask(StopMotors{kLost, true}, [this, process](const Status& held) {
     if (!held.ok()) lost_.erase(process);
     if (!held.ok() || !lost_.contains(process)) return;  // it moves nothing, or was released meanwhile
     ledger_.raise(
-        host::AlarmKind::estop, "",
+        idl::ESTOP, "",
         "the motors of process " + process +
             " are held, because it has ended while they may have run, and odometry begins anew; see "
             "where the robot stands, then orcactl estop --release",

@@ -34,8 +34,7 @@ Cell pid_of(const Member& member) {
 std::set<std::string> pinned_files(const std::vector<host::KeptAlarm>& alarms) {
   std::set<std::string> names;
   for (const host::KeptAlarm& kept : alarms)
-    if (kept.alarm.kind() == host::to_string(host::AlarmKind::plugin_pinned))
-      names.insert(kept.alarm.source());
+    if (kept.alarm.kind() == idl::PLUGIN_PINNED) names.insert(kept.alarm.source());
   return names;
 }
 
@@ -55,11 +54,11 @@ std::string alarms_of(const graph::ComponentNode& node, const std::vector<host::
   std::set<std::string> kinds;
   for (const host::KeptAlarm& kept : alarms) {
     const idl::Alarm& alarm = kept.alarm;
-    const bool is_estop = alarm.kind() == host::to_string(host::AlarmKind::estop);
+    const bool is_estop = alarm.kind() == idl::ESTOP;
     const bool is_of_all = alarm.source().empty() && kept.process.empty() && is_estop;
     const bool is_of_hardware = !node.hardware.empty() && (is_of_all || alarm.source() == node.hardware ||
                                                            (is_estop && alarm.source() == node.process));
-    if (alarm.active() && (alarm.source() == node.name || is_of_hardware)) kinds.insert(alarm.kind());
+    if (alarm.active() && (alarm.source() == node.name || is_of_hardware)) kinds.insert(kind_text(alarm));
   }
   return text_of(kinds);
 }

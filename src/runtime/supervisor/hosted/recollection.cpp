@@ -27,7 +27,7 @@ void Recollection::note_told(const Report& report) {
 
 void Recollection::forget_alarm(const ForgetAlarm& forgotten) {
   const auto kept = std::ranges::find_if(alarms_.kept(), [&](const host::KeptAlarm& one) {
-    return one.process == forgotten.process && one.alarm.kind() == forgotten.kind &&
+    return one.process == forgotten.process && kind_text(one.alarm) == forgotten.kind &&
            one.alarm.source() == forgotten.source;
   });
   if (kept != alarms_.kept().end()) (void)alarms_.acknowledge(kept->number);

@@ -80,11 +80,11 @@ void Neighbours::tell_news() {
   for (const Gathering::News& news : gathering_.take_news()) {
     using NewsKind = Gathering::News::Kind;
     if (news.kind == NewsKind::lost) {
-      ledger_.raise(host::AlarmKind::machine_lost, "", news.text, news.machine);
+      ledger_.raise(idl::MACHINE_LOST, "", news.text, news.machine);
       continue;
     }
     log::write(news.kind == NewsKind::warning ? log::Level::warning : log::Level::info, kLogName, news.text);
-    if (news.kind == NewsKind::back) ledger_.settle(host::AlarmKind::machine_lost, news.machine, news.text);
+    if (news.kind == NewsKind::back) ledger_.settle(idl::MACHINE_LOST, news.machine, news.text);
   }
 }
 

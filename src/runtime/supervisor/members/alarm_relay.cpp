@@ -27,7 +27,7 @@ void AlarmRelay::tell(const idl::Alarm& alarm, const std::string& process,
 void AlarmRelay::tell_acknowledged(const host::KeptAlarm& alarm) const {
   for (Member* const member : members_)
     if (member->phase() == Member::Phase::up)
-      member->tell(ForgetAlarm{alarm.alarm.kind(), alarm.alarm.source(), alarm.process});
+      member->tell(ForgetAlarm{kind_text(alarm.alarm), alarm.alarm.source(), alarm.process});
 }
 
 void AlarmRelay::brief(Member& member, const std::vector<host::KeptAlarm>& kept, bool knows_own) {

@@ -144,14 +144,14 @@ void Ledger::note(idl::Alarm alarm, const std::string& process, const std::strin
 
 void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::string& text,
                    const std::string& source) {
-  log::error(log_name_, std::string("alarm ") + host::to_string(kind) + ": " + text);
+  log::error(log_name_, "alarm " + kind_text(kind) + ": " + text);
   note(own_alarm(kind, source, text), process, "");
 }
 
 bool Ledger::is_active(host::AlarmKind kind, const std::string& source) const {
   return std::ranges::any_of(alarms_.kept(), [&](const host::KeptAlarm& kept) {
-    return kept.process.empty() && kept.alarm.kind() == host::to_string(kind) &&
-           kept.alarm.source() == source && kept.alarm.active();
+    return kept.process.empty() && kept.alarm.kind() == kind && kept.alarm.source() == source &&
+           kept.alarm.active();
   });
 }
 
@@ -172,8 +172,7 @@ bool Ledger::settle_all(host::AlarmKind kind, const std::string& text) {
 
 Status Ledger::acknowledge(std::uint64_t number) {
   const auto known = std::ranges::find(alarms_.kept(), number, &host::KeptAlarm::number);
-  if (known != alarms_.kept().end() && known->alarm.active() &&
-      known->alarm.kind() == host::to_string(host::AlarmKind::estop))
+  if (known != alarms_.kept().end() && known->alarm.active() && known->alarm.kind() == idl::ESTOP)
     return fail(Code::failed_precondition,
                 "the motors are still held; first let them go: orcactl estop --release");
   if (known != alarms_.kept().end() && relay_ != nullptr) relay_->tell_acknowledged(*known);
@@ -182,8 +181,7 @@ Status Ledger::acknowledge(std::uint64_t number) {
 
 void Ledger::recall(const idl::Alarm& alarm, const std::string& process) {
   const auto is_same = [&](const host::KeptAlarm& kept) {
-    return kept.process == process && kept.alarm.kind() == alarm.kind() &&
-           kept.alarm.source() == alarm.source();
+    return kept.process == process && host::are_about_the_same(kept.alarm, alarm);
   };
   if (std::ranges::none_of(alarms_.kept(), is_same)) alarms_.take(alarm, process);
 }
@@ -214,9 +212,8 @@ void Ledger::lose(const std::string& process, const std::string& why) {
 void Ledger::settle_holds_of(const std::string& process, const std::string& why) {
   std::vector<idl::Alarm> over;
   for (const host::KeptAlarm& kept : alarms_.kept())
-    if (kept.process == process && kept.alarm.active() &&
-        kept.alarm.kind() == host::to_string(host::AlarmKind::estop))
-      over.push_back(own_alarm(host::AlarmKind::estop, kept.alarm.source(), why));
+    if (kept.process == process && kept.alarm.active() && kept.alarm.kind() == idl::ESTOP)
+      over.push_back(own_alarm(idl::ESTOP, kept.alarm.source(), why));
   for (idl::Alarm& alarm : over) {
     alarm.active(false);
     note(std::move(alarm), process, "");

@@ -61,7 +61,7 @@ void MissionBook::note(const idl::Contact& contact) {
 }
 
 void MissionBook::note(const idl::Alarm& alarm) {
-  add(alarm, to_time_point(alarm.stamp()), alarm.source(), "alarm", alarm.kind() + ": " + alarm.text());
+  add(alarm, to_time_point(alarm.stamp()), alarm.source(), "alarm", kind_text(alarm) + ": " + alarm.text());
 }
 
 void MissionBook::show(Reply& reply) const {

@@ -88,14 +88,14 @@ void ControlDesk::serve(Moment now) {
 void ControlDesk::look_after_socket(Moment now) {
   socket_seen_ = now;
   const Result<bool> restored = server_->restore_socket();
-  if (!restored && !ledger_.is_active(host::AlarmKind::control_lost, ""))
+  if (!restored && !ledger_.is_active(idl::CONTROL_LOST, ""))
     ledger_.raise(
-        host::AlarmKind::control_lost, "",
+        idl::CONTROL_LOST, "",
         "neither orcactl nor its emergency stop can reach this system, because its socket was removed: " +
             restored.error().message);
   if (!restored) return;
   if (*restored) log::warning(kLogName, "somebody has removed the socket of this system; it is made again");
-  ledger_.settle(host::AlarmKind::control_lost, "", "orcactl reaches this system again");
+  ledger_.settle(idl::CONTROL_LOST, "", "orcactl reaches this system again");
 }
 
 void ControlDesk::watch(std::vector<std::string> graph_files) {

@@ -47,7 +47,7 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   if (conclusion.is_over()) return lose_late(text, loss);
   if (!place_.policy.is_dozing(member.index())) place_.control.distrust(member);
   if (place_.renewal.lose(member, loss.is_normal, how)) return;
-  if (loss.is_unasked) place_.ledger.raise(host::AlarmKind::process_ended, member.name(), text);
+  if (loss.is_unasked) place_.ledger.raise(idl::PROCESS_ENDED, member.name(), text);
   if (!conclusion.has_come_up()) return conclusion.fail_with(fail(Code::unavailable, text));
   const RestartDecision decision =
       place_.policy.ended(member.index(), loss.is_normal, Moment::clock::now(), loss.counts);
@@ -74,8 +74,7 @@ void Losses::cut(const Wiring::Outer& outer, const Member& lost, const std::stri
 
 void Losses::obey(const RestartDecision& decision, const std::string& text) {
   if (decision.gives_up) {
-    place_.ledger.raise(host::AlarmKind::gave_up, "",
-                        text + "; there were too many restarts, so the run ends");
+    place_.ledger.raise(idl::GAVE_UP, "", text + "; there were too many restarts, so the run ends");
     return place_.conclusion.fail_with(fail(Code::unavailable, text));
   }
   for (const std::size_t index : decision.end) end(*place_.roster.all()[index]);

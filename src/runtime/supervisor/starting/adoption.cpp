@@ -195,7 +195,7 @@ void forget_strangers(const RunIdentity& run, const graph::Graph& graph, const M
 
 Error note_gone(const Member& member, Ledger& ledger, RestartPolicy& policy) {
   const std::string text = "process " + member.name() + " was gone when this deployer came";
-  ledger.raise(host::AlarmKind::process_ended, member.name(), text);
+  ledger.raise(idl::PROCESS_ENDED, member.name(), text);
   if (member.node().restart == graph::Restart::temporary)
     (void)policy.ended(member.index(), true, Moment::clock::now());
   return fail(Code::unavailable, text);

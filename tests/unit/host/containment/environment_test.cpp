@@ -68,7 +68,7 @@ TEST_CASE("where strands take turns, the component that leaves is blamed for a c
     bad.wait();
   }
   REQUIRE(watched.alarms.size() == 1);
-  CHECK(watched.alarms[0].kind() == "UMASK");
+  CHECK(watched.alarms[0].kind() == idl::UMASK);
   CHECK(watched.alarms[0].source() == "bad");
   CHECK(watched.alarms[0].hook() == "work()");
   CHECK(watched.alarms[0].active());
@@ -100,7 +100,7 @@ TEST_CASE("where strands overlap, a thread's component is blamed for a change of
   }
   REQUIRE(watched.alarms.size() == 1);
   CHECK(watched.alarms[0].source() == "bad");
-  CHECK(watched.alarms[0].kind() == "FLOATING_POINT");
+  CHECK(watched.alarms[0].kind() == idl::FLOATING_POINT);
   CHECK(std::fegetround() == FE_TONEAREST);
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("only the component that opens 32 descriptors in its laps and closes n
   }
   close_all(opened);
   REQUIRE(watched.alarms.size() == 1);
-  CHECK(watched.alarms[0].kind() == "DESCRIPTORS");
+  CHECK(watched.alarms[0].kind() == idl::DESCRIPTORS);
   CHECK(watched.alarms[0].source() == "bad");
   CHECK_THAT(watched.alarms[0].text(), Contains("work() has opened 32 descriptors and not closed them: ") &&
                                            Contains("(/dev/null)") && Contains("and 24 more"));

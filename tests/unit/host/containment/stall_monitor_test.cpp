@@ -58,7 +58,7 @@ TEST_CASE("a component that is stuck in a thread of its own raises one alarm", "
   }
   CHECK(standstills == 0);
   REQUIRE(alarms.size() == 1);
-  CHECK(alarms[0].kind() == "STALLED");
+  CHECK(alarms[0].kind() == idl::STALLED);
   CHECK(alarms[0].source() == "greedy");
   CHECK(alarms[0].severity() == idl::ALARM_WARNING);
 }

@@ -65,21 +65,21 @@ TEST_CASE("a watch finds its kind of change, puts it back, and finds nothing mor
     std::string text;
   };
   std::vector<Case> cases;
-  cases.push_back({watch<FloatingPointWatch>(), [] { std::fesetround(FE_UPWARD); }, AlarmKind::floating_point,
+  cases.push_back({watch<FloatingPointWatch>(), [] { std::fesetround(FE_UPWARD); }, idl::FLOATING_POINT,
                    "changed how numbers are rounded"});
   cases.push_back({watch<ThreadLocaleWatch>(), [] { uselocale(newlocale(LC_ALL_MASK, "C", nullptr)); },
-                   AlarmKind::locale, "given its thread a locale of its own"});
-  cases.push_back({watch<LocaleWatch>(), [] { std::setlocale(LC_ALL, "C.UTF-8"); }, AlarmKind::locale,
+                   idl::LOCALE, "given its thread a locale of its own"});
+  cases.push_back({watch<LocaleWatch>(), [] { std::setlocale(LC_ALL, "C.UTF-8"); }, idl::LOCALE,
                    R"(changed the locale from "C" to "C.UTF-8")"});
-  cases.push_back({watch<SignalMaskWatch>(), block_usr1, AlarmKind::signal_mask, "blocked SIGUSR1"});
+  cases.push_back({watch<SignalMaskWatch>(), block_usr1, idl::SIGNAL_MASK, "blocked SIGUSR1"});
   cases.push_back({watch<SignalHandlerWatch>(), [] { signal(SIGTERM, SIG_IGN), signal(SIGINT, SIG_IGN); },
-                   AlarmKind::signal_handler, "changed what happens at SIGINT, SIGTERM"});
+                   idl::SIGNAL_HANDLER, "changed what happens at SIGINT, SIGTERM"});
   cases.push_back({watch<TerminateWatch>(), [] { std::set_terminate([] { _exit(0); }); },
-                   AlarmKind::terminate_handler, "changed what std::terminate() does"});
-  cases.push_back({watch<FolderWatch>(), [] { (void)!chdir("/"); }, AlarmKind::working_folder,
+                   idl::TERMINATE_HANDLER, "changed what std::terminate() does"});
+  cases.push_back({watch<FolderWatch>(), [] { (void)!chdir("/"); }, idl::WORKING_FOLDER,
                    "changed the working folder to /"});
-  cases.push_back({watch<UmaskWatch>(), [] { umask(0); }, AlarmKind::umask, "changed the umask"});
-  cases.push_back({watch<LimitWatch>(), lower_soft_limit, AlarmKind::resource_limit,
+  cases.push_back({watch<UmaskWatch>(), [] { umask(0); }, idl::UMASK, "changed the umask"});
+  cases.push_back({watch<LimitWatch>(), lower_soft_limit, idl::RESOURCE_LIMIT,
                    "changed the limit of the number of descriptors from "});
   for (const Case& c : cases) {
     CAPTURE(c.text);

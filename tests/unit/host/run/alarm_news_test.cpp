@@ -11,7 +11,7 @@ using namespace orca::host;
 namespace {
 
 idl::Alarm alarm_of(const std::string& component) {
-  return make_alarm(AlarmKind::failed, component, "work()", "it threw 7");
+  return make_alarm(idl::FAILED, component, "work()", "it threw 7");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST_CASE("a component that changes shared state raises an alarm of that kind, w
       CAPTURE(c.deed, where);
       REQUIRE(run.alarms.size() == 1);
       const idl::Alarm& alarm = run.alarms[0];
-      CHECK(alarm.kind() == c.kind);
+      CHECK(kind_text(alarm) == c.kind);
       CHECK(alarm.source() == "bad");
       CHECK(alarm.hook() == where + "()");
       CHECK(alarm.severity() == idl::ALARM_NOTICE);
@@ -72,7 +72,7 @@ TEST_CASE("a component that changes shared state raises an alarm of that kind, w
 TEST_CASE("descriptors that a component leaves open are an alarm of its stop()", "[host][alarms]") {
   const RecordedRun run = act("start", "leak");
   REQUIRE(run.alarms.size() == 1);
-  CHECK(run.alarms[0].kind() == "DESCRIPTORS");
+  CHECK(run.alarms[0].kind() == idl::DESCRIPTORS);
   CHECK(run.alarms[0].source() == "bad");
   CHECK(run.alarms[0].hook() == "stop()");
 }
@@ -81,7 +81,7 @@ TEST_CASE("fork() is an alarm, once", "[host][alarms]") {
   const LastWords words(EXIT_FAILURE, 3);  // ends the copy
   const RecordedRun run = act("work", "fork");
   REQUIRE(run.alarms.size() == 1);
-  CHECK(run.alarms[0].kind() == "FORK");
+  CHECK(run.alarms[0].kind() == idl::FORK);
   CHECK(run.alarms[0].source() == "bad");
   CHECK(run.alarms[0].hook() == "work()");
 }
@@ -94,7 +94,7 @@ TEST_CASE("a component that throws raises an alarm, with the hook that threw", "
     CAPTURE(where);
     REQUIRE(run.result.alarms.size() == 1);
     const idl::Alarm& alarm = run.result.alarms[0];
-    CHECK(alarm.kind() == "FAILED");
+    CHECK(alarm.kind() == idl::FAILED);
     CHECK(alarm.source() == "bad");
     CHECK(alarm.hook() == hook);
     CHECK(alarm.severity() == idl::ALARM_WARNING);
@@ -121,7 +121,7 @@ TEST_CASE("hardware that fails raises an alarm of the highest severity", "[host]
     <component name="counter" type="test.LapCounter"><param name="laps" value="20"/></component>)x",
                                      virtual_run());
   REQUIRE(run.alarms.size() == 1);
-  CHECK(run.alarms[0].kind() == "HARDWARE_FAULT");
+  CHECK(run.alarms[0].kind() == idl::HARDWARE_FAULT);
   CHECK(run.alarms[0].source() == "scout");
   CHECK(run.alarms[0].hook() == "its strand");
   CHECK(run.alarms[0].severity() == idl::ALARM_CRITICAL);
@@ -149,7 +149,7 @@ TEST_CASE(
   const RecordedRun run = welcome("raise");
   REQUIRE(run.alarms.size() == 2);
   for (const idl::Alarm& alarm : run.alarms) {
-    CHECK(alarm.kind() == "HOUSE_FULL");
+    CHECK(kind_text(alarm) == "HOUSE_FULL");
     CHECK(alarm.source() == "host");
     CHECK(alarm.severity() == idl::ALARM_WARNING);
   }
@@ -170,6 +170,6 @@ TEST_CASE("a plugin that stays in memory because of a thread is an alarm with th
           "[host][alarms]") {
   const RecordedRun run = act("start", "thread");
   REQUIRE(run.result.alarms.size() == 1);
-  CHECK(run.result.alarms[0].kind() == "PLUGIN_PINNED");
+  CHECK(run.result.alarms[0].kind() == idl::PLUGIN_PINNED);
   CHECK(run.result.alarms[0].source() == "test_hooligan.so");
 }

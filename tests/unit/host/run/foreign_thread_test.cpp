@@ -27,7 +27,7 @@ TEST_CASE(
     INFO(name_of(executive) << ", " << (run.result.error ? run.result.error->text() : ""));
     CHECK(run.result.outcome == RunOutcome::finished);
     REQUIRE(run.alarms.size() == 1);
-    CHECK(run.alarms[0].kind() == "FOREIGN_THREAD");
+    CHECK(run.alarms[0].kind() == idl::FOREIGN_THREAD);
     CHECK(run.alarms[0].source() == "bad");
     CHECK(run.alarms[0].severity() == idl::ALARM_WARNING);
     CHECK_THAT(run.alarms[0].text(), Contains("bad.out") && Contains("a thread that runs no component") &&

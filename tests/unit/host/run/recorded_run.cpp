@@ -30,7 +30,7 @@ class RunKeeper final : public RunListener {
     record_.heard.push_back("contact " + contact.robot());
   }
   void alarm(const idl::Alarm& alarm) override {
-    record_.heard.push_back("alarm " + alarm.kind());
+    record_.heard.push_back("alarm " + kind_text(alarm));
     record_.alarms.push_back(alarm);
   }
   void logged(log::Level level, std::string_view who, std::string_view text) override {

@@ -10,7 +10,7 @@ using namespace orca::supervisor;
 
 namespace {
 
-idl::Alarm alarm(const std::string& kind, const std::string& source) {
+idl::Alarm alarm(idl::AlarmKind kind, const std::string& source) {
   idl::Alarm alarm;
   alarm.kind(kind);
   alarm.source(source);
@@ -61,9 +61,9 @@ TEST_CASE("the next supervisor hears which code was exchanged, and how often", "
 
 TEST_CASE("alarms stand until they are acknowledged, whoever has raised them", "[supervisor][adoption]") {
   Recollection all("base");
-  all.note_told(report_of(alarm("FAILED", "avoid")));
-  all.note_alarm(alarm("PROCESS_ENDED", ""), "brain");
-  all.note_alarm(alarm("GAVE_UP", ""), "");
+  all.note_told(report_of(alarm(idl::FAILED, "avoid")));
+  all.note_alarm(alarm(idl::PROCESS_ENDED, ""), "brain");
+  all.note_alarm(alarm(idl::GAVE_UP, ""), "");
   REQUIRE(standing_of(all.reports()).alarms.size() == 3);
   CHECK(standing_of(all.reports()).alarms[0].first == "base");
   CHECK(standing_of(all.reports()).alarms[1].first == "brain");
@@ -74,7 +74,7 @@ TEST_CASE("alarms stand until they are acknowledged, whoever has raised them", "
   REQUIRE(standing_of(all.reports()).alarms.size() == 1);
   idl::Alarm left;
   REQUIRE(object_type<idl::Alarm>().deserialize(standing_of(all.reports()).alarms[0].second, &left).ok());
-  CHECK(left.kind() == "PROCESS_ENDED");
+  CHECK(left.kind() == idl::PROCESS_ENDED);
 }
 
 TEST_CASE("held motors and changed parameters are known to the next supervisor", "[supervisor][adoption]") {

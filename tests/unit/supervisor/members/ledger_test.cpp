@@ -14,7 +14,7 @@ namespace {
 class Hearing final : public host::RunListener {
  public:
   void arrived(const idl::Arrived& arrived) override { names.push_back(arrived.name()); }
-  void alarm(const idl::Alarm& alarm) override { alarms.push_back(alarm.kind()); }
+  void alarm(const idl::Alarm& alarm) override { alarms.push_back(kind_text(alarm)); }
   void robots(const host::RobotNames& robots) override { known = robots; }
   [[noreturn]] void abandon(const host::RunResult& /*result*/) override { std::abort(); }
 
@@ -80,7 +80,7 @@ TEST_CASE("arrivals and alarms of all processes reach the listener and the resul
   idl::Arrived arrived;
   arrived.name() = "kitchen";
   REQUIRE(ledger.take(ArrivedReport{bytes_of(arrived)}, "behaviours").ok());
-  ledger.raise(host::AlarmKind::process_ended, "", "process base was ended by SIGKILL");
+  ledger.raise(idl::PROCESS_ENDED, "", "process base was ended by SIGKILL");
   CHECK(hearing.names == std::vector<std::string>{"kitchen"});
   CHECK(hearing.alarms == std::vector<std::string>{"PROCESS_ENDED"});
   host::RunResult result;
@@ -120,16 +120,16 @@ TEST_CASE("alarms of a process stay when it is lost, until they are acknowledged
   const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
-  const idl::Alarm failed = host::make_alarm(host::AlarmKind::failed, "goto", "work()", "it threw 7");
+  const idl::Alarm failed = host::make_alarm(idl::FAILED, "goto", "work()", "it threw 7");
   REQUIRE(ledger.take(AlarmReport{bytes_of(failed)}, "behaviours").ok());
   ledger.lose("behaviours", "it was ended");
-  ledger.raise(host::AlarmKind::process_ended, "behaviours", "process behaviours was ended");
+  ledger.raise(idl::PROCESS_ENDED, "behaviours", "process behaviours was ended");
   REQUIRE(ledger.alarms().size() == 2);
   CHECK(ledger.alarms()[0].alarm.source() == "goto");
   CHECK(ledger.alarms()[1].process == "behaviours");
   REQUIRE(ledger.acknowledge(ledger.alarms()[0].number).ok());
   REQUIRE(ledger.alarms().size() == 1);
-  CHECK(ledger.alarms()[0].alarm.kind() == "PROCESS_ENDED");
+  CHECK(ledger.alarms()[0].alarm.kind() == idl::PROCESS_ENDED);
 }
 
 TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody", "[supervisor][ledger]") {
@@ -137,7 +137,7 @@ TEST_CASE("an alarm from before this supervisor is kept once, and told to nobody
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
   idl::Alarm alarm;
-  alarm.kind("FAILED");
+  alarm.kind(idl::FAILED);
   alarm.source("goto");
   alarm.active(true);
   Standing standing;
@@ -157,12 +157,12 @@ TEST_CASE("an alarm whose reason is gone is not active any more, and stays until
   const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
-  ledger.settle(host::AlarmKind::machine_lost, "brain", "machine brain is heard");
+  ledger.settle(idl::MACHINE_LOST, "brain", "machine brain is heard");
   CHECK(ledger.alarms().empty());
-  ledger.raise(host::AlarmKind::machine_lost, "", "machine brain was not heard", "brain");
-  ledger.raise(host::AlarmKind::machine_lost, "", "machine eye was not heard", "eye");
+  ledger.raise(idl::MACHINE_LOST, "", "machine brain was not heard", "brain");
+  ledger.raise(idl::MACHINE_LOST, "", "machine eye was not heard", "eye");
   REQUIRE(ledger.alarms().size() == 2);
-  ledger.settle(host::AlarmKind::machine_lost, "brain", "machine brain is heard again");
+  ledger.settle(idl::MACHINE_LOST, "brain", "machine brain is heard again");
   REQUIRE(ledger.alarms().size() == 2);
   CHECK_FALSE(ledger.alarms()[0].alarm.active());
   CHECK(ledger.alarms()[0].alarm.text() == "machine brain is heard again");
@@ -175,11 +175,11 @@ TEST_CASE("an emergency stop cannot be acknowledged before it is released", "[su
   const graph::Graph graph = scout_in_two();
   Hearing hearing;
   Ledger ledger(graph, hearing, TimePoint{});
-  ledger.raise(host::AlarmKind::estop, "", "all motors are held");
+  ledger.raise(idl::ESTOP, "", "all motors are held");
   REQUIRE(ledger.alarms().size() == 1);
   const std::uint64_t number = ledger.alarms()[0].number;
   CHECK(ledger.acknowledge(number).error().code == Code::failed_precondition);
-  ledger.settle(host::AlarmKind::estop, "", "released");
+  ledger.settle(idl::ESTOP, "", "released");
   CHECK(ledger.acknowledge(number).ok());
   CHECK(ledger.alarms().empty());
 }

@@ -126,5 +126,5 @@ TEST_CASE("what was gone is started again unless its rule is never to", "[superv
         "process main was gone when this deployer came");
   CHECK(policy.has_finished(0) == (node.restart == graph::Restart::temporary));
   REQUIRE(ledger.alarms().size() == 1);
-  CHECK(ledger.alarms()[0].alarm.kind() == "PROCESS_ENDED");
+  CHECK(ledger.alarms()[0].alarm.kind() == idl::PROCESS_ENDED);
 }

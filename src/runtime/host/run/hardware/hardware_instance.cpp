@@ -19,7 +19,7 @@ HardwareInstance::~HardwareInstance() {
                                       [this] { type_.entry->destroy(container_); })) {
     const std::string text = to_string(Hook::destructor) + (" " + fault->text);
     write_log(log::Level::error, text);
-    run_.reporter.note(make_alarm(AlarmKind::failed, name_, to_string(Hook::destructor), text));
+    run_.reporter.note(make_alarm(idl::FAILED, name_, to_string(Hook::destructor), text));
   }
 }
 
@@ -80,9 +80,8 @@ void HardwareInstance::state_changed(hw::HardwareState state) {
 void HardwareInstance::held(const std::optional<std::string>& reason) {
   if (on_trial_.load()) return;
   const char* const hook = to_string(Hook::strand);
-  if (reason)
-    return run_.reporter.raise(make_alarm(AlarmKind::estop, name_, hook, "the base is held: " + *reason));
-  idl::Alarm over = make_alarm(AlarmKind::estop, name_, hook, "the base obeys commands again");
+  if (reason) return run_.reporter.raise(make_alarm(idl::ESTOP, name_, hook, "the base is held: " + *reason));
+  idl::Alarm over = make_alarm(idl::ESTOP, name_, hook, "the base obeys commands again");
   over.active(false);
   run_.reporter.note(std::move(over));
 }
@@ -97,8 +96,7 @@ void HardwareInstance::accept() {
 
 // The container has written the reason to the log.
 void HardwareInstance::raise_fault() {
-  idl::Alarm alarm =
-      make_alarm(AlarmKind::hardware_fault, name_, to_string(Hook::strand), container_->fault());
+  idl::Alarm alarm = make_alarm(idl::HARDWARE_FAULT, name_, to_string(Hook::strand), container_->fault());
   alarm.mission(mission());
   run_.reporter.note(std::move(alarm));
 }

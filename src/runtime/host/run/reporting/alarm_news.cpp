@@ -17,7 +17,7 @@ void AlarmNews::add(const idl::Alarm& alarm, const std::string& process) {
 void AlarmNews::acknowledge(const std::string& kind, const std::string& source, const std::string& process) {
   const std::lock_guard lock(mutex_);
   const auto known = std::ranges::find_if(store_.kept(), [&](const KeptAlarm& kept) {
-    return kept.alarm.kind() == kind && kept.alarm.source() == source &&
+    return kind_text(kept.alarm) == kind && kept.alarm.source() == source &&
            (kept.process.empty() || kept.process == process);
   });
   if (known != store_.kept().end()) (void)store_.acknowledge(known->number);

@@ -110,7 +110,7 @@ void Reporter::foreign_call(std::string_view component, std::string_view port, c
   }
   const char* const plugin = plugin::plugin_at(code);
   raise(make_alarm(
-      AlarmKind::foreign_thread, std::string(component), "",
+      idl::FOREIGN_THREAD, std::string(component), "",
       std::string(component) + "." + std::string(port) +
           " was called by a thread that runs no component, and refuses; only the component's own hooks, "
           "laps and handlers may call its ports" +

@@ -171,7 +171,7 @@ DriverSwap::Outcome DriverSwap::closed() {
   (void)place.remove_spare(kForever);  // it has never run
   const std::string why = "the present driver does not close the device" + way_out();
   place.seat().give_up(why);
-  site_.run.reporter.raise(make_alarm(AlarmKind::hardware_fault, order_.component, "", why));
+  site_.run.reporter.raise(make_alarm(idl::HARDWARE_FAULT, order_.component, "", why));
   return refuse(Code::deadline_exceeded, why);
 }
 
@@ -227,7 +227,7 @@ DriverSwap::Outcome DriverSwap::put_back(const std::string& trouble) {
 }
 
 Result<SwapReport> DriverSwap::undone(const std::string& what) {
-  site_.run.reporter.raise(make_alarm(AlarmKind::swap_undone, order_.component, "", what));
+  site_.run.reporter.raise(make_alarm(idl::SWAP_UNDONE, order_.component, "", what));
   return refuse(Code::failed_precondition, what);
 }
 

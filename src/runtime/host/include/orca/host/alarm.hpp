@@ -10,34 +10,7 @@
 
 namespace orca::host {
 
-/// The kinds of alarm that the runtime itself raises.
-enum class AlarmKind {
-  failed,          ///< A component has failed: an exception, an error, or WORK_FAILED.
-  hardware_fault,  ///< A hardware container is in the state Fault.
-  stalled,         ///< A component computes or sleeps without waiting for anything of Orca.
-  plugin_pinned,   ///< A plugin stays in memory although nothing uses it.
-  fork,            ///< A component called fork(); the copy was ended.
-  foreign_thread,  ///< A thread that runs no component called a port; the call was refused.
-  floating_point,  ///< The following are changes of state that all components share.
-  locale,
-  terminate_handler,
-  signal_mask,
-  signal_handler,
-  working_folder,
-  umask,
-  resource_limit,
-  redirection,    ///< Of stdin, stdout or stderr.
-  descriptors,    ///< Descriptors were left open, or none are left.
-  process_ended,  ///< A host process has ended although nobody asked it to, or hangs and was ended.
-  gave_up,        ///< Processes were restarted too often; the run ends.
-  machine_lost,   ///< Another machine of the system is silent, or could not start again.
-  estop,  ///< Motors are held: an operator has stopped all, the process of some was lost, or the base wants a person.
-  control_lost,  ///< Nobody can reach this system with orcactl any more, not even to stop it.
-  swap_undone  ///< A new version of a component failed soon after it had taken over, and the old one is back.
-};
-
-/// Returns the kind in capitals, as in idl::Alarm: "SIGNAL_MASK".
-[[nodiscard]] const char* to_string(AlarmKind kind);
+using idl::AlarmKind;
 
 /// A function that takes alarms as they are raised.
 ///
@@ -51,10 +24,13 @@ using AlarmSink = std::function<void(const idl::Alarm&)>;
                                     const std::string& text);
 
 /// Makes an alarm of a component's own, without times, mission and cause.
-[[nodiscard]] idl::Alarm make_alarm(const std::string& kind, idl::AlarmSeverity severity,
+[[nodiscard]] idl::Alarm make_alarm(const std::string& own_kind, idl::AlarmSeverity severity,
                                     const std::string& component, const std::string& text);
 /// Returns whether a component may raise an alarm of that kind: a word of capitals, digits and '_' that is none of the runtime's.
 [[nodiscard]] bool is_own_alarm_kind(std::string_view kind);
+
+/// Returns whether two alarms report one thing: kind and source are the same.
+[[nodiscard]] bool are_about_the_same(const idl::Alarm& one, const idl::Alarm& other);
 
 /// Returns an alarm for people: "avoid FAILED: work() threw 7".
 [[nodiscard]] std::string alarm_text(const idl::Alarm& alarm);

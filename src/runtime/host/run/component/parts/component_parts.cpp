@@ -23,7 +23,7 @@ void ComponentParts::write_log(log::Level level, std::string_view text) const {
 
 void ComponentParts::report_failure(Hook hook, const std::string& text, const char* port) {
   write_log(log::Level::error, text);
-  idl::Alarm alarm = make_alarm(AlarmKind::failed, settings.name, hook_text(hook, port), text);
+  idl::Alarm alarm = make_alarm(idl::FAILED, settings.name, hook_text(hook, port), text);
   home.provenance.stamp(alarm);
   run.reporter.note(std::move(alarm));
 }

@@ -104,7 +104,7 @@ bool Succession::take_back(ComponentState state, const std::string& why) {
   late_laps_ = {};
   seat(state);
   catch_up(state);
-  parts_.run.reporter.note(make_alarm(AlarmKind::swap_undone, parts_.settings.name, "",
+  parts_.run.reporter.note(make_alarm(idl::SWAP_UNDONE, parts_.settings.name, "",
                                       "the new one failed, and the old one is back: " + why));
   {
     const std::lock_guard lock(mutex_);
