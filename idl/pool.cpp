@@ -15,10 +15,10 @@ namespace {
 
 // ThreadSanitizer does not follow copies of a process, and follows 64 locks at once.
 #if !defined(__SANITIZE_THREAD__)
-void lock_all() {
+void lock_all() ORCA_THREAD_WORD(no_thread_safety_analysis) {
   for (const ObjectType* const type : object_types()) type->pool.lock();
 }
-void unlock_all() {
+void unlock_all() ORCA_THREAD_WORD(no_thread_safety_analysis) {
   for (const ObjectType* const type : object_types()) type->pool.unlock();
 }
 
@@ -67,7 +67,7 @@ Slot* Pool::acquire() noexcept {
   Slot* slot = nullptr;
   const void* blank = nullptr;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     take_back();
     if (free_ == nullptr) grow();
     slot = free_;
@@ -97,7 +97,7 @@ void Pool::recycle(Slot* slot) noexcept {
 }
 
 PoolStatistics Pool::statistics() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   take_back();
   std::size_t live = capacity_;
   for (const Slot* slot = free_; slot != nullptr; slot = slot->next_free) --live;

@@ -3,9 +3,9 @@
 
 #include <atomic>
 #include <cstddef>
-#include <mutex>
 #include <type_traits>
 
+#include "orca/base/mutex.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::detail {
@@ -26,26 +26,25 @@ class Pool {
   [[nodiscard]] PoolStatistics statistics();
 
   /// Keep other threads out while the process is copied (fork), so that the copy finds the pool whole and free.
-  void lock() { mutex_.lock(); }
-  void unlock() { mutex_.unlock(); }
+  void lock() ORCA_ACQUIRES(mutex_) { mutex_.lock(); }
+  void unlock() ORCA_RELEASES(mutex_) { mutex_.unlock(); }
 
  private:
   struct Slab {
     Slab* next;
   };
 
-  void grow();
-  void take_back();
+  void grow() ORCA_REQUIRES(mutex_);
+  void take_back() ORCA_REQUIRES(mutex_);
   [[nodiscard]] std::size_t stride() const;
 
   const ObjectType& type_;
   std::atomic<Slot*> returned_{nullptr};  // recycled, but not yet among the free slots
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  Slot* free_ = nullptr;
-  Slab* slabs_ = nullptr;        // Keeps the memory reachable for leak checkers.
-  const void* blank_ = nullptr;  // A default object; constant once made.
-  std::size_t capacity_ = 0;
+  Mutex mutex_;
+  Slot* free_ ORCA_GUARDED_BY(mutex_) = nullptr;
+  Slab* slabs_ ORCA_GUARDED_BY(mutex_) = nullptr;        // Keeps the memory reachable for leak checkers.
+  const void* blank_ ORCA_GUARDED_BY(mutex_) = nullptr;  // A default object; constant once made.
+  std::size_t capacity_ ORCA_GUARDED_BY(mutex_) = 0;
 };
 
 // Views may be dropped while the program's static objects are destroyed, so a pool must outlast them all.

@@ -11,7 +11,7 @@ constexpr std::size_t kMaxSections = 64;
 }  // namespace
 
 std::shared_ptr<const Grid> MeshSections::at(double height) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (const auto known = sections_.find(height); known != sections_.end()) return known->second;
   Elements elements;
   for (const auto& mesh : meshes_)

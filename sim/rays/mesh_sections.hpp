@@ -3,10 +3,10 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "grid.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/sim/mesh.hpp"
 
 namespace orca::sim::detail {
@@ -31,8 +31,8 @@ class MeshSections {
   [[nodiscard]] std::shared_ptr<const Grid> at(double height) const;
 
   std::vector<std::shared_ptr<const Mesh>> meshes_;
-  mutable std::mutex mutex_;
-  mutable std::map<double, std::shared_ptr<const Grid>> sections_;  // By height; guarded by mutex_.
+  mutable Mutex mutex_;
+  mutable std::map<double, std::shared_ptr<const Grid>> sections_ ORCA_GUARDED_BY(mutex_);  // by height
 };
 
 }  // namespace orca::sim::detail

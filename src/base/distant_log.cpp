@@ -2,18 +2,18 @@
 #include "orca/base/distant_log.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "orca/base/log_mute.hpp"
+#include "orca/base/mutex.hpp"
 
 namespace orca::log {
 namespace {
 
 struct Listeners {
-  std::mutex mutex;
-  std::vector<const DistantListener*> all;  // guarded by the mutex
+  Mutex mutex;
+  std::vector<const DistantListener*> all ORCA_GUARDED_BY(mutex);
 };
 
 // Never destroyed: threads may pass lines on while the process ends.
@@ -25,24 +25,24 @@ Listeners& listeners() {
 }  // namespace
 
 DistantListener::DistantListener(std::function<void(const Line&)> heard) : heard_(std::move(heard)) {
-  const std::lock_guard lock(listeners().mutex);
+  const MutexLock lock(listeners().mutex);
   listeners().all.push_back(this);
 }
 
 DistantListener::~DistantListener() {
-  const std::lock_guard lock(listeners().mutex);
+  const MutexLock lock(listeners().mutex);
   std::erase(listeners().all, this);
 }
 
 bool wants_distant() {
   if (is_muted()) return false;
-  const std::lock_guard lock(listeners().mutex);
+  const MutexLock lock(listeners().mutex);
   return !listeners().all.empty();
 }
 
 void hear_distant(const Line& line) {
   if (is_muted()) return;
-  const std::lock_guard lock(listeners().mutex);
+  const MutexLock lock(listeners().mutex);
   for (const DistantListener* const listener : listeners().all) listener->heard_(line);
 }
 

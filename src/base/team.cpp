@@ -10,6 +10,7 @@
 
 #include "executive/futex_event.hpp"
 #include "orca/base/activity.hpp"
+#include "orca/base/mutex.hpp"
 
 namespace orca {
 namespace {
@@ -41,7 +42,8 @@ class Team::Loop {
     }
   }
 
-  void finish() const {
+  void finish() {
+    const MutexLock lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
   }
 
@@ -49,7 +51,7 @@ class Team::Loop {
 
  private:
   void fail(std::size_t i) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (failure_ && failed_ < i) return;
     failure_ = std::current_exception();
     failed_ = i;
@@ -59,10 +61,9 @@ class Team::Loop {
   const std::function<void(std::size_t)>& work_;
   ActivityKeeper caller_;  // A helper works in the name of the caller.
   std::atomic<std::size_t> next_{0};
-  std::mutex mutex_;
-  // Guarded by mutex_.
-  std::exception_ptr failure_;
-  std::size_t failed_ = 0;
+  Mutex mutex_;
+  std::exception_ptr failure_ ORCA_GUARDED_BY(mutex_);
+  std::size_t failed_ ORCA_GUARDED_BY(mutex_) = 0;
 };
 
 struct Team::Helper {
@@ -88,7 +89,7 @@ Team::Team(unsigned threads) : helpers_left_(std::make_unique<detail::FutexEvent
 
 Team::~Team() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ended_ = true;
   }
   wake_helpers();
@@ -99,7 +100,7 @@ void Team::for_all(std::size_t count, const std::function<void(std::size_t)>& wo
   Loop loop(count, work);
   if (count > 1 && !helpers_.empty()) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       loop_ = &loop;
     }
     wake_helpers();
@@ -116,7 +117,7 @@ void Team::wake_helpers() {
 void Team::wait_for_helpers(const Loop& loop) {
   for (;;) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       loop_ = nullptr;  // A late helper need not join.
       if (loop.helpers == 0) return;
     }
@@ -127,7 +128,7 @@ void Team::wait_for_helpers(const Loop& loop) {
 void Team::help(Helper& self) {
   for (;;) {
     self.loop_begins.wait_until(kForever);
-    std::unique_lock lock(mutex_);
+    MutexLock lock(mutex_);
     if (ended_) return;
     if (loop_ == nullptr) continue;
     Loop& loop = *loop_;

@@ -18,7 +18,7 @@ PushEdge& PushClientEndpoint::connect(PushSource& source, const QueuePolicy& pol
     edge->move_to(&source);
     return *edge;
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   edges_.push_back(std::make_unique<PushEdge>(*this, source, policy));
   if (subscribes_) edges_.back()->subscribe();
   return *edges_.back();
@@ -36,7 +36,7 @@ PushEdge* PushClientEndpoint::vacancy_for(const PushSource& source) const {
 
 void PushClientEndpoint::take_places_of(const PushClientEndpoint& other) {
   assert(contract().many && edges_.empty());
-  const std::lock_guard lock(other.mutex_);
+  const MutexLock lock(other.mutex_);
   for (const auto& edge : other.edges_)
     edges_.push_back(std::make_unique<PushEdge>(*this, edge->source_path(), contract().queue));
 }
@@ -56,7 +56,7 @@ bool PushClientEndpoint::connected() const {
 }
 
 std::optional<EdgeCounters> PushClientEndpoint::counters_from(const std::string& server) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const auto& edge : edges_)
     if (edge->source_path() == server) return edge->counters();
   return std::nullopt;

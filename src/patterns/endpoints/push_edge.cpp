@@ -35,7 +35,7 @@ PushEdge::PushEdge(Endpoint& client, std::string path, const QueuePolicy& policy
   fit(policy);
 }
 
-// Takes another policy. Called by the constructor, or with the lock held.
+// Takes another policy.
 void PushEdge::fit(const QueuePolicy& policy) {
   assert(policy.depth > 0);
   std::vector<ObjectRef> ring(policy.depth);
@@ -57,7 +57,7 @@ void PushEdge::fit(const QueuePolicy& policy) {
 void PushEdge::set_policy(const QueuePolicy& policy) {
   bool waited_for = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     note_missed();
     fit(policy);
     subscriber_stuck_ = false;
@@ -70,12 +70,12 @@ void PushEdge::set_policy(const QueuePolicy& policy) {
 }
 
 QueuePolicy PushEdge::policy_now() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return policy_;
 }
 
 std::string PushEdge::source_path() const {
-  const std::lock_guard lock(told_mutex_);
+  const MutexLock lock(told_mutex_);
   return path_;
 }
 
@@ -98,19 +98,19 @@ void PushEdge::move_to(PushSource* next) {
     tell_of_link(false);
   }
   if (next == nullptr) {  // nobody is late from here on
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     note_missed();
   }
   const bool had_server = has_server();
   source_.store(next, std::memory_order_release);
   if (next == nullptr) return;
   {
-    const std::lock_guard lock(told_mutex_);
+    const MutexLock lock(told_mutex_);
     path_ = next->path();
   }
   if (!subscribed()) return;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     publisher_waits_ = subscriber_stuck_ = false;
   }
   if (!had_server && policy_.deadline > Duration{0}) expect_first();
@@ -124,7 +124,7 @@ void PushEdge::leave() {
 }
 
 void PushEdge::expect_first() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   last_arrival_ = now().time_since_epoch().count();
   reported_delays_ = late_arrivals_;
 }
@@ -134,7 +134,7 @@ void PushEdge::unsubscribe() {
   if (was_subscribed) {
     source()->detach();
     tell_of_link(false);
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     note_missed();
   }
   subscribed_.store(false, std::memory_order_release);
@@ -142,7 +142,7 @@ void PushEdge::unsubscribe() {
 }
 
 void PushEdge::forget_objects() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   counts_.left_behind += count_;
   count_.store(0, std::memory_order_release);
   std::fill(ring_.begin(), ring_.end(), ObjectRef{});
@@ -160,12 +160,12 @@ UpdateRate PushEdge::rate() const {
 }
 
 UpdateGrant PushEdge::grant() const {
-  const std::lock_guard lock(told_mutex_);
+  const MutexLock lock(told_mutex_);
   return grant_;
 }
 
 void PushEdge::granted(const UpdateGrant& grant) {
-  const std::lock_guard lock(told_mutex_);
+  const MutexLock lock(told_mutex_);
   grant_ = grant;
 }
 
@@ -174,7 +174,7 @@ std::optional<Duration> PushEdge::deliver(ObjectRef&& object) {
   bool taken = true;
   std::uint64_t drops = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     std::uint32_t count = count_.load(std::memory_order_relaxed);
     if (count == policy_.depth) {
       taken = make_room();
@@ -209,15 +209,14 @@ bool PushEdge::make_room() {
   }
 }
 
-// Counts lost objects. Called with the lock held.
+// Counts lost objects.
 void PushEdge::drop(Published<std::uint64_t>& reason, std::uint64_t objects) {
   reason += objects;
   drops_ += objects;
 }
 
 // Returns the number of drops if it is to be reported now, otherwise 0. It is reported when it passes the
-// limit, and then each time that the excess has doubled, so that a flood costs nothing. Called with the lock
-// held.
+// limit, and then each time that the excess has doubled, so that a flood costs nothing.
 std::uint64_t PushEdge::drops_to_report() {
   const std::uint64_t drops = drops_;
   if (drops < report_drops_at_ || report_drops_at_ == kNever) return 0;
@@ -251,8 +250,7 @@ void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
   if (policy_.deadline > Duration{0} && count_missed(now())) ++late_arrivals_;
 }
 
-// Counts what was missed until a time, from which the next deadline runs. Returns whether there was anything. Called with
-// the lock held.
+// Counts what was missed until a time, from which the next deadline runs. Returns whether there was anything.
 bool PushEdge::count_missed(TimePoint time) {
   const std::uint64_t missed = missed_until(time);
   const bool any = missed > counts_.missed_deadlines;
@@ -261,7 +259,7 @@ bool PushEdge::count_missed(TimePoint time) {
   return any;
 }
 
-// Counts what was missed until now, before the deadline changes or nobody waits any more. Called with the lock held.
+// Counts what was missed until now, before the deadline changes or nobody waits any more.
 void PushEdge::note_missed() {
   if (policy_.deadline > Duration{0} && subscribed()) count_missed(now());
 }
@@ -269,7 +267,7 @@ void PushEdge::note_missed() {
 void PushEdge::give_up(const ObjectRef& /*object*/) {
   std::uint64_t drops = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     drop(counts_.dropped_blocked, 1);
     drops = drops_to_report();
     publisher_waits_ = false;
@@ -281,7 +279,7 @@ void PushEdge::give_up(const ObjectRef& /*object*/) {
 void PushEdge::lost(std::uint64_t objects) {
   std::uint64_t drops = 0;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     drop(counts_.dropped_by_link, objects);
     drops = drops_to_report();
   }
@@ -294,7 +292,7 @@ void PushEdge::lost(std::uint64_t objects) {
   ObjectRef object;
   bool waited_for = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const std::uint32_t count = count_.load(std::memory_order_relaxed);
     object = std::move(ring_[first_]);
     if (count == 1) newest_ = object;
@@ -316,7 +314,7 @@ ObjectRef PushEdge::take() {
 }
 
 std::optional<TimePoint> PushEdge::oldest_stamp() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (count_.load(std::memory_order_relaxed) == 0) return std::nullopt;
   return ring_[first_].stamp();
 }
@@ -334,7 +332,7 @@ bool PushEdge::drop_before(TimePoint time) {
 
 ObjectRef PushEdge::latest() const {
   look();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const std::uint32_t count = count_.load(std::memory_order_relaxed);
   return count == 0 ? newest_ : ring_[(first_ + count - 1) % policy_.depth];
 }
@@ -356,7 +354,7 @@ TimePoint PushEdge::watch_deadline() {
   TimePoint next = kForever;
   bool is_new = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const TimePoint due = saturating_add(TimePoint(Duration(last_arrival_)), policy_.deadline);
     const bool is_late = now() > due;
     const std::uint64_t delays = late_arrivals_ + (is_late ? 1 : 0);

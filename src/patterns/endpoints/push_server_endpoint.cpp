@@ -2,7 +2,6 @@
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 
 #include <algorithm>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -60,18 +59,18 @@ PushServerEndpoint::PushServerEndpoint(PortHome& home, PortContract contract)
 PushServerEndpoint::~PushServerEndpoint() { cut_links(); }
 
 PushSource& PushServerEndpoint::connect(std::string client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   edges_.push_back(std::make_unique<Edge>(*this, std::move(client)));
   return *edges_.back();
 }
 
 void PushServerEndpoint::disconnect(const std::string& client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::erase_if(edges_, [&](const auto& edge) { return edge->client() == client; });
 }
 
 void PushServerEndpoint::announce(Duration base_period) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   base_period_ = base_period.count();
   for (Edge* edge : subscribed_) edge->regrant();
 }
@@ -97,7 +96,7 @@ std::size_t PushServerEndpoint::audience() const {
 // publisher's own view.
 bool PushServerEndpoint::hand_out(ObjectRef& object) {
   bool done = true;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (Edge* edge : subscribed_) {
     if (!edge->is_due(object)) continue;
     const bool mine = done && edge == subscribed_.back();
@@ -123,7 +122,7 @@ void PushServerEndpoint::wait_for_room(const ObjectRef& object) {
 // Retries where the object is still owed. Returns true when no edge waits for it any more.
 bool PushServerEndpoint::settle(const ObjectRef& object) {
   bool settled = true;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (Edge* edge : subscribed_) {
     if (!edge->owed_until) continue;
     if (edge->sink().deliver(ObjectRef(object))) {
@@ -139,7 +138,7 @@ bool PushServerEndpoint::settle(const ObjectRef& object) {
 }
 
 void PushServerEndpoint::give_up(const ObjectRef& object) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (Edge* edge : subscribed_) {
     if (edge->owed_until) edge->sink().give_up(object);
     edge->owed_until.reset();
@@ -147,7 +146,7 @@ void PushServerEndpoint::give_up(const ObjectRef& object) {
 }
 
 TimePoint PushServerEndpoint::next_limit() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   TimePoint next = kForever;
   for (const Edge* edge : subscribed_)
     if (edge->owed_until) next = std::min(next, *edge->owed_until);
@@ -164,7 +163,7 @@ void PushServerEndpoint::Edge::regrant() {
 
 void PushServerEndpoint::Edge::attach(PushSink& sink, const UpdateRate& rate) {
   {
-    const std::lock_guard lock(server_.mutex_);
+    const MutexLock lock(server_.mutex_);
     if (sink_ != nullptr) std::erase(server_.subscribed_, this);
     sink_ = &sink;
     asked_ = rate;
@@ -181,7 +180,7 @@ void PushServerEndpoint::Edge::attach(PushSink& sink, const UpdateRate& rate) {
 
 void PushServerEndpoint::Edge::detach() {
   {
-    const std::lock_guard lock(server_.mutex_);
+    const MutexLock lock(server_.mutex_);
     sink_ = nullptr;
     std::erase(server_.subscribed_, this);
     server_.subscribers_.store(server_.subscribed_.size(), std::memory_order_release);
@@ -190,7 +189,7 @@ void PushServerEndpoint::Edge::detach() {
 }
 
 void PushServerEndpoint::Edge::change(const UpdateRate& rate) {
-  const std::lock_guard lock(server_.mutex_);
+  const MutexLock lock(server_.mutex_);
   if (sink_ == nullptr) return;
   asked_ = rate;
   regrant();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/mutex.hpp"
+
 namespace orca {
 
 // One client's part of the intake.
@@ -30,7 +32,7 @@ std::optional<Result<ObjectRef>> QueryServerEndpoint::Edge::offer(const ObjectRe
                                                                   QueryReplySink& reply_to, QueryId id,
                                                                   bool /*may_wait*/) {
   {
-    const std::lock_guard lock(server_.mutex_);
+    const MutexLock lock(server_.mutex_);
     IntakeCounters& counters = server_.counters_;
     if (!server_.handler_) {
       ++counters.refused_closed;
@@ -57,13 +59,13 @@ QueryServerEndpoint::QueryServerEndpoint(PortHome& home, PortContract contract)
 QueryServerEndpoint::~QueryServerEndpoint() { cut_links(); }
 
 QueryTarget& QueryServerEndpoint::connect(std::string client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   edges_.push_back(std::make_unique<Edge>(*this, std::move(client)));
   return *edges_.back();
 }
 
 void QueryServerEndpoint::disconnect(const std::string& client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   counters_.withdrawn +=
       std::erase_if(waiting_, [&](const Question& one) { return one.edge->client() == client; });
   if (handled_ != nullptr && handled_->client() == client) handled_ = nullptr;
@@ -71,12 +73,12 @@ void QueryServerEndpoint::disconnect(const std::string& client) {
 }
 
 void QueryServerEndpoint::open(Handler handler) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   handler_ = std::make_shared<const Handler>(std::move(handler));
 }
 
 void QueryServerEndpoint::close(const std::string& reason) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   handler_ = nullptr;
   closed_because_ = reason;
   for (const Question& question : waiting_)
@@ -88,7 +90,7 @@ void QueryServerEndpoint::close(const std::string& reason) {
 
 std::optional<QueryServerEndpoint::Question> QueryServerEndpoint::next(
     std::shared_ptr<const Handler>& handler) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (waiting_.empty() || !handler_) return std::nullopt;
   handler = handler_;
   Question question = std::move(waiting_.front());
@@ -125,18 +127,18 @@ void QueryServerEndpoint::answer(const Question& question, Result<ObjectLoan> an
 
 // Replies with the lock held, so that the client cannot go meanwhile.
 void QueryServerEndpoint::reply(const Question& question, Result<ObjectRef> answer) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!answer) ++counters_.failed;
   if (std::exchange(handled_, nullptr) != nullptr) question.reply_to->reply(question.id, std::move(answer));
 }
 
 bool QueryServerEndpoint::has_waiting() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return !waiting_.empty();
 }
 
 IntakeCounters QueryServerEndpoint::counters() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   IntakeCounters now_counted = counters_;
   now_counted.refused = counters_.refused_full + counters_.refused_closed + counters_.withdrawn;
   now_counted.queued = static_cast<std::uint32_t>(waiting_.size());

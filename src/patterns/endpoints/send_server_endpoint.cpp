@@ -29,7 +29,7 @@ class SendServerEndpoint::Edge final : public SendTarget, public std::enable_sha
 
   [[nodiscard]] const std::string& client() const { return client_; }
 
-  // Below: called with the server's lock held.
+  // Below: called with the server's lock held, which clang cannot follow through the pointer to an edge.
   void refuse_held(const Error& reason);
   void leave();
   void take_next();
@@ -47,9 +47,9 @@ class SendServerEndpoint::Edge final : public SendTarget, public std::enable_sha
 
   [[nodiscard]] bool full() const { return counters.queued >= policy.depth; }
   [[nodiscard]] bool confirms_handled() const { return policy.confirm == QueuePolicy::Confirm::handled; }
-  void take_in(const Offer& offer);
+  void take_in(const Offer& offer) ORCA_THREAD_WORD(no_thread_safety_analysis);
   template <class Which>
-  std::size_t take_back(const Which& which);
+  std::size_t take_back(const Which& which) ORCA_THREAD_WORD(no_thread_safety_analysis);
 
   SendServerEndpoint& server_;
   const std::string client_;
@@ -59,7 +59,7 @@ class SendServerEndpoint::Edge final : public SendTarget, public std::enable_sha
 std::optional<Status> SendServerEndpoint::Edge::offer(const ObjectRef& object, SendReplySink& reply_to,
                                                       SendId id, bool may_wait) {
   {
-    const std::lock_guard lock(server_.mutex_);
+    const MutexLock lock(server_.mutex_);
     if (!server_.handler_) {
       ++counters.refused_closed;
       return fail(Code::unavailable, path() + " takes nothing, because " + server_.closed_because_);
@@ -92,7 +92,7 @@ void SendServerEndpoint::Edge::take_in(const Offer& offer) {
 }
 
 void SendServerEndpoint::Edge::withdraw(SendId id) {
-  const std::lock_guard lock(server_.mutex_);
+  const MutexLock lock(server_.mutex_);
   counters.withdrawn += std::erase_if(held_, [&](const Offer& offer) { return offer.id == id; });
   const std::size_t taken_back = take_back([&](const Accepted& one) { return one.id == id; });
   for (std::size_t i = 0; i < taken_back; ++i) take_next();
@@ -144,20 +144,20 @@ SendServerEndpoint::SendServerEndpoint(PortHome& home, PortContract contract)
 SendServerEndpoint::~SendServerEndpoint() { cut_links(); }
 
 SendTarget& SendServerEndpoint::connect(std::string client, const QueuePolicy& policy) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   edges_.push_back(std::make_shared<Edge>(*this, std::move(client), policy));
   return *edges_.back();
 }
 
 bool SendServerEndpoint::change(const std::string& client, const QueuePolicy& policy) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = std::ranges::find(edges_, client, [](const auto& edge) { return edge->client(); });
   if (found != edges_.end()) (*found)->policy = policy;
   return found != edges_.end();
 }
 
 void SendServerEndpoint::disconnect(const std::string& client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const auto& edge : edges_)
     if (edge->client() == client) leave(edge);
   std::erase_if(edges_, [](const auto& edge) { return edge->is_gone; });
@@ -170,12 +170,12 @@ void SendServerEndpoint::leave(const std::shared_ptr<Edge>& edge) {
 }
 
 void SendServerEndpoint::open(Handler handler) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   handler_ = std::make_shared<const Handler>(std::move(handler));
 }
 
 void SendServerEndpoint::close(const std::string& reason) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   handler_ = nullptr;
   closed_because_ = reason;
   for (const auto& edge : edges_)
@@ -183,7 +183,7 @@ void SendServerEndpoint::close(const std::string& reason) {
 }
 
 bool SendServerEndpoint::next(Accepted& accepted, std::shared_ptr<const Handler>& handler) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (waiting_.empty() || !handler_) return false;
   handler = handler_;
   accepted = std::move(waiting_.front());
@@ -211,25 +211,25 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
 // Counts what has become of an object, and tells its sender if that still waits for it. With the lock held, so that the
 // sender cannot go meanwhile.
 void SendServerEndpoint::settle(const Accepted& accepted, const Status& outcome) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!outcome.ok()) ++(accepted.edge->is_gone ? of_gone_ : accepted.edge->counters).failed;
   if (accepted.reply_to != nullptr && !accepted.edge->is_gone) accepted.reply_to->reply(accepted.id, outcome);
 }
 
 bool SendServerEndpoint::has_waiting() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return !waiting_.empty();
 }
 
 IntakeCounters SendServerEndpoint::counters() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   IntakeCounters all = of_gone_;
   for (const auto& edge : edges_) all += edge->summed();
   return all;
 }
 
 IntakeCounters SendServerEndpoint::counters(std::size_t edge) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return edges_.at(edge)->summed();
 }
 

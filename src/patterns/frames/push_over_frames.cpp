@@ -76,33 +76,32 @@ PushSourceOverFrames::PushSourceOverFrames(std::unique_ptr<FrameEnd> end, const 
 }
 
 void PushSourceOverFrames::attach(PushSink& sink, const UpdateRate& rate) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   sink_ = &sink;
   rate_ = rate;
   send_attach();
 }
 
-// Called with the lock held.
 void PushSourceOverFrames::send_attach() {
   ++subscription_;
   end_->send(with_rate(FrameKind::attach, subscription_, rate_));
 }
 
 void PushSourceOverFrames::detach() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   sink_ = nullptr;
   held_.reset();
   end_->send(Frame(FrameKind::detach, subscription_));
 }
 
 void PushSourceOverFrames::change(const UpdateRate& rate) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   rate_ = rate;
   end_->send(with_rate(FrameKind::change, subscription_, rate));
 }
 
 void PushSourceOverFrames::room() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!held_) return;
   Held held = std::move(*held_);
   held_.reset();
@@ -110,11 +109,10 @@ void PushSourceOverFrames::room() {
 }
 
 Duration PushSourceOverFrames::base_period() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return base_period_;
 }
 
-// Called with the lock held.
 void PushSourceOverFrames::deliver(ObjectRef object, std::uint64_t ticket) {
   if (sink_->deliver(std::move(object)).has_value()) {
     held_ = Held{std::move(object), ticket};  // deliver() left it unchanged
@@ -138,17 +136,17 @@ Status PushSourceOverFrames::receive(FrameReader& frame) {
 
 // Drops an object that waits for room, because nobody waits for it to be taken any more.
 void PushSourceOverFrames::lose_server() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (held_) sink_->give_up(held_->object);
   held_.reset();
 }
 
 void PushSourceOverFrames::subscribe_again() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (sink_ != nullptr) send_attach();
 }
 
-// Returns whether the frame belongs to the present subscription. Called with the lock held.
+// Returns whether the frame belongs to the present subscription.
 bool PushSourceOverFrames::is_current(const FrameReader& frame) const {
   return sink_ != nullptr && frame.number() == subscription_;
 }
@@ -157,7 +155,7 @@ Status PushSourceOverFrames::receive_object(FrameReader& frame) {
   const std::uint64_t ticket = frame.read_number();
   Result<ObjectRef> object = frame.read_object(type_);
   if (!object) return object.error();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_current(frame)) deliver(std::move(object).value(), ticket);
   return ok();
 }
@@ -165,7 +163,7 @@ Status PushSourceOverFrames::receive_object(FrameReader& frame) {
 Status PushSourceOverFrames::receive_grant(FrameReader& frame) {
   const Result<UpdateGrant> grant = read_grant(frame);
   if (!grant) return grant.error();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (!is_current(frame)) return ok();
   base_period_ = grant->base_period;
   sink_->granted(*grant);
@@ -175,7 +173,7 @@ Status PushSourceOverFrames::receive_grant(FrameReader& frame) {
 Status PushSourceOverFrames::receive_give_up(FrameReader& frame) {
   const Result<std::uint64_t> ticket = read_single(frame);
   if (!ticket) return ticket.error();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_current(frame) && held_ && held_->ticket == *ticket)
     sink_->give_up(std::exchange(held_, std::nullopt)->object);
   return ok();
@@ -184,7 +182,7 @@ Status PushSourceOverFrames::receive_give_up(FrameReader& frame) {
 Status PushSourceOverFrames::receive_loss(FrameReader& frame) {
   const Result<std::uint64_t> objects = read_single(frame);
   if (!objects) return objects.error();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_current(frame)) sink_->lost(*objects);
   return ok();
 }
@@ -206,12 +204,12 @@ PushSinkOverFrames::~PushSinkOverFrames() {
 
 void PushSinkOverFrames::lose_client() {
   source_.detach();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   in_flight_ = {};
 }
 
 std::uint64_t PushSinkOverFrames::subscription() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return attached_;
 }
 
@@ -233,7 +231,7 @@ Status PushSinkOverFrames::receive_rate(FrameReader& frame) {
     return ok();
   }
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     attached_ = frame.number();
   }
   source_.attach(*this, *rate);
@@ -244,7 +242,7 @@ Status PushSinkOverFrames::receive_taken(FrameReader& frame) {
   const Result<std::uint64_t> ticket = read_single(frame);
   if (!ticket) return ticket.error();
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     taken_ = taken_ || *ticket == ticket_;
   }
   source_.room();
@@ -278,7 +276,7 @@ void PushSinkOverFrames::lost(std::uint64_t objects) {
 
 // Called repeatedly with the same object until the client has taken it.
 std::optional<Duration> PushSinkOverFrames::push_and_wait(const ObjectRef& object) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (in_flight_ == object) {
     if (!taken_) return limit_;
     in_flight_ = {};
@@ -296,7 +294,7 @@ std::optional<Duration> PushSinkOverFrames::push_and_wait(const ObjectRef& objec
 }
 
 void PushSinkOverFrames::give_up(const ObjectRef& /*object*/) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   in_flight_ = {};
   Frame frame(FrameKind::give_up, attached_);
   frame.add(ticket_);

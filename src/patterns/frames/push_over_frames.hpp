@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 
 #include "frame_end.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/push_link.hpp"
 
@@ -46,20 +46,20 @@ class PushSourceOverFrames final : public PushSource, public LinkEnd {
   Status receive_loss(FrameReader& frame);
   void lose_server();
   void subscribe_again();
-  void send_attach();
-  [[nodiscard]] bool is_current(const FrameReader& frame) const;
-  void deliver(ObjectRef object, std::uint64_t ticket);
+  void send_attach() ORCA_REQUIRES(mutex_);
+  [[nodiscard]] bool is_current(const FrameReader& frame) const ORCA_REQUIRES(mutex_);
+  void deliver(ObjectRef object, std::uint64_t ticket) ORCA_REQUIRES(mutex_);
 
   const ObjectType& type_;
   const std::string path_;
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  PushSink* sink_ = nullptr;        // null: not subscribed
-  std::uint64_t subscription_ = 0;  // a count, so that objects of an earlier one are discarded
-  UpdateRate rate_;                 // that was asked for last
-  Duration base_period_;
-  std::optional<Held> held_;  // only while subscribed
+  mutable Mutex mutex_;
+  PushSink* sink_ ORCA_GUARDED_BY(mutex_) = nullptr;  // null: not subscribed
+  std::uint64_t subscription_ ORCA_GUARDED_BY(mutex_) =
+      0;                                     // a count, so that objects of an earlier one are discarded
+  UpdateRate rate_ ORCA_GUARDED_BY(mutex_);  // that was asked for last
+  Duration base_period_ ORCA_GUARDED_BY(mutex_);
+  std::optional<Held> held_ ORCA_GUARDED_BY(mutex_);  // only while subscribed
 
   const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };
@@ -92,12 +92,11 @@ class PushSinkOverFrames final : public PushSink, public LinkEnd {
   const Duration limit_;
   std::uint64_t losses_ = 0;  // not yet reported; used on the publisher's strand
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::uint64_t attached_ = 0;  // the number of the present subscription
-  ObjectRef in_flight_;         // sent, and not yet taken
-  std::uint64_t ticket_ = 0;
-  bool taken_ = false;
+  mutable Mutex mutex_;
+  std::uint64_t attached_ ORCA_GUARDED_BY(mutex_) = 0;  // the number of the present subscription
+  ObjectRef in_flight_ ORCA_GUARDED_BY(mutex_);         // sent, and not yet taken
+  std::uint64_t ticket_ ORCA_GUARDED_BY(mutex_) = 0;
+  bool taken_ ORCA_GUARDED_BY(mutex_) = false;
 
   const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };

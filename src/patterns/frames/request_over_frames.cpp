@@ -65,7 +65,7 @@ TargetOverFrames<Answer>::TargetOverFrames(std::unique_ptr<FrameEnd> end, Strand
 template <class Answer>
 std::optional<Answer> TargetOverFrames<Answer>::offer(const ObjectRef& object, ReplySink<Answer>& reply_to,
                                                       RequestId id, bool may_wait) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (closed_) return *closed_;
   Frame frame(FrameKind::offer, id);
   frame.add(std::uint64_t{may_wait});
@@ -95,13 +95,13 @@ void TargetOverFrames<Answer>::withdraw(RequestId id) {
 
 template <class Answer>
 bool TargetOverFrames<Answer>::is_withdrawn(RequestId id) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return withdrawn_ == id || closed_.has_value();
 }
 
 template <class Answer>
 std::optional<typename TargetOverFrames<Answer>::Open> TargetOverFrames<Answer>::take(RequestId id) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = std::ranges::find(open_, id, &Open::id);
   if (found == open_.end()) return std::nullopt;
   const Open open = *found;
@@ -113,7 +113,7 @@ template <class Answer>
 Status TargetOverFrames<Answer>::receive(FrameReader& frame) {
   if (frame.kind() == FrameKind::withdrawn) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       withdrawn_ = frame.number();
     }
     strand_.wake();
@@ -133,7 +133,7 @@ void TargetOverFrames<Answer>::close(const Error& reason) {
       fail(Code::unavailable, path_ + " cannot be reached: the link was cut, because " + reason.message);
   std::vector<Open> left;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     closed_ = error;
     left.swap(open_);
   }
@@ -144,7 +144,7 @@ void TargetOverFrames<Answer>::close(const Error& reason) {
 template <class Answer>
 void TargetOverFrames<Answer>::open_again() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     closed_.reset();
   }
   ++renewals_;
@@ -186,7 +186,7 @@ template <class Answer>
 void CallerOverFrames<Answer>::lose_client() {
   std::vector<Open> left;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     left.swap(open_);
   }
   for (const Open& open : left) target_.withdraw(open.id);
@@ -194,7 +194,7 @@ void CallerOverFrames<Answer>::lose_client() {
 
 template <class Answer>
 RequestId CallerOverFrames<Answer>::open(RequestId of_client) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   open_.push_back({++last_id_, of_client});
   return last_id_;
 }
@@ -203,7 +203,7 @@ RequestId CallerOverFrames<Answer>::open(RequestId of_client) {
 template <class Answer>
 std::optional<typename CallerOverFrames<Answer>::Open> CallerOverFrames<Answer>::take(RequestId id,
                                                                                       RequestId Open::*by) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto found = std::ranges::find(open_, id, by);
   if (found == open_.end()) return std::nullopt;
   const Open open = *found;

@@ -4,12 +4,12 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "frame_end.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/request_link.hpp"
@@ -63,11 +63,10 @@ class TargetOverFrames final : public RequestTarget<Answer>, public LinkEnd {
   const Duration patience_;
   std::atomic<std::uint64_t> renewals_{0};
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<Open> open_;       // offered and not yet answered
-  RequestId withdrawn_ = 0;      // the last one that was confirmed
-  std::optional<Error> closed_;  // because the link was cut
+  mutable Mutex mutex_;
+  std::vector<Open> open_ ORCA_GUARDED_BY(mutex_);       // offered and not yet answered
+  RequestId withdrawn_ ORCA_GUARDED_BY(mutex_) = 0;      // the last one that was confirmed
+  std::optional<Error> closed_ ORCA_GUARDED_BY(mutex_);  // because the link was cut
 
   const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };
@@ -101,10 +100,9 @@ class CallerOverFrames final : public ReplySink<Answer>, public LinkEnd {
   const RequestTypes types_;
   RequestTarget<Answer>& target_;
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<Open> open_;  // offered and not yet answered
-  RequestId last_id_ = 0;
+  Mutex mutex_;
+  std::vector<Open> open_ ORCA_GUARDED_BY(mutex_);  // offered and not yet answered
+  RequestId last_id_ ORCA_GUARDED_BY(mutex_) = 0;
   const std::unique_ptr<FrameEnd> end_;  // the last member: its handlers use the others
 };
 

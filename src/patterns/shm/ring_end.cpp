@@ -41,8 +41,8 @@ void RingEnd::start(FrameHandlers handlers) {
 
 void RingEnd::stop() {
   strand_.remove_intake(*this);
-  const std::lock_guard reading(reading_);
-  const std::lock_guard lock(mutex_);
+  const MutexLock reading(reading_);
+  const MutexLock lock(mutex_);
   handlers_ = {};
   cut_ = true;
   writer_.close();
@@ -54,7 +54,7 @@ void RingEnd::stop() {
 Sent RingEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
   Sent outcome = Sent::cut;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (is_cut() || fault_) return Sent::cut;
     outcome = write_or_keep(frame, loss);
   }
@@ -120,7 +120,7 @@ bool RingEnd::write_unsent() {
 void RingEnd::flush() {
   bool any = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     any = !unsent_.empty() && write_unsent();
   }
   if (any) ring(*peer_.doorbell);
@@ -147,8 +147,9 @@ bool RingEnd::has_news() const {
 
 bool RingEnd::take_in() {
   if (!has_news()) return false;
-  const std::unique_lock reading(reading_, std::try_to_lock);
-  if (!reading || !handlers_.receive) return false;
+  if (!reading_.try_lock()) return false;
+  const MutexLock reading(reading_, std::adopt_lock);
+  if (!handlers_.receive) return false;
   const bool changed = apply_change();
   if (is_cut()) return changed;
   const std::uint64_t before = traffic_.frames_received.load(std::memory_order_relaxed);
@@ -193,7 +194,7 @@ Status RingEnd::handle(std::span<const std::byte> record) {
 
 std::optional<Error> RingEnd::fault() const {
   if (!waits_.load(std::memory_order_relaxed)) return std::nullopt;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return fault_;
 }
 
@@ -208,7 +209,7 @@ void RingEnd::cut_off(const Error& reason) {
 
 void RingEnd::lose(const Error& reason) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     cut_.store(true, std::memory_order_release);
     writer_.close();
   }
@@ -218,7 +219,7 @@ void RingEnd::lose(const Error& reason) {
 
 void RingEnd::cut(Error reason) {
   {
-    const std::lock_guard lock(change_mutex_);
+    const MutexLock lock(change_mutex_);
     change_ = Change{std::move(reason), std::nullopt};
   }
   is_to_change_.store(true, std::memory_order_release);
@@ -227,7 +228,7 @@ void RingEnd::cut(Error reason) {
 
 void RingEnd::renew(RingSegment segment) {
   {
-    const std::lock_guard lock(change_mutex_);
+    const MutexLock lock(change_mutex_);
     const Error reason = change_ ? change_->reason : fail(Code::unavailable, "its peer was replaced");
     change_.emplace(Change{reason, std::move(segment)});
   }
@@ -239,7 +240,7 @@ bool RingEnd::apply_change() {
   if (!is_to_change_.exchange(false, std::memory_order_acq_rel)) return false;
   std::optional<Change> change;
   {
-    const std::lock_guard lock(change_mutex_);
+    const MutexLock lock(change_mutex_);
     change.swap(change_);
   }
   if (!change) return false;
@@ -250,7 +251,7 @@ bool RingEnd::apply_change() {
 
 void RingEnd::replace(RingSegment segment) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     segment_ = std::move(segment);
     reader_.take_over(incoming(segment_, side_));
     writer_ = RingWriter(outgoing(segment_, side_));

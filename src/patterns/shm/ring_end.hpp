@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "frames/frame_end.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
 #include "ring.hpp"
@@ -64,12 +64,11 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   [[nodiscard]] std::optional<Error> fault() const;
   [[nodiscard]] bool is_closed_by_peer() const { return reader_.is_closed(); }
 
-  // Called with mutex_ held.
-  frames::Sent write_or_keep(const frames::Frame& frame, frames::Loss loss);
-  frames::Sent keep(const frames::Frame& frame);
-  bool write_unsent();
-  void note_fault(const Error& error);
-  void note_too_large();
+  frames::Sent write_or_keep(const frames::Frame& frame, frames::Loss loss) ORCA_REQUIRES(mutex_);
+  frames::Sent keep(const frames::Frame& frame) ORCA_REQUIRES(mutex_);
+  bool write_unsent() ORCA_REQUIRES(mutex_);
+  void note_fault(const Error& error) ORCA_REQUIRES(mutex_);
+  void note_too_large() ORCA_REQUIRES(mutex_);
 
   const Side side_;
   Strand& strand_;
@@ -79,21 +78,21 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   frames::FrameHandlers handlers_;
   RingSegment segment_;
 
-  std::mutex reading_;  // held by whoever takes in
+  Mutex reading_;  // held by whoever takes in
   RingReader reader_;
   std::atomic<bool> cut_{false};
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_. The flag may be read at any time.
-  RingWriter writer_;
-  std::deque<std::vector<std::byte>> unsent_;  // frames that found no room yet, oldest first
-  std::size_t unsent_bytes_ = 0;
-  std::optional<Error> fault_;      // of the peer, noticed while writing
-  bool warned_ = false;             // of a frame that is too large
-  std::atomic<bool> waits_{false};  // something is unsent, or there is a fault
+  mutable Mutex mutex_;
+  RingWriter writer_ ORCA_GUARDED_BY(mutex_);
+  std::deque<std::vector<std::byte>> unsent_
+      ORCA_GUARDED_BY(mutex_);  // frames that found no room yet, oldest first
+  std::size_t unsent_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::optional<Error> fault_ ORCA_GUARDED_BY(mutex_);  // of the peer, noticed while writing
+  bool warned_ ORCA_GUARDED_BY(mutex_) = false;         // of a frame that is too large
+  std::atomic<bool> waits_{false};                      // something is unsent, or there is a fault
 
-  std::mutex change_mutex_;
-  std::optional<Change> change_;  // guarded by change_mutex_
+  Mutex change_mutex_;
+  std::optional<Change> change_ ORCA_GUARDED_BY(change_mutex_);
   std::atomic<bool> is_to_change_{false};
 };
 

@@ -13,6 +13,7 @@
 #include "frames/push_over_frames.hpp"
 #include "frames/request_over_frames.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/patterns/endpoints/push_client_endpoint.hpp"
 #include "orca/patterns/endpoints/query_client_endpoint.hpp"
 #include "orca/patterns/endpoints/query_server_endpoint.hpp"
@@ -67,7 +68,7 @@ class FastBackend final : public DdsBackend {
     inbox_.reset();  // waits for a callback that may be using a line
     outbox_.end();   // which ticks them
     std::map<std::uint64_t, std::unique_ptr<Line>> lines;
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     lines.swap(lines_);  // a late callback of DDS finds none
   }
   FastBackend(const FastBackend&) = delete;
@@ -95,12 +96,12 @@ class FastBackend final : public DdsBackend {
   }
 
   void cut(const std::string& process, const Error& reason) override {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (const auto line = lines_.find(hash_of(process)); line != lines_.end()) line->second->lose(reason);
   }
 
   [[nodiscard]] bool reaches(const std::string& process) const override {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto line = lines_.find(hash_of(process));
     return line != lines_.end() && line->second->is_joined();
   }
@@ -135,7 +136,7 @@ class FastBackend final : public DdsBackend {
                                [this, to = std::move(writer).value()](std::vector<std::byte> message, By by) {
                                  outbox_.post({to, {}, {}, std::move(message)}, by);
                                });
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return lines_.emplace(hash_of(process), std::move(line)).first->second.get();
   }
 
@@ -153,19 +154,19 @@ class FastBackend final : public DdsBackend {
   }
 
   Line* find_line(std::uint64_t process) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto line = lines_.find(process);
     return line == lines_.end() ? nullptr : line->second.get();
   }
 
   void tick() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     for (const auto& [process, line] : lines_) line->tick();
   }
 
   // A peer was found, whichever it is.
   void greet() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     for (const auto& [process, line] : lines_) line->greet_if_alone();
   }
 
@@ -248,8 +249,8 @@ class FastBackend final : public DdsBackend {
   const std::unique_ptr<Participant> participant_;
   std::map<Endpoint*, Published> published_;
   std::map<std::string, std::weak_ptr<Subscription>> subscriptions_;
-  mutable std::mutex mutex_;
-  std::map<std::uint64_t, std::unique_ptr<Line>> lines_;  // guarded by mutex_, but not what is in them
+  mutable Mutex mutex_;
+  std::map<std::uint64_t, std::unique_ptr<Line>> lines_ ORCA_GUARDED_BY(mutex_);  // not what is in them
   Outbox outbox_;
   std::unique_ptr<TopicReader> inbox_;
 };

@@ -34,7 +34,7 @@ void DdsEnd::stop() {
   if (session_.exchange(0) == 0) return;
   place_.line.remove(place_.edge);
   place_.strand.remove_intake(*this);
-  const std::lock_guard reading(reading_);
+  const MutexLock reading(reading_);
   handlers_ = {};
   cut_ = true;
 }
@@ -71,7 +71,7 @@ void DdsEnd::line_joined(std::uint64_t session) {
 void DdsEnd::deliver(std::vector<std::byte> frame) {
   bool too_much = false;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     too_much = waiting_bytes_ > kMostWaiting;
   }
   add(too_much ? News{News::What::fault, {}, fail(Code::unavailable, "it sends more than is read")}
@@ -79,13 +79,13 @@ void DdsEnd::deliver(std::vector<std::byte> frame) {
 }
 
 bool DdsEnd::is_behind() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return waiting_bytes_ > kBehind;
 }
 
 void DdsEnd::add(News news) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (news.what == News::What::fault && !news_.empty() && news_.back().what == News::What::fault) return;
     waiting_bytes_ += news.frame.size() + kPerFrame;
     news_.push_back(std::move(news));
@@ -97,7 +97,7 @@ void DdsEnd::add(News news) {
 // --- On the strand ----------------------------------------------------------------------------------------
 
 void DdsEnd::take_news() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   taken_.clear();  // of what a handler that threw has left
   taken_.swap(news_);
   waiting_bytes_ = 0;
@@ -106,8 +106,9 @@ void DdsEnd::take_news() {
 
 bool DdsEnd::take_in() {
   if (!has_news_.load(std::memory_order_acquire)) return false;
-  const std::unique_lock reading(reading_, std::try_to_lock);
-  if (!reading || !handlers_.receive) return false;
+  if (!reading_.try_lock()) return false;
+  const MutexLock reading(reading_, std::adopt_lock);
+  if (!handlers_.receive) return false;
   take_news();
   for (const News& news : taken_) handle(news);
   taken_.clear();

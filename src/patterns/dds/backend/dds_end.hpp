@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "frames/frame_end.hpp"
 #include "line.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/strand.hpp"
 #include "outbox.hpp"
 
@@ -68,7 +68,7 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   };
 
   void add(News news);
-  void take_news();
+  void take_news() ORCA_REQUIRES(reading_);
   void handle(const News& news);
   Status handle_frame(std::span<const std::byte> bytes);
   void begin_session(std::uint64_t session);
@@ -82,13 +82,12 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   std::atomic<bool> warned_{false};  // of a frame that is too large
   std::atomic<std::uint64_t> session_{0};
   std::atomic<std::uint64_t> line_session_{0};
-  std::mutex reading_;       // held by whoever takes in
-  std::vector<News> taken_;  // guarded by reading_
+  Mutex reading_;  // held by whoever takes in
+  std::vector<News> taken_ ORCA_GUARDED_BY(reading_);
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_. The flag may be read at any time.
-  std::vector<News> news_;
-  std::size_t waiting_bytes_ = 0;
+  mutable Mutex mutex_;
+  std::vector<News> news_ ORCA_GUARDED_BY(mutex_);
+  std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
   std::atomic<bool> has_news_{false};
 };
 

@@ -43,36 +43,36 @@ Line::Line(std::string peer, const Settings& settings, Write write)
       patience_(kFirstPatience) {}
 
 std::uint64_t Line::add(std::uint64_t edge, Passenger& passenger) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   passengers_[edge] = &passenger;
   return session_;
 }
 
 void Line::remove(std::uint64_t edge) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   passengers_.erase(edge);
   if (peer_ != 0) (void)send_locked(begin_parcel(edge, Parcel::closed), Loss::never);
 }
 
 bool Line::is_peer(const Origin& origin) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return peer_ != 0 && origin == origin_;
 }
 
 bool Line::is_joined() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return peer_ != 0;
 }
 
 // --- Sending ----------------------------------------------------------------------------------------------
 
 Sent Line::send(std::vector<std::byte> parcel, std::uint64_t session, Loss loss, By by) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return session == session_ ? send_locked(std::move(parcel), loss, by) : Sent::cut;
 }
 
 void Line::send_now(std::vector<std::byte> parcel) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   (void)send_locked(std::move(parcel), Loss::never);
 }
 
@@ -104,7 +104,7 @@ void Line::repeat() {
 // --- Receiving --------------------------------------------------------------------------------------------
 
 void Line::receive(const Message& message, const Origin& origin) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (message.own == former_) return;
   if (peer_ != 0 && origin != origin_) return note_stranger(message);
   if (message.peer != own_) return greet(message.own);  // it does not know this side, or no longer
@@ -177,7 +177,7 @@ void Line::dispatch(std::span<const std::byte> parcel) {
 // --- Losing the peer --------------------------------------------------------------------------------------
 
 void Line::lose(const Error& reason) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (peer_ == 0) return;
   end_session(reason);
   own_ = random_number();
@@ -199,7 +199,7 @@ void Line::end_session(const Error& reason) {
 
 void Line::tick() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (peer_ == 0) return tick_alone();
     tick_joined();
     if (silent_ * kTick <= settings_.liveliness && unacknowledged_bytes_ <= kMostUnsent) return;
@@ -209,7 +209,7 @@ void Line::tick() {
 }
 
 void Line::greet_if_alone() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (peer_ == 0) greet(0);
 }
 

@@ -7,7 +7,6 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "frames/frame_end.hpp"
 #include "message.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 
@@ -102,48 +102,50 @@ class Line {
     std::vector<std::byte> parcel;
   };
 
-  // All: called with the lock held.
-  frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss, By by = By::outbox);
-  void note_stranger(const Message& message);
-  void meet(const Message& message, const Origin& origin);
-  void take_receipt(std::uint64_t received);
-  void take_parcel(const Message& message);
-  void dispatch_early();
-  void dispatch(std::span<const std::byte> parcel);
-  void end_session(const Error& reason);
-  void tick_joined();
-  void tick_alone();
-  void write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to, By by = By::outbox);
-  void greet(std::uint64_t to) { write(0, {}, to); }
-  void repeat();
-  void watch_receipts();
+  frames::Sent send_locked(std::vector<std::byte> parcel, frames::Loss loss, By by = By::outbox)
+      ORCA_REQUIRES(mutex_);
+  void note_stranger(const Message& message) ORCA_REQUIRES(mutex_);
+  void meet(const Message& message, const Origin& origin) ORCA_REQUIRES(mutex_);
+  void take_receipt(std::uint64_t received) ORCA_REQUIRES(mutex_);
+  void take_parcel(const Message& message) ORCA_REQUIRES(mutex_);
+  void dispatch_early() ORCA_REQUIRES(mutex_);
+  void dispatch(std::span<const std::byte> parcel) ORCA_REQUIRES(mutex_);
+  void end_session(const Error& reason) ORCA_REQUIRES(mutex_);
+  void tick_joined() ORCA_REQUIRES(mutex_);
+  void tick_alone() ORCA_REQUIRES(mutex_);
+  void write(std::uint64_t sequence, std::span<const std::byte> parcel, std::uint64_t to, By by = By::outbox)
+      ORCA_REQUIRES(mutex_);
+  void greet(std::uint64_t to) ORCA_REQUIRES(mutex_) { write(0, {}, to); }
+  void repeat() ORCA_REQUIRES(mutex_);
+  void watch_receipts() ORCA_REQUIRES(mutex_);
 
   const std::string peer_name_;
   const Settings settings_;
   const Write write_;
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<std::uint64_t, Passenger*> passengers_;
-  std::uint64_t session_ = 1;
-  std::uint64_t own_;             // this side's number
-  std::uint64_t peer_ = 0;        // the peer's; 0: there is none
-  std::uint64_t former_ = 0;      // of the process that the peer has replaced
-  Origin origin_{};               // the peer's
-  bool is_impersonated_ = false;  // has been said
-  std::deque<Sending> unacknowledged_;
-  std::size_t unacknowledged_bytes_ = 0;
-  std::uint64_t sent_ = 0;                                 // sequence number of the last parcel
-  std::uint64_t received_ = 0;                             // that of the peer, in order
-  std::map<std::uint64_t, std::vector<std::byte>> early_;  // parcels behind one that is missing
-  bool owes_receipt_ = false;
+  mutable Mutex mutex_;
+  std::map<std::uint64_t, Passenger*> passengers_ ORCA_GUARDED_BY(mutex_);
+  std::uint64_t session_ ORCA_GUARDED_BY(mutex_) = 1;
+  std::uint64_t own_ ORCA_GUARDED_BY(mutex_);             // this side's number
+  std::uint64_t peer_ ORCA_GUARDED_BY(mutex_) = 0;        // the peer's; 0: there is none
+  std::uint64_t former_ ORCA_GUARDED_BY(mutex_) = 0;      // of the process that the peer has replaced
+  Origin origin_ ORCA_GUARDED_BY(mutex_){};               // the peer's
+  bool is_impersonated_ ORCA_GUARDED_BY(mutex_) = false;  // has been said
+  std::deque<Sending> unacknowledged_ ORCA_GUARDED_BY(mutex_);
+  std::size_t unacknowledged_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::uint64_t sent_ ORCA_GUARDED_BY(mutex_) = 0;      // sequence number of the last parcel
+  std::uint64_t received_ ORCA_GUARDED_BY(mutex_) = 0;  // that of the peer, in order
+  std::map<std::uint64_t, std::vector<std::byte>> early_
+      ORCA_GUARDED_BY(mutex_);  // parcels behind one that is missing
+  bool owes_receipt_ ORCA_GUARDED_BY(mutex_) = false;
   // Numbers of ticks.
-  std::uint32_t silent_ = 0;      // since the peer was heard
-  std::uint32_t quiet_ = 0;       // since anything was written
-  std::uint32_t alone_ = 0;       // since there is no peer
-  std::uint32_t unanswered_ = 0;  // since the oldest parcel became the oldest, or was repeated
-  std::uint32_t patience_;        // after which it is repeated
-  std::uint64_t oldest_ = 0;      // the sequence number of that parcel
+  std::uint32_t silent_ ORCA_GUARDED_BY(mutex_) = 0;  // since the peer was heard
+  std::uint32_t quiet_ ORCA_GUARDED_BY(mutex_) = 0;   // since anything was written
+  std::uint32_t alone_ ORCA_GUARDED_BY(mutex_) = 0;   // since there is no peer
+  std::uint32_t unanswered_ ORCA_GUARDED_BY(mutex_) =
+      0;                                              // since the oldest parcel became it, or was repeated
+  std::uint32_t patience_ ORCA_GUARDED_BY(mutex_);    // after which it is repeated
+  std::uint64_t oldest_ ORCA_GUARDED_BY(mutex_) = 0;  // the sequence number of that parcel
 };
 
 }  // namespace orca::dds

@@ -56,7 +56,7 @@ Outbox::~Outbox() { end(); }
 
 void Outbox::end() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ending_ = true;
   }
   changed_.notify_one();
@@ -66,21 +66,22 @@ void Outbox::end() {
 void Outbox::post(Letter letter, By by) {
   if (letter.object) letter.to->queued.fetch_add(letter.size, std::memory_order_relaxed);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     letters_.push_back(std::move(letter));
   }
   if (by == By::outbox) changed_.notify_one();
 }
 
 void Outbox::write_here() {
-  const std::unique_lock writing(writing_, std::try_to_lock);
-  if (!writing || !take_few()) return changed_.notify_one();
+  if (!writing_.try_lock()) return changed_.notify_one();
+  const MutexLock writing(writing_, std::adopt_lock);
+  if (!take_few()) return changed_.notify_one();
   write_taken();
 }
 
 // Takes what waits, if a component may write that much.
 bool Outbox::take_few() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::size_t bytes = 0;
   for (const Letter& letter : letters_) bytes += letter.size + letter.message.size();
   if (bytes > kFew) return false;
@@ -100,9 +101,9 @@ void Outbox::write_taken() {
 }
 
 void Outbox::write_all() {
-  const std::lock_guard writing(writing_);
+  const MutexLock writing(writing_);
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     take();
   }
   write_taken();
@@ -110,8 +111,9 @@ void Outbox::write_all() {
 
 // Waits for letters. Returns false if there will be none any more.
 bool Outbox::wait(Clock::time_point until) {
-  std::unique_lock lock(mutex_);
-  changed_.wait_until(lock, until, [this] { return ending_ || !letters_.empty(); });
+  MutexLock lock(mutex_);
+  changed_.wait_until(lock.native(), until,
+                      [this]() ORCA_REQUIRES(mutex_) { return ending_ || !letters_.empty(); });
   return !ending_ || !letters_.empty();
 }
 

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "participant.hpp"
 
 namespace orca::dds {
@@ -49,18 +49,17 @@ class Outbox {
   void work();
   bool wait(std::chrono::steady_clock::time_point until);
   void write_all();
-  bool take_few();     // With writing_ held.
-  void take();         // With writing_ and mutex_ held.
-  void write_taken();  // With writing_ held.
+  bool take_few() ORCA_REQUIRES(writing_);
+  void take() ORCA_REQUIRES(writing_) ORCA_REQUIRES(mutex_);
+  void write_taken() ORCA_REQUIRES(writing_);
 
   const std::function<void()> tick_;
-  std::mutex writing_;         // held by whoever writes; before mutex_
-  std::vector<Letter> taken_;  // guarded by writing_
-  std::mutex mutex_;
+  Mutex writing_;  // held by whoever writes; before mutex_
+  std::vector<Letter> taken_ ORCA_GUARDED_BY(writing_);
+  Mutex mutex_;
   std::condition_variable changed_;
-  // Below: guarded by mutex_.
-  std::vector<Letter> letters_;
-  bool ending_ = false;
+  std::vector<Letter> letters_ ORCA_GUARDED_BY(mutex_);
+  bool ending_ ORCA_GUARDED_BY(mutex_) = false;
 
   std::thread thread_;
 };

@@ -18,6 +18,7 @@
 #include <set>
 #include <utility>
 
+#include "orca/base/mutex.hpp"
 #include "participant_qos.hpp"
 #include "raw_type.hpp"
 
@@ -192,7 +193,7 @@ class FastParticipant final : public Participant {
 
  private:
   TopicPtr topic(const TopicOptions& options) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     std::weak_ptr<SharedTopic>& known = topics_[options.name];
     if (TopicPtr topic = known.lock()) return topic;
     if (!types_.contains(options.type)) {
@@ -209,10 +210,9 @@ class FastParticipant final : public Participant {
   fd::DomainParticipant* const participant_;
   fd::Publisher* const publisher_;
   fd::Subscriber* const subscriber_;
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<std::string, std::weak_ptr<SharedTopic>> topics_;
-  std::set<std::string> types_;
+  Mutex mutex_;
+  std::map<std::string, std::weak_ptr<SharedTopic>> topics_ ORCA_GUARDED_BY(mutex_);
+  std::set<std::string> types_ ORCA_GUARDED_BY(mutex_);
 };
 
 }  // namespace

@@ -85,7 +85,7 @@ Sent SubscribingEnd::send(const Frame& frame, Loss loss, Caller caller) {
 }
 
 void SubscribingEnd::forget_direct() {
-  const std::lock_guard lock(topic_mutex_);
+  const MutexLock lock(topic_mutex_);
   direct_.reset();
   held_.clear();
   held_bytes_ = 0;
@@ -107,7 +107,7 @@ void SubscribingEnd::note_grant(std::span<const std::byte> frame) {
   FrameReader reader(frame);
   if (reader.kind() != FrameKind::granted) return;
   (void)reader.read_number();  // the base period
-  const std::lock_guard lock(topic_mutex_);
+  const MutexLock lock(topic_mutex_);
   multiple_ = std::max<std::uint64_t>(reader.read_number(), 1);
 }
 
@@ -116,7 +116,7 @@ void SubscribingEnd::go_direct(std::span<const std::byte> contents) {
   const auto bit = take_number(contents);
   const auto epoch = take_number(contents);
   if (!subscription || !bit || !epoch) return;
-  const std::lock_guard lock(topic_mutex_);
+  const MutexLock lock(topic_mutex_);
   direct_ = Direct{*subscription, *bit, static_cast<std::uint32_t>(*epoch)};
   held_bytes_ = 0;
   for (Held& held : std::exchange(held_, {})) pass_on(std::move(held.sample), held.missed);
@@ -125,7 +125,7 @@ void SubscribingEnd::go_direct(std::span<const std::byte> contents) {
 void SubscribingEnd::take_sample(Sample sample, std::uint64_t missed) {
   if (!place().line.is_peer(sample.origin)) return;  // a stranger, or a process that has ended
   report_heard();
-  const std::lock_guard lock(topic_mutex_);
+  const MutexLock lock(topic_mutex_);
   if (!direct_) return hold(std::move(sample), missed);
   pass_on(std::move(sample), missed);
 }

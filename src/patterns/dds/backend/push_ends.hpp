@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "dds_end.hpp"
+#include "orca/base/mutex.hpp"
 #include "topic.hpp"
 
 namespace orca::dds {
@@ -80,20 +81,18 @@ class SubscribingEnd final : public DdsEnd, public SampleSink {
   void note_grant(std::span<const std::byte> frame);
   void forget_direct();
   void report_heard();
-  // Called with topic_mutex_ held.
-  void hold(Sample sample, std::uint64_t missed);
-  void drop_oldest_held();
-  void pass_on(Sample sample, std::uint64_t missed);
-  void report_missed(std::uint64_t missed);
+  void hold(Sample sample, std::uint64_t missed) ORCA_REQUIRES(topic_mutex_);
+  void drop_oldest_held() ORCA_REQUIRES(topic_mutex_);
+  void pass_on(Sample sample, std::uint64_t missed) ORCA_REQUIRES(topic_mutex_);
+  void report_missed(std::uint64_t missed) ORCA_REQUIRES(topic_mutex_);
 
   const std::shared_ptr<Subscription> subscription_;
   std::atomic<std::uint64_t> reported_in_{0};  // session of the line in which the server was told
-  std::mutex topic_mutex_;
-  // Below: guarded by topic_mutex_.
-  std::optional<Direct> direct_;
-  std::deque<Held> held_;  // came before it was known whether they count
-  std::size_t held_bytes_ = 0;
-  std::uint64_t multiple_ = 1;  // of the grant
+  Mutex topic_mutex_;
+  std::optional<Direct> direct_ ORCA_GUARDED_BY(topic_mutex_);
+  std::deque<Held> held_ ORCA_GUARDED_BY(topic_mutex_);  // came before it was known whether they count
+  std::size_t held_bytes_ ORCA_GUARDED_BY(topic_mutex_) = 0;
+  std::uint64_t multiple_ ORCA_GUARDED_BY(topic_mutex_) = 1;  // of the grant
 };
 
 }  // namespace orca::dds

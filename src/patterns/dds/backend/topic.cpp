@@ -46,17 +46,17 @@ Status Subscription::open(Participant& participant, const TopicOptions& topic) {
 }
 
 void Subscription::add(SampleSink& sink) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   sinks_.push_back(&sink);
 }
 
 void Subscription::remove(SampleSink& sink) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::erase(sinks_, &sink);
 }
 
 void Subscription::take(Sample sample) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const std::uint64_t missed = missed_before(sample);
   if (sinks_.empty()) return;
   for (std::size_t i = 0; i + 1 < sinks_.size(); ++i) sinks_[i]->take_sample(sample, missed);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "outbox.hpp"
 #include "participant.hpp"
@@ -72,13 +73,12 @@ class Subscription {
 
  private:
   void take(Sample sample);
-  std::uint64_t missed_before(const Sample& sample);
+  std::uint64_t missed_before(const Sample& sample) ORCA_REQUIRES(mutex_);
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<SampleSink*> sinks_;
-  Origin origin_{};
-  std::uint64_t last_ = 0;  // sequence number from that origin
+  Mutex mutex_;
+  std::vector<SampleSink*> sinks_ ORCA_GUARDED_BY(mutex_);
+  Origin origin_ ORCA_GUARDED_BY(mutex_){};
+  std::uint64_t last_ ORCA_GUARDED_BY(mutex_) = 0;  // sequence number from that origin
 
   std::unique_ptr<TopicReader> reader_;  // the last member: its callback uses the others
 };

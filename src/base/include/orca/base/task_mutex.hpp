@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <mutex>
-
 #include "orca/base/executive.hpp"
+#include "orca/base/mutex.hpp"
 
 namespace orca {
 
@@ -11,19 +10,21 @@ namespace orca {
 /// across a wait.
 ///
 /// Thread contract: tasks of the executive only; data that other threads touch needs another lock.
-class TaskMutex {
+class ORCA_THREAD_WORD(capability("mutex")) TaskMutex {
  public:
+  using Native = TaskMutex;
+
   explicit TaskMutex(const Executive& executive) : needed_(executive.tasks_overlap()) {}
 
-  void lock() {
+  void lock() ORCA_ACQUIRES() {
     if (needed_) mutex_.lock();
   }
-  void unlock() {
+  void unlock() ORCA_RELEASES() {
     if (needed_) mutex_.unlock();
   }
 
  private:
-  std::mutex mutex_;
+  Mutex mutex_;
   const bool needed_;
 };
 

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <vector>
 
 #include "orca/base/executive.hpp"
+#include "orca/base/mutex.hpp"
 
 namespace orca {
 
@@ -43,10 +43,9 @@ class Team {
   void wake_helpers();
   void wait_for_helpers(const Loop& loop);
 
-  std::mutex mutex_;
-  // Guarded by mutex_: the present loop, and whether the team has ended.
-  Loop* loop_ = nullptr;
-  bool ended_ = false;
+  Mutex mutex_;
+  Loop* loop_ ORCA_GUARDED_BY(mutex_) = nullptr;  // in progress
+  bool ended_ ORCA_GUARDED_BY(mutex_) = false;
   std::unique_ptr<Event> helpers_left_;
   std::vector<std::unique_ptr<Helper>> helpers_;
 };

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "orca/base/mutex.hpp"
 
 namespace orca {
 
@@ -21,14 +22,14 @@ class PendingAnswers {
 
   /// Returns a new id that waits for its answer.
   [[nodiscard]] std::uint64_t add() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     entries_.push_back({next_id_, std::nullopt});
     return next_id_++;
   }
 
   /// @return false if nobody waits for it any more, or it has its answer already.
   bool answer(std::uint64_t id, Answer answer) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto entry = find(id);
     if (entry == entries_.end() || entry->answer) return false;
     entry->answer.emplace(std::move(answer));
@@ -36,7 +37,7 @@ class PendingAnswers {
   }
 
   [[nodiscard]] State state(std::uint64_t id) const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto entry = std::ranges::find(entries_, id, &Entry::id);
     if (entry == entries_.end()) return State::unknown;
     return entry->answer ? State::answered : State::waiting;
@@ -44,7 +45,7 @@ class PendingAnswers {
 
   /// Returns the answer, once; nothing while there is none.
   [[nodiscard]] std::optional<Answer> take(std::uint64_t id) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto entry = find(id);
     if (entry == entries_.end() || !entry->answer) return std::nullopt;
     std::optional<Answer> answer = std::move(entry->answer);
@@ -54,7 +55,7 @@ class PendingAnswers {
 
   /// Returns the ids that wait for their answers.
   [[nodiscard]] std::vector<std::uint64_t> waiting() const {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     std::vector<std::uint64_t> ids;
     for (const Entry& entry : entries_)
       if (!entry.answer) ids.push_back(entry.id);
@@ -63,7 +64,7 @@ class PendingAnswers {
 
   /// Discards the answer to this id, now or when it comes.
   void forget(std::uint64_t id) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const auto entry = find(id);
     if (entry != entries_.end()) remove(entry);
   }
@@ -81,7 +82,7 @@ class PendingAnswers {
     entries_.pop_back();
   }
 
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   std::uint64_t next_id_ = 1;
   std::vector<Entry> entries_;
 };

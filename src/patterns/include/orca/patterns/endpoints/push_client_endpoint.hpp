@@ -2,11 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/patterns/endpoints/alternatives.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/push_edge.hpp"
@@ -60,7 +60,7 @@ class PushClientEndpoint final : public Endpoint, public MovablePort {
  private:
   [[nodiscard]] PushEdge* vacancy_for(const PushSource& source) const;
 
-  mutable std::mutex mutex_;  // held while the strand changes the vector, and while others read it
+  mutable Mutex mutex_;  // held while the strand changes the vector, and while others read it
   std::vector<std::unique_ptr<PushEdge>> edges_;
   bool subscribes_ = false;                               // the runtime has subscribed all edges
   std::optional<Alternatives<PushSource>> alternatives_;  // if the port can move

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/base/task_mutex.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
@@ -107,18 +107,18 @@ class PushEdge final : public PushSink {
   [[nodiscard]] PushSource* source() const { return source_.load(std::memory_order_acquire); }
   [[nodiscard]] QueuePolicy policy_now() const;
   void tell_of_link(bool connected) const;
-  void fit(const QueuePolicy& policy);
+  void fit(const QueuePolicy& policy) ORCA_REQUIRES(mutex_);
   void forget_objects();
   [[nodiscard]] ObjectRef pop();
-  bool make_room();
-  void drop(Published<std::uint64_t>& reason, std::uint64_t objects);
-  [[nodiscard]] std::uint64_t drops_to_report();
+  bool make_room() ORCA_REQUIRES(mutex_);
+  void drop(Published<std::uint64_t>& reason, std::uint64_t objects) ORCA_REQUIRES(mutex_);
+  [[nodiscard]] std::uint64_t drops_to_report() ORCA_REQUIRES(mutex_);
   void report_drops(std::uint64_t drops) const;
   void report(LinkTrouble kind, const std::string& text) const;
-  void put(ObjectRef&& object, std::uint32_t count);
+  void put(ObjectRef&& object, std::uint32_t count) ORCA_REQUIRES(mutex_);
   void expect_first();
-  bool count_missed(TimePoint time);
-  void note_missed();
+  bool count_missed(TimePoint time) ORCA_REQUIRES(mutex_);
+  void note_missed() ORCA_REQUIRES(mutex_);
   [[nodiscard]] UpdateRate rate() const;
   [[nodiscard]] TimePoint now() const { return strand_.executive().now(); }
   [[nodiscard]] std::uint64_t missed_until(TimePoint time) const;
@@ -133,24 +133,25 @@ class PushEdge final : public PushSink {
   Published<Duration::rep> deadline_;       // of the policy, for all threads
   Published<std::int64_t> accepted_drops_;  // of the policy, for all threads; -1: any number
 
-  mutable std::mutex told_mutex_;
-  // Guarded by told_mutex_.
-  UpdateGrant grant_;
-  std::string path_;  // of the server
+  mutable Mutex told_mutex_;
+  UpdateGrant grant_ ORCA_GUARDED_BY(told_mutex_);
+  std::string path_ ORCA_GUARDED_BY(told_mutex_);  // of the server
 
   mutable TaskMutex mutex_;
   QueuePolicy policy_;  // written by the client's strand with the lock held, which reads it without
-  // Below: guarded by mutex_. The count may be read at any time.
   std::atomic<std::uint32_t> count_{0};
-  std::uint32_t first_ = 0;
-  std::vector<ObjectRef> ring_;      // never grows: no allocation per object
-  ObjectRef newest_;                 // as long as it is not in the ring
-  bool publisher_waits_ = false;     // for room
-  bool subscriber_stuck_ = false;    // it took nothing during a whole wait: nobody waits for it until it does
-  std::uint64_t late_arrivals_ = 0;  // objects that came after their deadline
-  std::uint64_t reported_delays_ = 0;       // those of them that were reported, and the present one if it was
-  Published<std::uint64_t> drops_;          // while subscribed; may be read at any time
-  std::uint64_t report_drops_at_ = kNever;  // the number of drops at which they are reported next
+  std::uint32_t first_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::vector<ObjectRef> ring_ ORCA_GUARDED_BY(mutex_);   // never grows: no allocation per object
+  ObjectRef newest_ ORCA_GUARDED_BY(mutex_);              // as long as it is not in the ring
+  bool publisher_waits_ ORCA_GUARDED_BY(mutex_) = false;  // for room
+  // It took nothing during a whole wait: nobody waits for it until it does.
+  bool subscriber_stuck_ ORCA_GUARDED_BY(mutex_) = false;
+  std::uint64_t late_arrivals_ ORCA_GUARDED_BY(mutex_) = 0;  // objects that came after their deadline
+  // Those of them that were reported, and the present one if it was.
+  std::uint64_t reported_delays_ ORCA_GUARDED_BY(mutex_) = 0;
+  Published<std::uint64_t> drops_;  // while subscribed; may be read at any time
+  // The number of drops at which they are reported next.
+  std::uint64_t report_drops_at_ ORCA_GUARDED_BY(mutex_) = kNever;
 };
 
 }  // namespace orca

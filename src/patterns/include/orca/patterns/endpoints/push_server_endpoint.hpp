@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/base/task_mutex.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/published.hpp"
@@ -79,9 +80,8 @@ class PushServerEndpoint final : public Endpoint {
   Published<Duration::rep> base_period_;
 
   mutable TaskMutex mutex_;
-  // Below, and the edges' content: guarded by mutex_.
-  std::vector<std::unique_ptr<Edge>> edges_;  // all that are connected
-  std::vector<Edge*> subscribed_;             // in order of subscription
+  std::vector<std::unique_ptr<Edge>> edges_ ORCA_GUARDED_BY(mutex_);  // all that are connected
+  std::vector<Edge*> subscribed_ ORCA_GUARDED_BY(mutex_);             // in order of subscription
 };
 
 }  // namespace orca

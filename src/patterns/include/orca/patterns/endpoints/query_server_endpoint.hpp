@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
@@ -64,15 +65,14 @@ class QueryServerEndpoint final : public Endpoint {
   void answer(const Question& question, Result<ObjectLoan> answer);
   void reply(const Question& question, Result<ObjectRef> answer);
 
-  mutable std::mutex mutex_;
-  // Below, and the edges' content: guarded by mutex_.
-  std::vector<std::unique_ptr<Edge>> edges_;
-  std::deque<Question> waiting_;
+  mutable Mutex mutex_;
+  std::vector<std::unique_ptr<Edge>> edges_ ORCA_GUARDED_BY(mutex_);
+  std::deque<Question> waiting_ ORCA_GUARDED_BY(mutex_);
   // The edge from which the question in the handler came; null: there is none, or its client is gone.
-  const Edge* handled_ = nullptr;
-  std::shared_ptr<const Handler> handler_;
-  std::string closed_because_ = "it has not been started yet";
-  IntakeCounters counters_;
+  const Edge* handled_ ORCA_GUARDED_BY(mutex_) = nullptr;
+  std::shared_ptr<const Handler> handler_ ORCA_GUARDED_BY(mutex_);
+  std::string closed_because_ ORCA_GUARDED_BY(mutex_) = "it has not been started yet";
+  IntakeCounters counters_ ORCA_GUARDED_BY(mutex_);
 };
 
 }  // namespace orca

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
@@ -66,16 +67,15 @@ class SendServerEndpoint final : public Endpoint {
   };
 
   bool next(Accepted& accepted, std::shared_ptr<const Handler>& handler);
-  void leave(const std::shared_ptr<Edge>& edge);
+  void leave(const std::shared_ptr<Edge>& edge) ORCA_REQUIRES(mutex_);
   void settle(const Accepted& accepted, const Status& outcome);
 
-  mutable std::mutex mutex_;
-  // Below, and the edges' content: guarded by mutex_.
-  std::vector<std::shared_ptr<Edge>> edges_;
-  IntakeCounters of_gone_;  // edges that were removed
-  std::deque<Accepted> waiting_;
-  std::shared_ptr<const Handler> handler_;
-  std::string closed_because_ = "it has not been started yet";
+  mutable Mutex mutex_;
+  std::vector<std::shared_ptr<Edge>> edges_ ORCA_GUARDED_BY(mutex_);
+  IntakeCounters of_gone_ ORCA_GUARDED_BY(mutex_);  // edges that were removed
+  std::deque<Accepted> waiting_ ORCA_GUARDED_BY(mutex_);
+  std::shared_ptr<const Handler> handler_ ORCA_GUARDED_BY(mutex_);
+  std::string closed_because_ ORCA_GUARDED_BY(mutex_) = "it has not been started yet";
 };
 
 }  // namespace orca
