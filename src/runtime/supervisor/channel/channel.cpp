@@ -158,14 +158,14 @@ Channel::Channel(Descriptor socket, std::size_t bound, std::size_t longest)
 Channel::~Channel() = default;
 
 Status Channel::post(Message message) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (Status queued = enqueue(std::move(message)); !queued.ok()) return queued;
   return flush_locked();
 }
 
 Status Channel::send(Message message, Duration limit) {
   const auto deadline = after(limit);
-  std::unique_lock lock(mutex_);
+  MutexLock lock(mutex_);
   if (Status queued = enqueue(std::move(message)); !queued.ok()) return queued;
   for (;;) {
     if (Status flushed = flush_locked(); !flushed.ok() || unsent_.empty()) return flushed;
@@ -177,12 +177,12 @@ Status Channel::send(Message message, Duration limit) {
 }
 
 Status Channel::flush() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return flush_locked();
 }
 
 bool Channel::has_unsent() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return !unsent_.empty();
 }
 

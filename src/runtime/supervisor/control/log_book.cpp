@@ -21,7 +21,7 @@ LogBook::LogBook(std::function<TimePoint()> clock)
     : clock_(std::move(clock)), listener_([this](const log::Line& line) { note(line); }) {}
 
 void LogBook::note(const log::Line& line) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (entries_.size() == kMost) entries_.pop_front();
   entries_.push_back(
       {++last_, line.time, line.level, std::string(line.who), shortened(line.text, kLongestLine)});
@@ -40,7 +40,7 @@ void LogBook::tell(const Entry& entry, const LogWish& wish, Reply& reply) {
 void LogBook::show(LogWish wish, const ReplyPtr& reply) {
   pass_on();  // so that nobody gets a line twice
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     for (const Entry& entry : entries_) tell(entry, wish, *reply);
   }
   if (wish.follows) followers_.push_back({std::move(wish), reply});
@@ -50,7 +50,7 @@ std::map<std::string, double> LogBook::rates() {
   constexpr Duration kLately = 10s;
   constexpr Duration kShortest = 100ms;  // from the first line that is kept until now
   std::map<std::string, double> rates;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (entries_.empty()) return rates;
   const TimePoint now = clock_();
   const bool is_full = entries_.size() == kMost;
@@ -62,7 +62,7 @@ std::map<std::string, double> LogBook::rates() {
 
 void LogBook::pass_on() {
   std::erase_if(followers_, [](const Follower& follower) { return follower.reply->is_in_vain(); });
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto first = std::ranges::find_if(entries_, [&](const Entry& e) { return e.number > passed_on_; });
   for (auto entry = first; entry != entries_.end(); ++entry)
     for (Follower& follower : followers_) tell(*entry, follower.wish, *follower.reply);

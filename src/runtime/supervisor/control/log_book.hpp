@@ -7,12 +7,12 @@
 #include <functional>
 #include <list>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "members/reply.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/time.hpp"
 
 namespace orca::supervisor {
@@ -64,10 +64,9 @@ class LogBook {
   std::list<Follower> followers_;
   std::uint64_t passed_on_ = 0;  // number of the last line that followers have
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::deque<Entry> entries_;  // the oldest first
-  std::uint64_t last_ = 0;     // number
+  Mutex mutex_;
+  std::deque<Entry> entries_ ORCA_GUARDED_BY(mutex_);  // the oldest first
+  std::uint64_t last_ ORCA_GUARDED_BY(mutex_) = 0;     // number
 
   const log::Listener listener_;  // the last member: it uses the others
 };

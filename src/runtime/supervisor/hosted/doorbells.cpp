@@ -27,26 +27,26 @@ Doorbells::Doorbells(const graph::Graph& whole, const std::vector<graph::Process
 }
 
 void Doorbells::add(const graph::ComponentNode& component, std::size_t place) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   processes_[component.name] = component.process;
   put(component.name, place, words_.components);
 }
 
 void Doorbells::add_process(const std::string& process, std::size_t place, bool is_of_fibers) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   put(process, place, words_.processes);
   is_of_fibers ? (void)of_fibers_.insert(process) : (void)of_fibers_.erase(process);
 }
 
 DoorbellWord& Doorbells::of(const std::string& component) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const std::string& process = processes_.at(component);
   if (of_fibers_.contains(process)) return page_.process_doorbell(place_of(process, words_.processes));
   return page_.doorbell(place_of(component, words_.components));
 }
 
 Doorbells::Words Doorbells::words() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return words_;
 }
 

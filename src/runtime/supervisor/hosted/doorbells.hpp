@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "orca/base/doorbell.hpp"
 #include "orca/base/executive.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/process.hpp"
 #include "orca/supervisor/run_page.hpp"
@@ -51,11 +51,10 @@ class Doorbells {
 
  private:
   const RunPage& page_;
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  Words words_;
-  std::set<std::string> of_fibers_;               // processes
-  std::map<std::string, std::string> processes_;  // by component
+  mutable Mutex mutex_;
+  Words words_ ORCA_GUARDED_BY(mutex_);
+  std::set<std::string> of_fibers_ ORCA_GUARDED_BY(mutex_);               // processes
+  std::map<std::string, std::string> processes_ ORCA_GUARDED_BY(mutex_);  // by component
 };
 
 }  // namespace orca::supervisor

@@ -119,7 +119,7 @@ PortLines::PortLines(host::HostedPart& part) : part_(part) {}
 
 PortLines::~PortLines() {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ending_ = true;
   }
   if (thread_.joinable()) thread_.join();
@@ -132,7 +132,7 @@ Status PortLines::open(OpenLine order) {
     if (!opened) return opened.error();
     tap = std::move(opened).value();
   }
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (lines_.size() == kMost)
     return fail(Code::unavailable, "too many clients look at this process already: " + std::to_string(kMost));
   lines_.emplace_back(part_, std::move(order), std::move(tap));
@@ -149,7 +149,7 @@ Status PortLines::open(OpenLine order) {
 void PortLines::serve() {
   for (;;) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       std::erase_if(lines_, [](Line& line) { return !line.serve(); });
       runs_ = !lines_.empty() && !ending_;
       if (!runs_) return;

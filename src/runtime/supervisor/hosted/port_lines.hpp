@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <list>
-#include <mutex>
 #include <thread>
 
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/vocabulary.hpp"
@@ -38,11 +38,10 @@ class PortLines {
   host::HostedPart& part_;
   std::thread thread_;  // runs, or has ended
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::list<Line> lines_;
-  bool runs_ = false;  // whether the thread goes on
-  bool ending_ = false;
+  Mutex mutex_;
+  std::list<Line> lines_ ORCA_GUARDED_BY(mutex_);
+  bool runs_ ORCA_GUARDED_BY(mutex_) = false;  // whether the thread goes on
+  bool ending_ ORCA_GUARDED_BY(mutex_) = false;
 };
 
 }  // namespace orca::supervisor

@@ -35,11 +35,10 @@ ReportSender::ReportSender(std::shared_ptr<Channel> channel, const std::string& 
       }) {}
 
 void ReportSender::send(Report report) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   tell(std::move(report));
 }
 
-// Called with the mutex locked.
 void ReportSender::tell(Report report) {
   const bool is_state = recollection_.note_state(report);
   if (channel_ != nullptr) {
@@ -53,19 +52,19 @@ void ReportSender::tell(Report report) {
 void ReportSender::send_last(Report report) {
   std::shared_ptr<Channel> channel;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     channel = channel_;
   }
   if (channel != nullptr) (void)channel->send(encode(std::move(report)), kLastLimit);
 }
 
 void ReportSender::lose_supervisor() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   channel_.reset();
 }
 
 void ReportSender::greet(std::shared_ptr<Channel> channel) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (Report& report : recollection_.reports()) (void)channel->post(encode(std::move(report)));
   channel_ = std::move(channel);
   shown_.clear();
@@ -73,7 +72,7 @@ void ReportSender::greet(std::shared_ptr<Channel> channel) {
 }
 
 void ReportSender::remember(const std::function<void(Recollection&)>& note) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   note(recollection_);
 }
 
@@ -111,7 +110,7 @@ void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{er
 
 void ReportSender::show(const host::RunGlance& glance) {
   Message message = encode(Report(to_report(glance)));
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (channel_ == nullptr || message.body == shown_) return;
   shown_ = message.body;
   (void)channel_->post(std::move(message));

@@ -11,6 +11,7 @@
 #include "agreed/run_wishes.hpp"
 #include "backlog.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/vocabulary.hpp"
@@ -57,15 +58,14 @@ class ReportSender final : public host::PartListener {
   [[noreturn]] void abandon(const host::RunResult& result) override;
 
  private:
-  void tell(Report report);
+  void tell(Report report) ORCA_REQUIRES(mutex_);
 
   const TimePoint start_;  // of the run
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::shared_ptr<Channel> channel_;  // null: there is no supervisor
-  Recollection recollection_;
+  Mutex mutex_;
+  std::shared_ptr<Channel> channel_ ORCA_GUARDED_BY(mutex_);  // null: there is no supervisor
+  Recollection recollection_ ORCA_GUARDED_BY(mutex_);
   Backlog backlog_;
-  std::vector<std::byte> shown_;  // the last Glance
+  std::vector<std::byte> shown_ ORCA_GUARDED_BY(mutex_);  // the last Glance
 
   const log::Listener log_;  // the last member: it uses the others
 };

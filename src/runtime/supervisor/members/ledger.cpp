@@ -44,12 +44,12 @@ Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint
 }
 
 void Ledger::expect(const std::string& component) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   components_[component] = {};
 }
 
 void Ledger::go_over() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   names_.clear();
   for (const graph::ComponentNode& node : graph_.components) names_.push_back(node.name);
 }
@@ -85,7 +85,7 @@ Status Ledger::take_figures(const Report& report, const std::string& process) {
     return ok();
   }
   if (const auto* glance = std::get_if<Glance>(&report)) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     glances_[process] = *glance;
     return ok();
   }
@@ -95,7 +95,7 @@ Status Ledger::take_figures(const Report& report, const std::string& process) {
 }
 
 Status Ledger::take_change(const StateChange& change) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto known = components_.find(change.component);
   if (known == components_.end() || change.state > static_cast<std::uint64_t>(host::ComponentState::exit))
     return fail(Code::data_loss, "it reports an impossible state of \"" + change.component + "\"");
@@ -104,26 +104,33 @@ Status Ledger::take_change(const StateChange& change) {
   return ok();
 }
 
+template <class T>
+bool Ledger::keep_new(std::vector<T> host::RunResult::*known, const T& result) {
+  const MutexLock lock(mutex_);
+  if (host::is_passed_on(so_far_.*known, result)) return false;
+  (so_far_.*known).push_back(result);
+  return true;
+}
+
 Status Ledger::take_object(const Report& report, const std::string& process) {
   if (const auto* arrived = std::get_if<ArrivedReport>(&report)) {
     Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
     if (!object) return object.error();
-    if (host::is_passed_on(so_far_.arrivals, *object)) return ok();
+    if (!keep_new(&host::RunResult::arrivals, *object)) return ok();
     listener_.arrived(*object);
     missions_.note(*object);
-    so_far_.arrivals.push_back(std::move(object).value());
   } else if (const auto* failed = std::get_if<GoalFailedReport>(&report)) {
     Result<idl::GoalFailed> object = read<idl::GoalFailed>(*failed);
     if (!object) return object.error();
-    if (host::is_passed_on(so_far_.failures, *object)) return ok();
+    if (!keep_new(&host::RunResult::failures, *object)) return ok();
     listener_.goal_failed(*object);
     missions_.note(*object);
-    so_far_.failures.push_back(std::move(object).value());
   } else if (const auto* contact = std::get_if<ContactReport>(&report)) {
     Result<idl::Contact> object = read<idl::Contact>(*contact);
     if (!object) return object.error();
     listener_.contact(*object);
     missions_.note(*object);
+    const MutexLock lock(mutex_);
     so_far_.contacts.push_back(std::move(object).value());
   } else if (const auto* alarm = std::get_if<AlarmReport>(&report)) {
     Result<idl::Alarm> object = read<idl::Alarm>(*alarm);
@@ -138,7 +145,7 @@ void Ledger::note(idl::Alarm alarm, const std::string& process, const std::strin
   alarms_.take(alarm, process);
   missions_.note(alarm);
   if (relay_ != nullptr) relay_->tell(alarm, process, reporter);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   so_far_.alarms.push_back(std::move(alarm));
 }
 
@@ -198,7 +205,7 @@ Status Ledger::recall(const Standing& standing) {
 void Ledger::lose(const std::string& process, const std::string& why) {
   restless_.erase(process);
   settle_holds_of(process, why);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   glances_.erase(process);
   for (const graph::ComponentNode& node : graph_.components) {
     if (node.process != process) continue;
@@ -221,7 +228,7 @@ void Ledger::settle_holds_of(const std::string& process, const std::string& why)
 }
 
 bool Ledger::is_in_use(const std::string& process) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return std::ranges::any_of(graph_.components, [&](const graph::ComponentNode& node) {
     const host::ComponentState state = components_.at(node.name).state;
     return node.process == process && state != host::ComponentState::idle &&
@@ -237,7 +244,7 @@ void Ledger::introduce() {
 }
 
 void Ledger::pardon(const std::string& component) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   host::ComponentReport& report = components_[component];
   report.has_failed = report.ended_badly = false;
   report.failure.clear();
@@ -245,7 +252,7 @@ void Ledger::pardon(const std::string& component) {
 
 host::Reports Ledger::reports() const {
   return [this](const std::string& component) {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     return components_.at(component);
   };
 }
@@ -259,7 +266,7 @@ std::optional<host::RunCounters> Ledger::counters() const {
 host::RunGlance Ledger::look() const {
   host::RunGlance glance;
   glance.time = steady_now() - start_;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   for (const std::string& name : names_) {
     const host::ComponentReport& report = components_.at(name);
     if (report.state == host::ComponentState::work) ++glance.working;
@@ -272,7 +279,7 @@ host::RunGlance Ledger::look() const {
 }
 
 void Ledger::fill(host::RunResult& result) const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   result.start = start_;
   result.arrivals = so_far_.arrivals;
   result.failures = so_far_.failures;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "alarm_relay.hpp"
 #include "mission_book.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/alarm_store.hpp"
@@ -103,6 +103,9 @@ class Ledger final : public host::RunView {
   Status take_figures(const Report& report, const std::string& process);
   Status take_object(const Report& report, const std::string& process);
   void note(idl::Alarm alarm, const std::string& process, const std::string& reporter);
+  // Keeps a result unless it was passed on before. Returns whether it is new.
+  template <class T>
+  bool keep_new(std::vector<T> host::RunResult::*known, const T& result);
 
   const graph::Graph& graph_;
   host::RunListener& listener_;
@@ -118,12 +121,11 @@ class Ledger final : public host::RunView {
   std::map<std::string, Tally> tallies_;  // by process
   std::optional<Error> output_error_;
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<std::string> names_;  // of the graph's components
-  std::map<std::string, host::ComponentReport> components_;
-  std::map<std::string, Glance> glances_;  // by process
-  host::RunResult so_far_;
+  mutable Mutex mutex_;
+  std::vector<std::string> names_ ORCA_GUARDED_BY(mutex_);  // of the graph's components
+  std::map<std::string, host::ComponentReport> components_ ORCA_GUARDED_BY(mutex_);
+  std::map<std::string, Glance> glances_ ORCA_GUARDED_BY(mutex_);  // by process
+  host::RunResult so_far_ ORCA_GUARDED_BY(mutex_);
 };
 
 }  // namespace orca::supervisor

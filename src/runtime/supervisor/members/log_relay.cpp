@@ -12,12 +12,12 @@ namespace orca::supervisor {
 LogRelay::LogRelay() : listener_([this](const log::Line& line) { note(line); }) {}
 
 void LogRelay::set_source(const Member* source) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   source_ = source;
 }
 
 void LogRelay::note_wish(const Member& member, bool is_wished) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (is_wished)
     told_[&member] = most_told_;
   else
@@ -25,7 +25,7 @@ void LogRelay::note_wish(const Member& member, bool is_wished) {
 }
 
 void LogRelay::note(const log::Line& line) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (entries_.size() == kMostLines) entries_.pop_front();
   const auto time = static_cast<std::uint64_t>(line.time.time_since_epoch().count());
   entries_.push_back(
@@ -44,7 +44,7 @@ void LogRelay::pass_on(const Members& members) {
 }
 
 TellLines LogRelay::take_for(const Member& member) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   TellLines order;
   const auto wish = told_.find(&member);
   if (wish == told_.end()) return order;

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 
 #include "member.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::supervisor {
@@ -47,15 +47,15 @@ class LogRelay {
 
   void note(const log::Line& line);
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<const Member*, std::uint64_t> told_;  // by who wishes them: the number of the last line
-  std::deque<Entry> entries_;                    // the oldest first
-  std::uint64_t last_ = 0;                       // number
-  std::uint64_t most_told_ = 0;                  // number of the last line that anybody was told
-  const Member* source_ = nullptr;
+  Mutex mutex_;
+  std::map<const Member*, std::uint64_t> told_
+      ORCA_GUARDED_BY(mutex_);                           // by who wishes them: the number of the last line
+  std::deque<Entry> entries_ ORCA_GUARDED_BY(mutex_);    // the oldest first
+  std::uint64_t last_ ORCA_GUARDED_BY(mutex_) = 0;       // number
+  std::uint64_t most_told_ ORCA_GUARDED_BY(mutex_) = 0;  // number of the last line that anybody was told
+  const Member* source_ ORCA_GUARDED_BY(mutex_) = nullptr;
 
-  const log::Listener listener_;  // the last member: it uses the others
+  const log::Listener listener_ ORCA_GUARDED_BY(mutex_);  // the last member: it uses the others
 };
 
 }  // namespace orca::supervisor

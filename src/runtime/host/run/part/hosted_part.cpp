@@ -10,6 +10,7 @@
 
 #include "containment/environment.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/port_list.hpp"
@@ -68,13 +69,13 @@ class HostedPart::Inside {
 
   WatchedSystem& watched() { return watched_; }
   [[nodiscard]] RunCounters counters() {
-    const std::lock_guard lock(graph_mutex_);
+    const MutexLock lock(graph_mutex_);
     return collect_counters(whole_, watched_.system());
   }
   OuterEdges& outer() { return outer_; }
 
   Result<std::shared_ptr<PortTap>> tap(const graph::PortRef& port) {
-    const std::lock_guard lock(graph_mutex_);
+    const MutexLock lock(graph_mutex_);
     const Endpoint* const endpoint = watched_.system().endpoint(port);
     if (endpoint == nullptr) return no_such(port);
     return taps_.open(port.component, endpoint->contract());
@@ -82,7 +83,7 @@ class HostedPart::Inside {
 
   Status offer(const graph::PortRef& port, ObjectLoan object,
                std::function<void(Result<ObjectRef>)> answered) {
-    const std::lock_guard lock(graph_mutex_);
+    const MutexLock lock(graph_mutex_);
     Endpoint* const endpoint = watched_.system().endpoint(port);
     if (endpoint == nullptr) return no_such(port);
     return offers_.offer(*endpoint, std::move(object), std::move(answered));
@@ -109,7 +110,7 @@ class HostedPart::Inside {
   }
 
   Status move(const std::string& name) {
-    const std::lock_guard lock(graph_mutex_);
+    const MutexLock lock(graph_mutex_);
     const auto edge = std::ranges::find(whole_.edges, name, &graph::Edge::name);
     if (edge == whole_.edges.end()) return fail(Code::not_found, "an edge that the graph does not have");
     return host::move(watched_.system(), *edge);
@@ -130,7 +131,7 @@ class HostedPart::Inside {
 
   void order(PartOrder order) {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       if (order.kind == PartOrder::Kind::take_down) is_to_end_ = true;
       if (!closed_) {
         orders_.push_back(std::move(order));
@@ -183,7 +184,7 @@ class HostedPart::Inside {
   }
 
   std::optional<PartOrder> next_order() {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     if (orders_.empty()) return std::nullopt;
     PartOrder order = std::move(orders_.front());
     orders_.pop_front();
@@ -192,7 +193,7 @@ class HostedPart::Inside {
 
   void refuse_the_rest() {
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       closed_ = true;
     }
     while (const std::optional<PartOrder> order = next_order()) refuse(*order);
@@ -300,8 +301,8 @@ class HostedPart::Inside {
   const std::string process_;
   const graph::Graph part_;  // as it was built
   const PartPlace place_;
-  graph::Graph whole_;      // its components and edges change on the main task, with graph_mutex_ held
-  std::mutex graph_mutex_;  // held by other threads that read them, or use ports
+  graph::Graph whole_;  // its components and edges change on the main task, with graph_mutex_ held
+  Mutex graph_mutex_;   // held by other threads that read them, or use ports
   const Duration hang_limit_;
   const RunOutputs outputs_;
   RunFiles files_;
@@ -320,10 +321,9 @@ class HostedPart::Inside {
 
   // Whether take_down is ordered: what comes before it waits for nothing any more.
   std::atomic<bool> is_to_end_{false};
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::deque<PartOrder> orders_;
-  bool closed_ = false;
+  Mutex mutex_;
+  std::deque<PartOrder> orders_ ORCA_GUARDED_BY(mutex_);
+  bool closed_ ORCA_GUARDED_BY(mutex_) = false;
 };
 
 HostedPart::HostedPart(const graph::Graph& whole, const std::string& process, const PartPlace& place,

@@ -63,7 +63,7 @@ OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell 
 }
 
 void OuterEdges::learn(const graph::ComponentNode& component) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   processes_[component.name] = component.process;
 }
 
@@ -101,7 +101,7 @@ OuterEdges::Ends OuterEdges::ends_of(const graph::Edge& edge) {
 
 const std::string& OuterEdges::process_of(const graph::PortRef& port) {
   static const std::string nowhere;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto process = processes_.find(port.component);
   return process == processes_.end() ? nowhere : process->second;
 }
@@ -136,7 +136,7 @@ void OuterEdges::connect_memory(const graph::Edge& edge, RingSegment segment, En
                                   {there.text(), doorbell_(there.component)},
                                   policy_of(edge),
                                   server == servers_.end() ? Duration{0} : server->second.period});
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   ends_[edge.name()] = end;
 }
 
@@ -156,7 +156,7 @@ void OuterEdges::make(const graph::Edge& edge, RingSegment segment, Endpoint& po
 
 void OuterEdges::remove(const graph::Edge& edge, Endpoint& port) {
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     ends_.erase(edge.name());
   }
   Links::leave(port, ends_of(edge).there.text());
@@ -206,7 +206,7 @@ Result<DdsOptions> OuterEdges::dds_options() const {
 }
 
 void OuterEdges::cut(const std::string& edge, const Error& reason) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (const auto end = ends_.find(edge); end != ends_.end()) return end->second->cut(reason);
   if (const auto process = reached_.find(edge); process != reached_.end()) dds_->cut(process->second, reason);
 }
@@ -214,7 +214,7 @@ void OuterEdges::cut(const std::string& edge, const Error& reason) {
 Status OuterEdges::renew(const std::string& edge, const Descriptor& memory) {
   Result<RingSegment> segment = RingSegment::map(memory.number());
   if (!segment) return segment.error();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   const auto end = ends_.find(edge);
   if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
   end->second->renew(std::move(segment).value());

@@ -4,12 +4,12 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/doorbell.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
@@ -86,10 +86,10 @@ class OuterEdges {
   std::unique_ptr<DdsBackend> dds_;              // null: not needed
   std::map<std::string, std::string> reached_;   // over DDS: the process at the other end
 
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<std::string, ShmEnd*> ends_;
-  std::map<std::string, std::string> processes_;  // by component; also of those that have gone
+  Mutex mutex_;
+  std::map<std::string, ShmEnd*> ends_ ORCA_GUARDED_BY(mutex_);
+  std::map<std::string, std::string> processes_
+      ORCA_GUARDED_BY(mutex_);  // by component; also of those that have gone
 };
 
 }  // namespace orca::host

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "orca/base/mutex.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/patterns/endpoints/query_server_endpoint.hpp"
 #include "orca/patterns/endpoints/send_server_endpoint.hpp"
@@ -37,7 +38,7 @@ class OuterOffers::EdgeOf final : public Edge, public ReplySink<Answer> {
   void offer(const ObjectRef& object, Answered answered) override {
     RequestId id = 0;
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       id = ++last_id_;
       waiting_.emplace(id, std::move(answered));
     }
@@ -48,7 +49,7 @@ class OuterOffers::EdgeOf final : public Edge, public ReplySink<Answer> {
   void reply(RequestId id, Answer answer) override {
     Answered taker;
     {
-      const std::lock_guard lock(mutex_);
+      const MutexLock lock(mutex_);
       auto found = waiting_.extract(id);
       if (found.empty()) return;
       taker = std::move(found.mapped());
@@ -58,10 +59,9 @@ class OuterOffers::EdgeOf final : public Edge, public ReplySink<Answer> {
 
  private:
   RequestTarget<Answer>& target_;
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<RequestId, Answered> waiting_;
-  RequestId last_id_ = 0;
+  Mutex mutex_;
+  std::map<RequestId, Answered> waiting_ ORCA_GUARDED_BY(mutex_);
+  RequestId last_id_ ORCA_GUARDED_BY(mutex_) = 0;
 };
 
 OuterOffers::OuterOffers(const Executive& executive, std::atomic<std::uint64_t>* missions)
@@ -84,7 +84,6 @@ Result<OuterOffers::Edge*> OuterOffers::edge_at(Endpoint& port) {
 }
 
 // Only what is sent begins a mission: a question is nobody's task.
-// @pre  mutex_ is held.
 void OuterOffers::stamp(ObjectLoan& object, Pattern pattern) {
   idl::OrcaObject& header = object.header();
   header.creation_time(to_time_value(executive_.now()));
@@ -100,7 +99,7 @@ Status OuterOffers::offer(Endpoint& port, ObjectLoan object, Answered answered) 
                                             std::string(object.type().name));
   Edge* edge = nullptr;
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     const Result<Edge*> found = edge_at(port);
     if (!found) return found.error();
     edge = *found;
@@ -111,7 +110,7 @@ Status OuterOffers::offer(Endpoint& port, ObjectLoan object, Answered answered) 
 }
 
 void OuterOffers::forget(const std::string& component) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::erase_if(edges_, [&](const auto& edge) {
     const std::string path = edge.first->path();
     return path.substr(0, path.rfind('.')) == component;

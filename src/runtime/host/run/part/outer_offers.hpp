@@ -6,10 +6,10 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "orca/base/executive.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
@@ -42,15 +42,14 @@ class OuterOffers {
   template <class Answer>
   class EdgeOf;
 
-  Result<Edge*> edge_at(Endpoint& port);
-  void stamp(ObjectLoan& object, Pattern pattern);
+  Result<Edge*> edge_at(Endpoint& port) ORCA_REQUIRES(mutex_);
+  void stamp(ObjectLoan& object, Pattern pattern) ORCA_REQUIRES(mutex_);
 
   const Executive& executive_;
   std::atomic<std::uint64_t>* const missions_;
-  std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::map<const Endpoint*, std::unique_ptr<Edge>> edges_;
-  std::uint64_t last_seq_ = 0;
+  Mutex mutex_;
+  std::map<const Endpoint*, std::unique_ptr<Edge>> edges_ ORCA_GUARDED_BY(mutex_);
+  std::uint64_t last_seq_ ORCA_GUARDED_BY(mutex_) = 0;
 };
 
 }  // namespace orca::host

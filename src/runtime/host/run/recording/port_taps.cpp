@@ -17,7 +17,7 @@ PortTap::PortTap(std::string component, std::string port, Flow flow)
 }
 
 void PortTap::put(const ObjectRef& object, TimePoint time) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   if (waiting_.size() == kMost) {
     ++lost_;
   } else {
@@ -28,19 +28,19 @@ void PortTap::put(const ObjectRef& object, TimePoint time) {
 std::vector<PortTap::Passed> PortTap::take() {
   std::vector<Passed> taken;
   taken.reserve(kMost);
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   taken.swap(waiting_);
   return taken;
 }
 
 std::uint64_t PortTap::lost() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return lost_;
 }
 
 std::shared_ptr<PortTap> PortTaps::open(const std::string& component, const PortContract& port) {
   std::shared_ptr<PortTap> tap(new PortTap(component, port.name, flow_of(port)));
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   std::erase_if(taps_, [](const auto& other) { return other.expired(); });
   taps_.push_back(tap);
   count_.store(taps_.size(), std::memory_order_relaxed);
@@ -49,7 +49,7 @@ std::shared_ptr<PortTap> PortTaps::open(const std::string& component, const Port
 
 bool PortTaps::are_at(Flow flow, std::string_view component, std::string_view port) const {
   if (count_.load(std::memory_order_relaxed) == 0) return false;
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return std::ranges::any_of(taps_, [&](const std::weak_ptr<PortTap>& weak) {
     const std::shared_ptr<PortTap> tap = weak.lock();
     return tap && tap->flow_ == flow && tap->port_ == port && tap->component_ == component;
@@ -59,7 +59,7 @@ bool PortTaps::are_at(Flow flow, std::string_view component, std::string_view po
 void PortTaps::pass_on(Flow flow, std::string_view component, std::string_view port,
                        const ObjectRef& object) {
   const TimePoint now = executive_.now();
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   bool has_expired = false;
   for (const auto& weak : taps_) {
     const std::shared_ptr<PortTap> tap = weak.lock();

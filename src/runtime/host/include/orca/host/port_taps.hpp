@@ -12,6 +12,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/executive.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::host {
@@ -50,10 +51,9 @@ class PortTap {
   const std::string component_;
   const std::string port_;
   const Flow flow_;
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<Passed> waiting_;
-  std::uint64_t lost_ = 0;
+  mutable Mutex mutex_;
+  std::vector<Passed> waiting_ ORCA_GUARDED_BY(mutex_);
+  std::uint64_t lost_ ORCA_GUARDED_BY(mutex_) = 0;
 };
 
 /// The taps of a process. While there are none, an object that passes costs a look at one number.
@@ -79,8 +79,8 @@ class PortTaps {
 
   const Executive& executive_;
   std::atomic<std::size_t> count_{0};  // of taps_
-  mutable std::mutex mutex_;
-  std::vector<std::weak_ptr<PortTap>> taps_;  // guarded by mutex_
+  mutable Mutex mutex_;
+  std::vector<std::weak_ptr<PortTap>> taps_ ORCA_GUARDED_BY(mutex_);
 };
 
 }  // namespace orca::host

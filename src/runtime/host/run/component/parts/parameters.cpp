@@ -4,22 +4,22 @@
 namespace orca::host {
 
 void Parameters::declare(std::vector<ParamContract> contracts) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   contracts_ = std::move(contracts);
 }
 
 std::vector<ParamContract> Parameters::contracts() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return contracts_;
 }
 
 ParamValues Parameters::values() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return values_;
 }
 
 void Parameters::keep(ParamValues values) {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   values_ = std::move(values);
 }
 

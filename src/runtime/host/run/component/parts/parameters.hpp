@@ -2,11 +2,11 @@
 #pragma once
 
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "orca/component/host.hpp"
 
 namespace orca::host {
@@ -29,13 +29,12 @@ class Parameters {
   /// Sets the values for this object of the component and for those after it.
   void keep(ParamValues values);
   /// Exchanges contracts and values with those of another component, whose strand does nothing.
-  void trade_places(Parameters& other);
+  void trade_places(Parameters& other) ORCA_THREAD_WORD(no_thread_safety_analysis);
 
  private:
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::vector<ParamContract> contracts_;
-  ParamValues values_;
+  mutable Mutex mutex_;
+  std::vector<ParamContract> contracts_ ORCA_GUARDED_BY(mutex_);
+  ParamValues values_ ORCA_GUARDED_BY(mutex_);
 };
 
 /// Returns the contracts of declared parameters.

@@ -47,7 +47,7 @@ Status Succession::take_over(Residency& successor, ComponentState state, bool fr
   }
   allowed_late_laps_ = 2 * late_laps_.count() + kMostLateLaps;
   late_laps_ = {};
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   predecessor_ = &successor;
   taken_back_.reset();
   report.pause = parts_.now() - began;
@@ -85,14 +85,14 @@ void Succession::seat(ComponentState state) {
 }
 
 bool Succession::confirm() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   predecessor_ = nullptr;
   return !is_going_back_;
 }
 
 // Returns what holds the old object, to which the component goes back now; null: there is no way back.
 Residency* Succession::leave_predecessor() {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   is_going_back_ = predecessor_ != nullptr;
   return std::exchange(predecessor_, nullptr);
 }
@@ -107,7 +107,7 @@ bool Succession::take_back(ComponentState state, const std::string& why) {
   parts_.run.reporter.note(make_alarm(idl::SWAP_UNDONE, parts_.settings.name, "",
                                       "the new one failed, and the old one is back: " + why));
   {
-    const std::lock_guard lock(mutex_);
+    const MutexLock lock(mutex_);
     taken_back_ = why;
     is_going_back_ = false;
   }
@@ -163,7 +163,7 @@ std::string Succession::too_slow_text() const {
 }
 
 std::optional<std::string> Succession::take_back_reason() const {
-  const std::lock_guard lock(mutex_);
+  const MutexLock lock(mutex_);
   return taken_back_;
 }
 

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <bitset>
 #include <cstddef>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "orca/base/mutex.hpp"
 #include "state_hooks.hpp"
 
 namespace orca::host {
@@ -95,11 +95,11 @@ class Succession {
   StateHooks hooks_;
   LateLaps late_laps_;                                     // of the present object
   std::size_t allowed_late_laps_ = LateLaps::kWindow + 1;  // of the new object on probation
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  Residency* predecessor_ = nullptr;  // holds the old object; null: there is no way back
-  bool is_going_back_ = false;
-  std::optional<std::string> taken_back_;
+  mutable Mutex mutex_;
+  Residency* predecessor_ ORCA_GUARDED_BY(mutex_) =
+      nullptr;  // holds the old object; null: there is no way back
+  bool is_going_back_ ORCA_GUARDED_BY(mutex_) = false;
+  std::optional<std::string> taken_back_ ORCA_GUARDED_BY(mutex_);
 };
 
 }  // namespace orca::host

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <deque>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "orca/base/descriptor.hpp"
+#include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/supervisor/message.hpp"
@@ -77,8 +77,8 @@ class Channel {
   [[nodiscard]] int descriptor() const { return socket_.number(); }
 
  private:
-  Status enqueue(Message message);
-  Status flush_locked();
+  Status enqueue(Message message) ORCA_REQUIRES(mutex_);
+  Status flush_locked() ORCA_REQUIRES(mutex_);
 
   const Descriptor socket_;
   const std::size_t bound_;
@@ -88,11 +88,10 @@ class Channel {
   std::vector<std::byte> buffer_;
   std::optional<Error> cut_;  // why nothing more is received
 
-  mutable std::mutex mutex_;
-  // Below: guarded by mutex_.
-  std::deque<Packet> unsent_;  // oldest first
-  std::size_t unsent_bytes_ = 0;
-  std::optional<Error> broken_;  // why nothing more can be sent
+  mutable Mutex mutex_;
+  std::deque<Packet> unsent_ ORCA_GUARDED_BY(mutex_);  // oldest first
+  std::size_t unsent_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::optional<Error> broken_ ORCA_GUARDED_BY(mutex_);  // why nothing more can be sent
 };
 
 }  // namespace orca::supervisor
