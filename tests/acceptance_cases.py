@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The test cases that docs/acceptance.md names exist: a pattern that matches none would pass and show nothing.
+"""The test cases that a page names exist: a pattern that matches none would pass and show nothing.
 
-acceptance_cases.py PAGE BUILD_FOLDER
+acceptance_cases.py BUILD_FOLDER PAGE...
 """
 import pathlib
 import re
@@ -25,16 +25,16 @@ def matches(program, pattern):
     return bool(listed.stdout.strip())
 
 
-def main(page, build):
+def main(build, *pages):
     tests = pathlib.Path(build) / "tests"
     faults = []
-    checked = list(patterns(pathlib.Path(page).read_text()))
-    for number, program, pattern in checked:
+    checked = [(page, *named) for page in pages for named in patterns(pathlib.Path(page).read_text())]
+    for page, number, program, pattern in checked:
         if not (tests / program).exists():
             faults.append(f"{page}:{number}: there is no test program {program}")
         elif not matches(tests / program, pattern):
             faults.append(f"{page}:{number}: {program} has no test case that matches {pattern}")
-    some_program = next(tests / program for _, program, _ in checked)
+    some_program = next(tests / program for _, _, program, _ in checked)
     if matches(some_program, "surely no test case is named like this"):
         faults.append("this check cannot fail")
     print("\n".join(faults) or f"{len(checked)} patterns match test cases")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ways in which a plugin can make a run depend on the machine: those that its file shows, and those that
-// it does not. docs/limitations.md lists the latter.
+// it does not. docs/plugins.md lists the latter.
 #include "../places.hpp"
 #include "inspection/plugin_file.hpp"
 #include "inspection/virtual_time.hpp"
