@@ -111,10 +111,12 @@ TEST_CASE("two simulated robots of one world in two processes are refused, with 
     return "<param name='" + name + "' value='" + value + "'/>";
   };
   const auto hardware = [&](const std::string& name, const std::string& process, const std::string& x) {
-    return "<hardware name='" + name + "' type='orca.hw.Sim' process='" + process + "'>" +
+    return "<hardware name='" + name + "' type='orca.hw.Sim'>" +
            param("world", source_file("sim/worlds/court.xml")) +
            param("robot", source_file("sim/robots/nomad_scout.urdf")) + param("name", name) + param("x", x) +
-           param("y", "4 m") + "</hardware>";
+           param("y", "4 m") + "</hardware><component name='base_" + name +
+           "' type='orca.RobotBaseServer' hardware='" + name + "' process='" + process +
+           "' autonomous='true'/>";
   };
   const auto check = [&](const std::string& process) {
     const std::string text = "<graph name='pair'><process name='p'/><process name='q'/>" +

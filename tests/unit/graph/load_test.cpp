@@ -13,15 +13,13 @@ TEST_CASE("a graph without parts is a graph", "[graph][load]") {
   const Graph graph = must_load("<graph name='empty'/>");
   CHECK(graph.name == "empty");
   CHECK(graph.components.empty());
-  CHECK_FALSE(graph.seed.has_value());
 }
 
 TEST_CASE("the attributes of the graph are read", "[graph][load]") {
   const Graph graph = must_load(
-      "<graph name='g' version='1' ends='a, b' seed='7' plugins='/opt/x;/opt/y/../z'>"
+      "<graph name='g' version='1' ends='a, b' plugins='/opt/x;/opt/y/../z'>"
       "<component name='a' type='orca.Command'/><component name='b' type='orca.Command'/></graph>");
   CHECK(graph.ends == std::vector<std::string>{"a", "b"});
-  CHECK(graph.seed == 7);
   CHECK(graph.plugin_dirs == std::vector<std::string>{"/opt/x", "/opt/z"});
 }
 

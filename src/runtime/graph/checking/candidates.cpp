@@ -40,7 +40,6 @@ std::optional<std::vector<std::string>> candidate_names(const CheckedComponent& 
                   "candidates",
                   late.candidates,
                   nullptr,
-                  nullptr,
                   late.context};
   return find_providers(wish, model, report);
 }

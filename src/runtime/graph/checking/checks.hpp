@@ -37,9 +37,8 @@ void check_emulated_lines(const std::vector<Node>& nodes, const Model& model, Re
 void check_components(const std::vector<Node>& nodes, Types& types, Model& model, Report& report);
 
 // Puts components and hardware into their processes, and reports what cannot live together or apart.
-// @param hardware, components  the nodes of model.hardware and model.components
-void check_placement(const std::vector<Node>& hardware, const std::vector<Node>& components, Model& model,
-                     Report& report);
+// @param components  the nodes of model.components
+void check_placement(const std::vector<Node>& components, Model& model, Report& report);
 
 // Warns about processes and machines of a sound graph on which nothing runs.
 void check_nothing_runs(const Model& model, Report& report);

@@ -12,19 +12,10 @@
 #include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
-#include "reading/values.hpp"
 #include "types.hpp"
 
 namespace orca::graph {
 namespace {
-
-std::optional<std::uint64_t> read_seed(const Node& graph, Report& report) {
-  const Text* seed = graph.find("seed");
-  if (seed == nullptr) return std::nullopt;
-  const auto value = read_value(*seed, graph.rule->attribute("seed")->value, "seed", report);
-  if (!value) return std::nullopt;
-  return static_cast<std::uint64_t>(std::get<std::int64_t>(*value));
-}
 
 std::vector<std::string> read_ends(const Node& graph, const Model& model, Report& report) {
   const std::vector<std::string> ends = split_names(graph.value("ends"));
@@ -38,7 +29,6 @@ Graph read_root(const Node& root, Report& report) {
   Graph graph;
   graph.name = root.value("name");
   graph.default_profile = root.value("default_profile");
-  graph.seed = read_seed(root, report);
   graph.supervision = read_supervision(root, report);
   return graph;
 }
@@ -66,7 +56,7 @@ Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catal
   check_processes(parts.processes, model, report);
   check_hardware(parts.hardware, types, model, report);
   check_components(parts.components, types, model, report);
-  check_placement(parts.hardware, parts.components, model, report);
+  check_placement(parts.components, model, report);
   check_start_order(model, report);
   return model;
 }

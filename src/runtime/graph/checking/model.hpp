@@ -22,8 +22,7 @@ struct CheckedProcess {
 
 struct CheckedHardware {
   HardwareNode value;
-  bool sound = false;         // whether it may be shown to components
-  bool process_known = true;  // false: it names a process that does not exist, which is reported
+  bool sound = false;  // whether it may be shown to components
 };
 
 // Something that two hardware containers can share only within one process.
@@ -52,8 +51,8 @@ struct CheckedComponent {
   std::shared_ptr<const Contract> contract;  // null if the type is missing or unknown
   bool ports_known = false;  // false: its ports cannot be checked, for a reason reported already
   bool duplicate = false;
-  bool process_known = true;                      // as for hardware
-  bool sound = false;                             // whether its own values are all known
+  bool process_known = true;  // false: it names a process that does not exist, which is reported
+  bool sound = false;         // whether its own values are all known
   std::map<std::string, xml::Position> disabled;  // disabled ports, and the places that disable them
   std::map<std::string, Renaming> renamed;        // by the name that the author gave
   // Names that the graph wanted to give to ports and could not, which is reported.

@@ -122,13 +122,7 @@ class Wiring {
   std::vector<Node> choices_of(const Node& connection, const Endpoint& client, const char* attribute) {
     const Text* const seek = connection.known("seek");
     if (seek == nullptr) return doubt(client, {}), std::vector<Node>{};
-    const Wish wish{client.ref,
-                    *client.port,
-                    "seek",
-                    *seek,
-                    connection.known("seek_port"),
-                    connection.known("prefer"),
-                    connection.context};
+    const Wish wish{client.ref, *client.port, "seek", *seek, connection.known("prefer"), connection.context};
     const auto providers = find_providers(wish, model_, report_);
     if (!providers) return doubt(client, {}), std::vector<Node>{};
     std::vector<Node> choices;
@@ -165,10 +159,9 @@ class Wiring {
 
   void check_no_trade(const Node& connection) {
     if (connection.find("seek") != nullptr) return;  // there is one end too many, which is reported
-    for (const char* name : {"seek_port", "prefer"})
-      if (connection.find(name) != nullptr)
-        report_.error(codes::kTrade, connection.place(name),
-                      std::string(name) + " has a meaning only with seek; remove it");
+    if (connection.find("prefer") != nullptr)
+      report_.error(codes::kTrade, connection.place("prefer"),
+                    "prefer has a meaning only with seek; remove it");
   }
 
   std::uint32_t read_choice(const Node& connection, const Endpoint& proxy) {

@@ -47,8 +47,6 @@ constexpr std::array kGraph{
     AttributeRule{"ends", false, "Components: the run ends when all of them are done or one has failed."},
     AttributeRule{"default_profile", false, "Profile that is chosen unless --profile names others."},
     AttributeRule{"plugins", false, "Further folders with plugins, separated by ';'."},
-    AttributeRule{"seed", false, "Seed of all random numbers, unless --seed gives another.",
-                  integer(0, ValueRule::kUnlimited)},
     AttributeRule{"strategy", false,
                   "What is started again when a process has failed: that one, also those after it, or all; "
                   "one_for_one if not given.",
@@ -126,8 +124,7 @@ constexpr std::array kProfile{
 // The type may come from another profile, so it is looked for after merging.
 constexpr std::array kHardware{
     AttributeRule{"name", true, "Name of the device in this system."},
-    AttributeRule{"type", false, "Type of the hardware, for example orca.hw.Sim."},
-    AttributeRule{"process", false, "Process in which it lives; if not given, that of its components."}};
+    AttributeRule{"type", false, "Type of the hardware, for example orca.hw.Sim."}};
 constexpr std::array kComponent{
     AttributeRule{"name", true,
                   "Name of the component: letters, digits and '_'; contexts are joined by '/'."},
@@ -187,7 +184,6 @@ constexpr std::array kConnect{
     AttributeRule{"seek", false,
                   "Instead of the serving end, what its component must be like: terms such as "
                   "quality >= 0.5; platform == 'Dewey'."},
-    AttributeRule{"seek_port", false, "Name of the port that is sought; needed if several ports fit."},
     AttributeRule{"prefer", false,
                   "Of the components that fit, which one is taken first: max or min and a property; in the "
                   "order of the file if not given."},

@@ -51,11 +51,6 @@ std::string processors_text(const std::vector<int>& processors) {
   return text;
 }
 
-// Adds the process of a component or hardware. Without the attribute it is "main".
-void add_process(Attributes& attributes, const std::string& process) {
-  if (process != kMainProcess) add(attributes, "process", process);
-}
-
 }  // namespace
 
 std::string value_text(const ParamValue& value) { return std::visit(ValueText{}, value); }
@@ -65,7 +60,6 @@ Attributes attributes_of(const Graph& graph) {
   add(result, "ends", joined(graph.ends, " "));
   add(result, "default_profile", graph.default_profile);
   add(result, "plugins", joined(graph.plugin_dirs, ";"));
-  if (graph.seed) add(result, "seed", std::to_string(*graph.seed));
   add(result, graph.supervision);
   return result;
 }
@@ -97,16 +91,12 @@ Attributes attributes_of(const ProcessNode& node) {
   return result;
 }
 
-Attributes attributes_of(const HardwareNode& node) {
-  Attributes result{{"type", node.type}};
-  add_process(result, node.process);
-  return result;
-}
+Attributes attributes_of(const HardwareNode& node) { return {{"type", node.type}}; }
 
 Attributes attributes_of(const ComponentNode& node) {
   Attributes result{{"type", node.type}};
   add(result, "hardware", node.hardware);
-  add_process(result, node.process);
+  if (node.process != kMainProcess) add(result, "process", node.process);
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
   if (node.trigger) add_trigger(result, *node.trigger);

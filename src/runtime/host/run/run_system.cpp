@@ -285,7 +285,7 @@ class Run {
   }
 
   [[nodiscard]] SystemOptions wishes() const {
-    return {options_.seed.value_or(graph_.seed.value_or(1)),
+    return {options_.seed.value_or(1),
             {.moments = !options_.picture.file.empty(), .motion = options_.keeps_motion},
             options_.planned_failures,
             options_.log_name};

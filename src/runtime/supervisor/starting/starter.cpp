@@ -85,7 +85,7 @@ HostStart Starter::plain_start(const std::string& name) const {
 }
 
 Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
-  const RunWishes wishes{options_.seed.value_or(graph_.seed.value_or(1)),
+  const RunWishes wishes{options_.seed.value_or(1),
                          options_.log_level,
                          steady_epoch(),
                          run_.start,

@@ -124,16 +124,9 @@ TEST_CASE("a component that names no process is in main, and hardware is where i
   CHECK(part_of(graph, "a").hardware == std::vector<std::string>{"robot"});
 }
 
-TEST_CASE("hardware without components is in the process that it names, or in main", "[graph][process]") {
-  const auto process = [](const std::string& attribute) {
-    return must_load("<graph name='g'><process name='a'/><hardware name='h' type='orca.hw.Sim'" + attribute +
-                     "/></graph>")
-        .hardware.at(0)
-        .process;
-  };
-  CHECK(process("") == "main");
-  CHECK(process(" process=''") == "main");
-  CHECK(process(" process='a'") == "a");
+TEST_CASE("hardware without components is in main", "[graph][process]") {
+  const Graph graph = must_load("<graph name='g'><hardware name='h' type='orca.hw.Sim'/></graph>");
+  CHECK(graph.hardware.at(0).process == "main");
 }
 
 TEST_CASE("an edge is local within a process and uses shared memory between two", "[graph][process]") {

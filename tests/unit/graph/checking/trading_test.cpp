@@ -140,17 +140,6 @@ TEST_CASE("what asks or sends seeks by its from", "[graph][trading]") {
   CHECK(graph.edges.at(1).client() == PortRef{"fuser", "base"});
 }
 
-TEST_CASE("seek_port tells which of several ports is meant", "[graph][trading]") {
-  const Graph graph = must_load(
-      "<graph name='g'><component name='goto' type='orca.TwinGoto'/><component name='fuser' "
-      "type='orca.MotionCommandFuser'>"
-      "<port name='motion' candidates='goto.slow'/></component>" +
-      localizer("a", "<port name='pose' as='where'/>") +
-      "<component name='driver' type='orca.Goto'/>"
-      "<connect to='driver.localizer' seek=\"type == 'orca.Localizer'\" seek_port='where'/></graph>");
-  CHECK(choices_in(graph) == "a.where");
-}
-
 TEST_CASE("candidates of a port array may be sought", "[graph][trading]") {
   const Graph graph = must_load(
       "<graph name='g'><component name='fuser' type='orca.MotionCommandFuser'>"

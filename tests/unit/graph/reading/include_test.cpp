@@ -86,13 +86,14 @@ TEST_CASE("an included file is found from the folder of the one that includes it
 
 TEST_CASE("only the plugin folders of an included file's root element count", "[graph][include]") {
   const Graph graph = must_load(
-      Files{{"main.xml", "<graph name='g' seed='7' plugins='x'><include file='parts/p.xml'/></graph>"},
+      Files{{"main.xml",
+             "<graph name='g' strategy='one_for_all' plugins='x'><include file='parts/p.xml'/></graph>"},
             {"parts/p.xml",
-             "<graph name='p' seed='9' ends='a' plugins='y;../x'>"
+             "<graph name='p' strategy='rest_for_one' ends='a' plugins='y;../x'>"
              "<component name='a' type='orca.Label'/></graph>"}});
   const std::string here = std::filesystem::current_path().string();
   CHECK(graph.name == "g");
-  CHECK(graph.seed == 7U);
+  CHECK(graph.supervision.strategy == Strategy::one_for_all);
   CHECK(graph.ends.empty());
   CHECK(graph.plugin_dirs == std::vector<std::string>{here + "/x", here + "/parts/y"});
 }

@@ -56,14 +56,14 @@ TEST_CASE("added and removed parts are listed by name", "[graph][diff]") {
 TEST_CASE("changes within a part are listed field by field, with both values", "[graph][diff]") {
   const Graph before = graph_with(kWiredAvoid);
   Graph after = before;
-  after.seed = 5;
+  after.supervision.restarts = 5;
   after.hardware[0].params["realism"] = std::string("harsh");
   after.components.back().params["stop_distance"] = 0.25;
   after.components.back().priority = 7;
   after.components.back().ports["odometry"].disabled = true;
   after.edges[0].queue.depth = 9;
   CHECK(diff_text(diff(before, after)) ==
-        "~ graph\n    seed: nothing -> 5\n"
+        "~ graph\n    restarts: nothing -> 5\n"
         "~ hardware robot\n    param realism: ideal -> harsh\n"
         "~ component avoid\n    param stop_distance: 0.5 -> 0.25\n    port odometry: nothing -> "
         "disabled=\"true\"\n"

@@ -20,11 +20,11 @@ class RandomGraph {
     const int avoiders = 1 + pick(4);
     late_bound_ = pick(2) == 0;
     std::string result = "<graph name='r" + std::to_string(pick(100)) + "'" +
-                         maybe(" seed='" + integer(0, 1000) + "'") + maybe(" plugins='x;/y z;../q$$'") +
-                         maybe(" ends='avoid0'") + maybe(supervision()) + ">" + places();
+                         maybe(" plugins='x;/y z;../q$$'") + maybe(" ends='avoid0'") + maybe(supervision()) +
+                         ">" + places();
     const std::string base = process();
-    result += "<hardware name='robot' type='orca.hw.Sim'" + maybe(base) + ">" +
-              maybe(param("world", free_text())) + maybe(param("realism", "harsh")) + "</hardware>" +
+    result += "<hardware name='robot' type='orca.hw.Sim'>" + maybe(param("world", free_text())) +
+              maybe(param("realism", "harsh")) + "</hardware>" +
               "<component name='base' type='orca.RobotBaseServer' hardware='robot'" + base +
               maybe(" period='" + real(0.001, 9) + "'") + ">" +
               maybe("<port name='OdometryPush' as='odom'/>") +

@@ -46,7 +46,7 @@ class DemandCheck {
   }
 
   void check(const CheckedHardware& hardware) {
-    if (!is_in(hardware)) return;
+    if (hardware.value.process != process_.name) return;
     error(hardware.value.position, "hardware " + in_quotes(hardware.value.name) + ": " + title() +
                                        ", and hardware must be open before anything begins to work" +
                                        kRemedy);
@@ -79,9 +79,8 @@ class DemandCheck {
                       title() + ", and no other process uses anything in it, so it is never started");
   }
 
-  template <class Checked>
-  [[nodiscard]] bool is_in(const Checked& part) const {
-    return part.process_known && part.value.process == process_.name;
+  [[nodiscard]] bool is_in(const CheckedComponent& component) const {
+    return component.process_known && component.value.process == process_.name;
   }
 
   [[nodiscard]] bool is_here(const PortRef& port) const {

@@ -17,39 +17,36 @@ class Placement {
  public:
   Placement(Model& model, Report& report) : model_(model), report_(report) {}
 
-  void place(const Node& node, CheckedComponent& component) { read_process(node, component); }
-
-  void place(const Node& node, CheckedHardware& hardware) {
-    if (read_process(node, hardware)) deciders_[&hardware] = nullptr;
+  // Puts a component into the process that it names.
+  void place(const Node& node, CheckedComponent& component) {
+    const Text* name = node.find("process");
+    if (name == nullptr || (name->known && name->value.empty())) return;
+    component.process_known = name->known && check_exists(node, *name);
+    if (component.process_known) component.value.process = name->value;
   }
 
-  // Puts hardware that names no process into that of its first component, and reports components in another one.
+  // Puts hardware into the process of its first component, and reports components in another one.
   void join(const CheckedComponent& component) {
     const auto found = model_.hardware_by_name.find(component.value.hardware);
     if (found == model_.hardware_by_name.end() || component.duplicate || !component.process_known) return;
     CheckedHardware& hardware = model_.hardware[found->second];
-    if (!hardware.process_known) return;
     const auto [decider, fresh] = deciders_.try_emplace(&hardware, &component);
     if (fresh) hardware.value.process = component.value.process;
-    if (component.value.process != hardware.value.process) report_apart(component, hardware, decider->second);
+    if (component.value.process != hardware.value.process)
+      report_apart(component, hardware, *decider->second);
   }
 
   // Reports that parts are in "main", if the graph declares machines and does not say on which of them it runs.
-  template <class Checked>
-  void check_machine_of_main(const std::vector<Checked>& nodes) {
-    const auto in_main = [&](const Checked& node) {
-      return node.process_known && model_.find_process(node.value.process) == &model_.implicit_main;
+  void check_machine_of_main() {
+    const auto in_main = [&](const auto& node) {
+      return model_.find_process(node.process) == &model_.implicit_main;
     };
-    if (model_.implicit_main.placed || main_reported_) return;
+    if (model_.implicit_main.placed) return;
     if (model_.parts_missing || model_.excused.contains(kMainProcess)) return;  // it may be declared there
-    const auto found = std::ranges::find_if(nodes, in_main);
-    if (found == nodes.end()) return;
-    main_reported_ = true;
-    report_.error(codes::kNoMachine, found->value.position,
-                  in_quotes(found->value.name) +
-                      " is in the process \"main\", which has no machine; name another process, or declare "
-                      "<process name=\"main\" machine=\"NAME\"/> with one of: " +
-                      listed(model_.machine_names));
+    for (const CheckedComponent& component : model_.components)
+      if (component.process_known && in_main(component.value)) return report_main(component.value);
+    for (const CheckedHardware& hardware : model_.hardware)
+      if (in_main(hardware.value)) return report_main(hardware.value);
   }
 
   // Reports hardware that must share a process and does not, once for each.
@@ -58,9 +55,7 @@ class Placement {
     for (const SharedThing& shared : model_.shared) {
       const CheckedHardware& later = *model_.find_hardware(shared.node->value("name"));
       const CheckedHardware& earlier = *model_.find_hardware(shared.earlier);
-      const bool known = later.process_known && earlier.process_known;
-      if (!known || later.value.process == earlier.value.process) continue;
-      if (!reported.insert(shared.node).second) continue;
+      if (later.value.process == earlier.value.process || !reported.insert(shared.node).second) continue;
       report_.error(codes::kSplit, place_of_param(*shared.node, shared.fault.param),
                     shared.node->title() + ": parameter " + in_quotes(shared.fault.param) + ": " +
                         shared.fault.text + "; " + whereabouts(later.value) + ", " +
@@ -69,14 +64,13 @@ class Placement {
   }
 
  private:
-  // Puts a component or hardware into the process that it names; returns whether it names one.
-  template <class Checked>
-  bool read_process(const Node& node, Checked& checked) {
-    const Text* name = node.find("process");
-    if (name == nullptr || (name->known && name->value.empty())) return false;
-    checked.process_known = name->known && check_exists(node, *name);
-    if (checked.process_known) checked.value.process = name->value;
-    return true;
+  template <class Part>
+  void report_main(const Part& node) {
+    report_.error(codes::kNoMachine, node.position,
+                  in_quotes(node.name) +
+                      " is in the process \"main\", which has no machine; name another process, or declare "
+                      "<process name=\"main\" machine=\"NAME\"/> with one of: " +
+                      listed(model_.machine_names));
   }
 
   bool check_exists(const Node& node, const Text& name) {
@@ -91,14 +85,13 @@ class Placement {
     return false;
   }
 
-  // @param decider  the component that decides the hardware's process; null: the hardware names it
+  // @param decider  the component that decides the hardware's process
   void report_apart(const CheckedComponent& component, const CheckedHardware& hardware,
-                    const CheckedComponent* decider) {
-    const std::string other = decider == nullptr ? "the hardware" : in_quotes(decider->value.name);
+                    const CheckedComponent& decider) {
     report_.error(codes::kSplit, component.value.position,
                   "hardware " + in_quotes(hardware.value.name) +
                       " and the components that are bound to it live in one process, but " +
-                      whereabouts(component.value) + ", and " + other + " is in " +
+                      whereabouts(component.value) + ", and " + in_quotes(decider.value.name) + " is in " +
                       in_quotes(hardware.value.process) + "; name one process in all of them");
   }
 
@@ -109,22 +102,18 @@ class Placement {
 
   Model& model_;
   Report& report_;
-  // The components that decide the process of hardware; null: the hardware names it itself.
+  // The components that decide the process of hardware.
   std::map<const CheckedHardware*, const CheckedComponent*> deciders_;
-  bool main_reported_ = false;
 };
 
 }  // namespace
 
-void check_placement(const std::vector<Node>& hardware, const std::vector<Node>& components, Model& model,
-                     Report& report) {
+void check_placement(const std::vector<Node>& components, Model& model, Report& report) {
   Placement placement(model, report);
   for (std::size_t i = 0; i < model.components.size(); ++i)
     placement.place(components[i], model.components[i]);
-  for (std::size_t i = 0; i < model.hardware.size(); ++i) placement.place(hardware[i], model.hardware[i]);
   for (const CheckedComponent& component : model.components) placement.join(component);
-  placement.check_machine_of_main(model.components);
-  placement.check_machine_of_main(model.hardware);
+  placement.check_machine_of_main();
   placement.check_shared();
 }
 

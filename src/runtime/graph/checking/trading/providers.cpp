@@ -51,8 +51,7 @@ class Offer {
   [[nodiscard]] std::vector<std::string> fitting_ports(const Wish& wish) const {
     std::vector<std::string> fitting;
     for (const PortContract& port : component_.contract->ports)
-      if (fit_together(port, wish.wanted) && replies_fit(port, wish.wanted) &&
-          (wish.port == nullptr || port.name == wish.port->value))
+      if (fit_together(port, wish.wanted) && replies_fit(port, wish.wanted))
         fitting.push_back(name() + "." + port.name);
     return fitting;
   }
@@ -153,9 +152,7 @@ class Search {
     const Judgement judgement = judge(offer, constraint_);
     if (ports.empty()) {
       if (judgement.lacks.empty() && judgement.incomparable.empty())
-        note_miss(offer, wish_.port == nullptr
-                             ? "it has no port that fits"
-                             : "it has no port " + in_quotes(wish_.port->value) + " that fits");
+        note_miss(offer, "it has no port that fits");
       return;
     }
     if (!judgement.incomparable.empty() && !std::exchange(is_incomparable_, true))
@@ -176,7 +173,7 @@ class Search {
       return refuse(codes::kTrade, wish_.constraint.position,
                     title_ + " seeks a port of " + in_quotes(offer.name()) +
                         ", and several fit: " + listed(ports) + "; " +
-                        (std::string_view(wish_.attribute) == "seek" ? "say which with seek_port"
+                        (std::string_view(wish_.attribute) == "seek" ? "connect one of them by its name"
                                                                      : "name the candidates"));
     found_.emplace_back(&offer, ports.front());
   }

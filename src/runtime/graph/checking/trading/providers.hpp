@@ -17,7 +17,6 @@ struct Wish {
   const PortContract& wanted;  // of the client's port
   const char* attribute;       // that has the constraint, for messages
   const Text& constraint;
-  const Text* port = nullptr;    // name of the port that is sought; null: the only one that fits
   const Text* prefer = nullptr;  // null: the order of the file counts
   std::string context{};         // of the file that seeks: it finds only what is in this context
 };

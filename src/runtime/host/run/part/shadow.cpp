@@ -27,6 +27,7 @@ using plugin::TrialLine;
 using plugin::TrialResult;
 
 constexpr Duration kMostTime = 10s;              // that the copy may take besides the span
+constexpr std::uint64_t kSeed = 1;               // as of a run that is given none
 constexpr rlim_t kMostMemory = rlim_t{2} << 30;  // [bytes] of private memory
 constexpr const char* kLaps = "its laps, in the shadow of the present one,";
 
@@ -176,8 +177,7 @@ class Shadow {
   TrialLine& line_;
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
-  QuietRun quiet_{executive_, "shadow", order_.graph.seed.value_or(1), [this] { changed_->notify(); },
-                  missions_};
+  QuietRun quiet_{executive_, "shadow", kSeed, [this] { changed_->notify(); }, missions_};
   OuterOffers offers_{executive_, nullptr};
   TrialServers servers_{[this](const std::string& question) { return line_.ask(question); }};
   LoadedType type_;

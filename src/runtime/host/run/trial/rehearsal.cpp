@@ -22,6 +22,7 @@ using plugin::TrialLine;
 using plugin::TrialResult;
 
 constexpr Duration kLimit = 10s;        // of one trial: as long as the whole system has to come up
+constexpr std::uint64_t kSeed = 1;      // as of a run that is given none
 constexpr std::size_t kMostEnds = 50;   // of the copy, by its components
 constexpr int kMostHangs = 2;           // each costs kLimit
 constexpr std::size_t kMostAlike = 50;  // of components that differ in their names and partners only
@@ -133,7 +134,7 @@ class Rehearsal {
   TrialLine& line_;
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
-  QuietRun quiet_{executive_, "trial", graph_.seed.value_or(1), [this] { changed_->notify(); }, missions_};
+  QuietRun quiet_{executive_, "trial", kSeed, [this] { changed_->notify(); }, missions_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
   std::set<std::string> down_;
@@ -147,7 +148,6 @@ graph::Graph part_of(const graph::Graph& graph, const std::vector<std::string>& 
   std::set<std::string> wanted = tried;
   std::map<std::string, std::size_t> partners;  // by port
   graph::Graph part;
-  part.seed = graph.seed;
   part.hardware = graph.hardware;
   for (const graph::Edge& edge : graph.edges) {
     const bool has_from = tried.contains(edge.from.component);

@@ -22,7 +22,7 @@ using Params = std::map<std::string, ParamValue>;
 struct HardwareNode {
   std::string name;
   std::string type;                    ///< E.g. "orca.hw.Sim".
-  std::string process = kMainProcess;  ///< Of all components that are bound to it.
+  std::string process = kMainProcess;  ///< That of all components that are bound to it.
   Params params;
   xml::Position position;  ///< Place of its element; not compared.
   Params here{};           ///< As of a component.
@@ -142,7 +142,6 @@ struct Graph {
   std::vector<std::string> ends;         ///< The run ends when these components are done, or one has failed.
   std::vector<std::string> plugin_dirs;  ///< Absolute; searched after Orca's own.
   std::string default_profile;           ///< Empty: none.
-  std::optional<std::uint64_t> seed;     ///< For random numbers, unless the command line gives one.
   Supervision supervision;
   std::vector<MachineNode> machines;
   std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.

@@ -21,7 +21,7 @@ namespace orca::host {
 /// The options of a run.
 struct RunOptions : RunOutputs {
   ExecutiveOptions executive;
-  std::optional<std::uint64_t> seed;             ///< None: the graph's seed, or 1 if it has none.
+  std::optional<std::uint64_t> seed;             ///< None: 1.
   std::optional<Duration> until;                 ///< Time limit [s of the run's clock]; none: no limit.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
   std::vector<TimedChange> changes;              ///< What becomes of the graph meanwhile, sorted by time.
