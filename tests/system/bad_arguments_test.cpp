@@ -190,15 +190,18 @@ TEST_CASE("--help and --version answer on stdout", "[system]") {
   CHECK(help.out.find("--clock") != std::string::npos);
   CHECK(help.err.empty());
   CHECK(run_deployer({"--version"}).out.find("orca") != std::string::npos);
+  CHECK(run_deployer({"--man"}).out.starts_with(".TH DEPLOYER 1"));
+  CHECK(run_deployer({"--completion", "bash"}).out.find("--clock) _deployer_add steady virtual") !=
+        std::string::npos);
 }
 
 TEST_CASE("the table of commands is also help, completion and man page", "[system][orcactl]") {
   const Run help = run_orcactl({"--help"});
   CHECK(help.exit_code() == 0);
-  const Run man = run_orcactl({"man"});
-  const Run bash = run_orcactl({"completion", "bash"});
-  const Run zsh = run_orcactl({"completion", "zsh"});
+  const Run man = run_orcactl({"--man"});
+  const Run bash = run_orcactl({"--completion", "bash"});
+  const Run zsh = run_orcactl({"--completion", "zsh"});
   for (const char* const command : {"ps", "echo", "estop", "alarms", "missions"})
     for (const Run* const run : {&help, &man, &bash, &zsh}) CHECK_THAT(run->out, Catch::Contains(command));
-  CHECK(run_orcactl({"completion", "fish"}).exit_code() == 2);
+  CHECK(run_orcactl({"--completion", "fish"}).exit_code() == 2);
 }

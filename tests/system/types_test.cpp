@@ -84,6 +84,5 @@ TEST_CASE("a type that no plugin holds is refused with the nearest one and the f
 TEST_CASE("a folder for --plugins that is not there is a wrong option", "[system][types]") {
   const Run run = run_deployer({"--types", "--plugins", "no/such/folder"});
   CHECK(run.exit_code() == 2);
-  CHECK(
-      run.says("command line: error C002: --plugins expects a folder with plugins, not \"no/such/folder\""));
+  CHECK(run.says("command line: error C002: --plugins expects a folder that exists, not \"no/such/folder\""));
 }

@@ -252,9 +252,8 @@ ExitCode refuse(const Options& options) {
 
 ExitCode act(const Options& options) {
   if (options.problems.has_errors()) return refuse(options);
+  if (options.answer) return show(*options.answer);
   switch (options.action) {
-    case Action::help: return show(help_text());
-    case Action::version: return show("orca deployer " ORCA_VERSION "\n");
     case Action::schema: return show(graph::schema());
     case Action::describe: return describe(options);
     case Action::types:

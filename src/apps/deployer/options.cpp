@@ -2,92 +2,30 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "options.hpp"
 
-#include <filesystem>
-#include <functional>
-#include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "codes.hpp"
+#include "common/command_line.hpp"
+#include "common/manual.hpp"
 #include "orca/base/text.hpp"
-#include "orca/xml/names.hpp"
-#include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
 
 namespace orca::deployer {
 namespace {
 
 using Action = Options::Action;
-using Setter = std::function<Status(Options&, const std::string&)>;
 
-struct Option {
-  bool takes_value;
-  Setter set;
-  bool repeats = false;  // it may be given several times
-};
+constexpr std::pair<const char*, Action> kActions[] = {
+    {"--check", Action::check},       {"--print", Action::print}, {"--dot", Action::dot},
+    {"--mermaid", Action::mermaid},   {"--diff", Action::diff},   {"--list-ports", Action::list_ports},
+    {"--describe", Action::describe}, {"--types", Action::types}, {"--schema", Action::schema}};
+
+Error wrong(const std::string& what) { return fail(Code::invalid_argument, what); }
 
 Error expected(const std::string& option, const std::string& what, const std::string& found) {
-  return fail(Code::invalid_argument, option + " expects " + what + ", not " + in_quotes(found));
-}
-
-// Returns an option that chooses what to do. Help takes precedence; any other two actions exclude each other.
-Option action(Options::Action action) {
-  return {false, [action](Options& options, const std::string&) {
-            const bool asks_for_help = options.action == Action::help || action == Action::help;
-            if (options.action != Action::run && options.action != action && !asks_for_help)
-              return Status(fail(Code::invalid_argument,
-                                 "one thing to do only, two are given; --help lists them under \"Instead of "
-                                 "running\""));
-            options.action = asks_for_help ? Action::help : action;
-            return ok();
-          }};
-}
-
-Option flag(bool Options::*member) {
-  return {false, [member](Options& options, const std::string&) {
-            options.*member = true;
-            return ok();
-          }};
-}
-
-// Returns an option that asks for progress, or wants none. The two exclude each other.
-Option progress(bool wanted) {
-  return {false, [wanted](Options& options, const std::string&) {
-            if (options.progress.value_or(wanted) != wanted)
-              return Status(fail(Code::invalid_argument, "--progress and --no-progress exclude each other"));
-            options.progress = wanted;
-            return ok();
-          }};
-}
-
-Status add_plugin_folder(Options& options, const std::string& folder) {
-  std::error_code unknown;
-  if (!std::filesystem::is_directory(folder, unknown))
-    return expected("--plugins", "a folder with plugins", folder);
-  options.plugin_folders.push_back(std::filesystem::absolute(folder).string());
-  return ok();
-}
-
-Status set_clock(Options& options, const std::string& value) {
-  if (value != "steady" && value != "virtual") return expected("--clock", "steady or virtual", value);
-  options.run.executive.clock = value == "steady" ? ClockKind::steady : ClockKind::virtual_time;
-  return ok();
-}
-
-Status set_seed(Options& options, const std::string& value) {
-  const Result<std::int64_t> seed = xml::parse_integer(value);
-  if (!seed || *seed < 0) return expected("--seed", "an integer from 0 on", value);
-  options.run.seed = static_cast<std::uint64_t>(*seed);
-  return ok();
-}
-
-Status set_until(Options& options, const std::string& value) {
-  const Result<Duration> until = xml::parse_duration(value);
-  if (!until) return fail(Code::invalid_argument, "--until: " + until.error().message);
-  options.run.until = *until;
-  return ok();
+  return wrong(option + " expects " + what + ", not " + in_quotes(found));
 }
 
 // Reads COMPONENT=HOW@TIME.
@@ -100,11 +38,11 @@ Status add_failure(Options& options, const std::string& value) {
   const std::optional<host::Failure> failure = host::failure_from(how);
   if (!failure) return expected("--fail", listed(host::failure_names()) + " before the @", how);
   const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
-  if (!time) return fail(Code::invalid_argument, "--fail: " + time.error().message);
+  if (!time) return wrong("--fail: " + time.error().message);
   for (const host::PlannedFailure& planned : options.run.planned_failures)
     if (planned.component == value.substr(0, equals))
-      return fail(Code::invalid_argument, "--fail: " + in_quotes(planned.component) +
-                                              " is to fail twice; a component fails in one way, at one time");
+      return wrong("--fail: " + in_quotes(planned.component) +
+                   " is to fail twice; a component fails in one way, at one time");
   options.run.planned_failures.push_back({value.substr(0, equals), *failure, *time});
   return ok();
 }
@@ -115,21 +53,8 @@ Status add_change(Options& options, const std::string& value) {
   if (at == std::string::npos || at == 0)
     return expected("--change", "GRAPH@TIME, such as other.xml@20s", value);
   const Result<Duration> time = xml::parse_duration(value.substr(at + 1));
-  if (!time) return fail(Code::invalid_argument, "--change: " + time.error().message);
+  if (!time) return wrong("--change: " + time.error().message);
   options.changes.push_back({value.substr(0, at), *time, {}});
-  return ok();
-}
-
-Status set_trace(Options& options, const std::string& value) {
-  if (value.empty()) return expected("--trace", "a file", value);
-  options.run.trace_file = value;
-  return ok();
-}
-
-Status set_picture(Options& options, const std::string& value) {
-  if ((!value.ends_with(".svg") && !value.ends_with(".png")) || value.size() == 4)
-    return expected("--picture", "a file ending in .svg or .png", value);
-  options.run.picture.file = value;
   return ok();
 }
 
@@ -141,27 +66,23 @@ Status add_recording(Options& options, const std::string& value) {
     return expected("--record", "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush", value);
   for (const host::RecordingOptions& other : options.run.recordings)
     if (other.file == file)
-      return fail(Code::invalid_argument, "--record: " + in_quotes(file) +
-                                              " is given twice; name all its ports at once, with commas "
-                                              "between");
-  std::vector<std::string> ports;
-  std::istringstream words(value.substr(equals + 1));
-  for (std::string word; std::getline(words, word, ',');) ports.push_back(word);
+      return wrong("--record: " + in_quotes(file) +
+                   " is given twice; name all its ports at once, with commas between");
+  std::vector<std::string> ports = apps::split(value.substr(equals + 1), ',');
   if (ports.empty()) return expected("--record", "a port after the =", value);
   options.run.recordings.push_back({file, std::move(ports)});
   return ok();
 }
 
-Status set_view(Options& options, const std::string& value) {
-  const std::optional<host::View> view = host::view_from(value);
-  if (!view) return expected("--view", listed(host::view_names()), value);
-  options.run.picture.view = *view;
+Status set_picture(Options& options, const std::string& value) {
+  if ((!value.ends_with(".svg") && !value.ends_with(".png")) || value.size() == 4)
+    return expected("--picture", "a file ending in .svg or .png", value);
+  options.run.picture.file = value;
   return ok();
 }
 
 Status hide(Options& options, const std::string& value) {
-  std::istringstream words(value);
-  for (std::string word; std::getline(words, word, ',');) {
+  for (const std::string& word : apps::split(value, ',')) {
     const std::optional<host::Layer> layer = host::layer_from(word);
     if (!layer)
       return expected("--hide", "some of " + listed(host::layer_names()) + ", with commas between", word);
@@ -170,141 +91,41 @@ Status hide(Options& options, const std::string& value) {
   return ok();
 }
 
-Status set_log(Options& options, const std::string& value) {
-  const Result<log::Level> level = log::parse_level(value);
-  if (!level) return fail(Code::invalid_argument, "--log: " + level.error().message);
-  options.log_level = *level;
-  return ok();
-}
+// Options whose values the table does not describe.
+using Setter = Status (*)(Options&, const std::string&);
+constexpr std::pair<const char*, Setter> kOfOwnForm[] = {{"--fail", add_failure},
+                                                         {"--change", add_change},
+                                                         {"--record", add_recording},
+                                                         {"--picture", set_picture},
+                                                         {"--hide", hide}};
 
-// The executor is chosen after all options are read, because its default depends on the clock.
-using Words = std::optional<std::string>;
-
-Status set_executor(Words& executor, const std::string& value) {
-  if (value != "thread" && value != "fiber" && value != "baton")
-    return expected("--executor", "thread, fiber or baton", value);
-  executor = value;
-  return ok();
-}
-
-std::map<std::string, Option> option_table(Words& executor) {
-  return {
-      {"--check", action(Action::check)},
-      {"--print", action(Action::print)},
-      {"--dot", action(Action::dot)},
-      {"--mermaid", action(Action::mermaid)},
-      {"--list-ports", action(Action::list_ports)},
-      {"--diff", action(Action::diff)},
-      {"--describe", action(Action::describe)},
-      {"--types", action(Action::types)},
-      {"--schema", action(Action::schema)},
-      {"--help", action(Action::help)},
-      {"-h", action(Action::help)},
-      {"--version", action(Action::version)},
-      {"--strict", flag(&Options::strict)},
-      {"--json", flag(&Options::json)},
-      {"--in-process", flag(&Options::in_process)},
-      {"--hold", flag(&Options::hold)},
-      {"--watch", flag(&Options::watch)},
-      {"--stats", flag(&Options::stats)},
-      {"--progress", progress(true)},
-      {"--no-progress", progress(false)},
-      {"--profile",
-       {true, [](Options& o, const std::string& v) { return o.profiles.push_back(v), ok(); }, true}},
-      {"--set", {true, [](Options& o, const std::string& v) { return o.settings.push_back(v), ok(); }, true}},
-      {"--plugins", {true, add_plugin_folder, true}},
-      {"--clock", {true, set_clock}},
-      {"--machine", {true, [](Options& o, const std::string& v) { return o.machine = v, ok(); }}},
-      {"--executor",
-       {true, [&executor](Options&, const std::string& v) { return set_executor(executor, v); }}},
-      {"--seed", {true, set_seed}},
-      {"--until", {true, set_until}},
-      {"--fail", {true, add_failure, true}},
-      {"--change", {true, add_change, true}},
-      {"--trace", {true, set_trace}},
-      {"--values", {false, [](Options& o, const std::string&) { return o.run.trace_values = true, ok(); }}},
-      {"--record", {true, add_recording, true}},
-      {"--picture", {true, set_picture}},
-      {"--view", {true, set_view}},
-      {"--hide", {true, hide, true}},
-      {"--log", {true, set_log}},
-  };
-}
-
-Status choose_executor(Options& options, const Words& executor) {
-  const bool is_virtual = options.run.executive.clock == ClockKind::virtual_time;
-  const std::string name = executor.value_or(is_virtual ? "fiber" : "thread");
-  options.chooses_executor = executor.has_value();
-  if (name == "thread") {
-    options.run.executive.backend = Backend::thread;
-  } else if (name == "fiber") {
-    options.run.executive.backend = Backend::fiber;
-  } else {
-    options.run.executive.backend = Backend::baton;
+const char* code_of(apps::Problem::Kind kind) {
+  switch (kind) {
+    case apps::Problem::Kind::unknown_option: return codes::kUnknownOption;
+    case apps::Problem::Kind::value: return codes::kOptionValue;
+    case apps::Problem::Kind::twice: return codes::kOptionTwice;
+    case apps::Problem::Kind::words: return codes::kFiles;
   }
-  if (Result<std::unique_ptr<Executive>> tried = make_executive(options.run.executive); !tried)
-    return tried.error();
-  return ok();
+  return codes::kFiles;
 }
 
-bool takes_no_file(Action action) {
-  return action == Action::help || action == Action::version || action == Action::types ||
-         action == Action::schema;
-}
-
-bool speaks_json(Action action) {
-  return action == Action::check || action == Action::print || action == Action::list_ports ||
-         action == Action::diff || action == Action::describe || action == Action::types;
-}
-
-// Takes the files, once all options are read: the options decide how many are expected.
-// @param guessing  some of them may be something else; a wrong number of files is not reported then.
-Status take_files(Options& options, const std::vector<std::string>& files, bool guessing) {
-  if (takes_no_file(options.action)) return ok();
-  const std::size_t wanted = options.action == Action::diff ? 2 : 1;
-  if (guessing && files.size() != wanted) return ok();
-  if (files.empty())
-    return fail(Code::invalid_argument, "no file given; try: deployer graphs/scout_goto.xml (or --help)");
-  if (files.size() > wanted)
-    return fail(Code::invalid_argument,
-                std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " " +
-                    in_quotes(files[wanted - 1]) + " and " + in_quotes(files[wanted]));
-  if (files.size() < wanted)
-    return fail(Code::invalid_argument, "--diff compares two graphs: deployer --diff OLD.xml NEW.xml");
-  options.file = files.front();
-  if (wanted == 2) options.other_file = files.back();
-  return ok();
-}
-
-Status check_json(const Options& options) {
-  if (!options.json || speaks_json(options.action) || options.action == Action::help) return ok();
-  return fail(Code::invalid_argument,
-              "--json goes with --check, --print, --list-ports, --diff, --describe or --types");
-}
-
-Status check_values(const Options& options) {
-  if (!options.run.trace_values || !options.run.trace_file.empty() || options.action == Action::help)
-    return ok();
-  return fail(Code::invalid_argument, "--values goes with --trace FILE");
-}
-
-// A reader of one command line. It reports everything that is wrong with it.
+// A reader of one call. It reports everything that is wrong with it.
 class Reader {
  public:
-  Options read(const std::vector<std::string>& words) {
-    options_.run.log_name = "deployer";
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      if (words[i].starts_with("-")) {
-        take_option(words, i);
-      } else {
-        files_.push_back(words[i]);
-      }
-    }
-    report(codes::kFiles, take_files(options_, files_, guessing_));
-    report(codes::kExcluding, check_json(options_));
-    report(codes::kExcluding, check_values(options_));
-    // A wrong clock says nothing about which executors fit.
-    if (!wrong_.contains("--clock")) report(codes::kExcluding, choose_executor(options_, executor_));
+  explicit Reader(const apps::Call& call) : call_(call) {}
+
+  Options read() {
+    for (const apps::Problem& problem : call_.problems) report(code_of(problem.kind), wrong(problem.message));
+    options_.answer = apps::answer(program(), call_);
+    if (options_.answer) return std::move(options_);
+    take_flags();
+    take_values();
+    for (const auto& [name, set] : kOfOwnForm)
+      for (const std::string& value : call_.all(name)) report(codes::kOptionValue, set(options_, value));
+    choose_action();
+    report(codes::kFiles, take_files());
+    check_company();
+    report(codes::kExcluding, choose_executor());
     return std::move(options_);
   }
 
@@ -312,50 +133,93 @@ class Reader {
   void report(const char* code, const Status& status) {
     if (!status.ok()) options_.problems.error(code, {"command line", 0, 0}, status.error().message);
   }
-  void report(const char* code, const std::string& message) {
-    report(code, fail(Code::invalid_argument, message));
+
+  void take_flags() {
+    options_.strict = call_.has("--strict");
+    options_.json = call_.has("--json");
+    options_.in_process = call_.has("--in-process");
+    options_.hold = call_.has("--hold");
+    options_.watch = call_.has("--watch");
+    options_.stats = call_.has("--stats");
+    options_.run.trace_values = call_.has("--values");
+    if (call_.has("--progress") || call_.has("--no-progress")) options_.progress = call_.has("--progress");
   }
 
-  // @param at  the number of the option's word; it is advanced to the option's value.
-  void take_option(const std::vector<std::string>& words, std::size_t& at) {
-    const std::string& word = words[at];
-    const auto found = table_.find(word);
-    if (found == table_.end()) return report_unknown(words, at);
-    const Option& option = found->second;
-    if (!option.takes_value) return report(codes::kExcluding, option.set(options_, {}));
-    if (at + 1 == words.size()) return report(codes::kOptionValue, word + " expects a value (see --help)");
-    const std::string& value = words[++at];
-    const auto [before, fresh] = values_.emplace(word, value);
-    if (!fresh && !option.repeats)
-      return report(codes::kOptionTwice, word + " is given twice, as " + in_quotes(before->second) + " and " +
-                                             in_quotes(value) + "; give it once");
-    const Status taken = option.set(options_, value);
-    if (!taken.ok()) wrong_.insert(word);
-    report(codes::kOptionValue, taken);
+  void take_values() {
+    options_.run.log_name = "deployer";
+    options_.profiles = call_.all("--profile");
+    options_.settings = call_.all("--set");
+    options_.plugin_folders = call_.folders("--plugins");
+    options_.machine = call_.text("--machine").value_or("");
+    options_.run.until = call_.duration("--until");
+    options_.run.seed = call_.count("--seed");
+    options_.run.trace_file = call_.text("--trace").value_or("");
+    if (const auto view = call_.text("--view")) options_.run.picture.view = *host::view_from(*view);
+    if (const auto level = call_.text("--log")) options_.log_level = *log::parse_level(*level);
+    if (call_.text("--clock") == "virtual") options_.run.executive.clock = ClockKind::virtual_time;
   }
 
-  void report_unknown(const std::vector<std::string>& words, std::size_t& at) {
-    std::vector<std::string> names;
-    for (const auto& [name, option] : table_) names.push_back(name);
-    const auto near = xml::nearest_name(words[at], names);
-    report(codes::kUnknownOption,
-           "unknown option " + in_quotes(words[at]) + xml::did_you_mean(near) + " (see --help)");
-    const bool value_follows = at + 1 < words.size() && !words[at + 1].starts_with("-");
-    if (near && table_.at(*near).takes_value && value_follows) ++at;
-    if (!near) guessing_ = true;
+  void choose_action() {
+    for (const auto& [name, action] : kActions) {
+      if (!call_.has(name)) continue;
+      if (options_.action != Action::run)
+        return report(codes::kExcluding, wrong("one thing to do only, two are given; --help lists them under "
+                                               "\"Instead of running\""));
+      options_.action = action;
+    }
   }
 
+  // Takes the files; the action decides how many are expected.
+  Status take_files() {
+    if (options_.action == Action::types || options_.action == Action::schema) return ok();
+    const std::vector<std::string>& files = call_.words;
+    const std::size_t wanted = options_.action == Action::diff ? 2 : 1;
+    if (call_.guesses && files.size() != wanted) return ok();
+    if (files.empty()) return wrong("no file given; try: deployer graphs/scout_goto.xml (or --help)");
+    if (files.size() > wanted)
+      return wrong(std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " " +
+                   in_quotes(files[wanted - 1]) + " and " + in_quotes(files[wanted]));
+    if (files.size() < wanted) return wrong("--diff compares two graphs: deployer --diff OLD.xml NEW.xml");
+    options_.file = files.front();
+    if (wanted == 2) options_.other_file = files.back();
+    return ok();
+  }
+
+  // Reports options that go only with others, or not with others.
+  void check_company() {
+    static const std::set<Action> kSpeakJson{Action::check, Action::print,    Action::list_ports,
+                                             Action::diff,  Action::describe, Action::types};
+    if (options_.json && !kSpeakJson.contains(options_.action))
+      report(codes::kExcluding,
+             wrong("--json goes with --check, --print, --list-ports, --diff, --describe or --types"));
+    if (options_.run.trace_values && options_.run.trace_file.empty())
+      report(codes::kExcluding, wrong("--values goes with --trace FILE"));
+    if (call_.has("--progress") && call_.has("--no-progress"))
+      report(codes::kExcluding, wrong("--progress and --no-progress exclude each other"));
+  }
+
+  // The default depends on the clock; a wrong clock says nothing about which executors fit.
+  Status choose_executor() {
+    const std::optional<std::string> name = call_.text("--executor");
+    const bool is_virtual = options_.run.executive.clock == ClockKind::virtual_time;
+    options_.chooses_executor = name.has_value();
+    options_.run.executive.backend = name ? (*name == "thread"  ? Backend::thread
+                                             : *name == "fiber" ? Backend::fiber
+                                                                : Backend::baton)
+                                          : (is_virtual ? Backend::fiber : Backend::thread);
+    if (call_.is_wrong("--clock")) return ok();
+    const Result<std::unique_ptr<Executive>> tried = make_executive(options_.run.executive);
+    return tried ? ok() : Status(tried.error());
+  }
+
+  const apps::Call& call_;
   Options options_;
-  Words executor_;
-  const std::map<std::string, Option> table_ = option_table(executor_);
-  std::map<std::string, std::string> values_;  // the first value of each option
-  std::set<std::string> wrong_;                // options with a wrong value
-  std::vector<std::string> files_;
-  bool guessing_ = false;  // whether one of the files may be the value of an unknown option
 };
 
 }  // namespace
 
-Options parse_options(const std::vector<std::string>& words) { return Reader().read(words); }
+Options parse_options(const std::vector<std::string>& words) {
+  return Reader(apps::parse(program(), words)).read();
+}
 
 }  // namespace orca::deployer

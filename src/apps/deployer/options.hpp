@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/command_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
@@ -16,21 +17,9 @@ namespace orca::deployer {
 
 /// The requests of a command line.
 struct Options {
-  enum class Action {
-    run,
-    check,
-    print,
-    dot,
-    mermaid,
-    list_ports,
-    diff,
-    describe,
-    types,
-    schema,
-    help,
-    version
-  };
+  enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, types, schema };
   Action action = Action::run;
+  std::optional<std::string> answer{};      ///< What is to be printed, instead of any action.
   std::string file;                         ///< The graph, or the plugin or type to describe.
   std::string other_file;                   ///< The graph to compare it with.
   bool strict = false;                      ///< Warnings are errors.
@@ -54,7 +43,7 @@ struct Options {
 /// Reads a command line. What is wrong with it is in the result's `problems`, all of it at once.
 [[nodiscard]] Options parse_options(const std::vector<std::string>& words);
 
-/// Returns the text of --help.
-[[nodiscard]] const char* help_text();
+/// Returns the table of what the deployer's command line may hold.
+[[nodiscard]] const apps::Program& program();
 
 }  // namespace orca::deployer

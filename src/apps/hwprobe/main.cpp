@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/command_line.hpp"
+#include "common/manual.hpp"
 #include "common/output.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
@@ -22,9 +24,7 @@
 namespace orca::hwprobe {
 namespace {
 
-constexpr const char* kHelp =
-    "hwprobe [PORT...] [options]     which device is at which port, and what it says first\n"
-    "\n"
+constexpr std::string_view kDetails =
     "  hwprobe                            all serial ports of this machine\n"
     "  hwprobe /dev/ttyUSB0               one port\n"
     "  hwprobe tcp:192.168.0.20:8101      a device behind a network\n"
@@ -37,16 +37,23 @@ constexpr const char* kHelp =
     "a minute per port. Drivers of devices in the network are asked at a serial port only if --driver\n"
     "names them. Nothing is moved: motors get no power. A port that cannot be opened, and a device that\n"
     "does not answer, is told with what to do. Stop a running system first: a port belongs to one\n"
-    "program at a time.\n"
-    "\n"
-    "  --driver TYPE     only this hardware type; may be repeated\n"
-    "  --watch           show the data of a device anew each second; for one port\n"
-    "  --limit SECONDS   the longest wait for an answer, and for data (default 15)\n"
-    "  --plugins FOLDER  look for drivers here too, after Orca's own; may be repeated\n"
-    "  --help, --version\n"
-    "\n"
-    "Exit status: 0 a device answered at each port, 1 at some port none did, 2 wrong usage.\n"
-    "docs/hardware/day-one.md leads from here to the first motion.\n";
+    "program at a time.\n";
+
+const apps::Program& program() {
+  static const apps::Program all{
+      .name = "hwprobe",
+      .usage = "[PORT...] [options]",
+      .text = "which device is at which port, and what it says first",
+      .details = kDetails,
+      .arguments = {{"PORT", apps::Names::none, true, true}},
+      .options = {{"--driver", "TYPE", "only this hardware type", true, "Options"},
+                  {"--watch", "", "show the data of a device anew each second; for one port"},
+                  {"--limit", "SECONDS", "the longest wait for an answer, and for data (default 15)"},
+                  {"--plugins", "FOLDER", "look for drivers here too, after Orca's own", true}},
+      .exits = {"0 a device answered at each port", "1 at some port none did", "2 wrong usage"},
+      .notes = "docs/hardware/day-one.md leads from here to the first motion.\n"};
+  return all;
+}
 
 enum class ExitCode { all_answer = 0, some_silent = 1, usage = 2 };
 
@@ -62,40 +69,17 @@ Error wrong(const std::string& what) {
   return fail(Code::invalid_argument, what + "; hwprobe --help explains what there is");
 }
 
-Status take_option(Options& options, const std::string& name, const std::string& value) {
-  if (name == "--driver") {
-    options.types.push_back(value);
-  } else if (name == "--plugins") {
-    options.folders.push_back(value);
-  } else if (name == "--limit") {
-    const auto seconds = xml::parse_number(value);
-    if (!seconds || !(*seconds > 0.0) || *seconds > 3600.0)
-      return wrong("--limit " + in_quotes(value) + " is no time of up to an hour in seconds");
-    options.limit = *seconds;
-  } else {
-    return wrong("there is no option " + in_quotes(name));
-  }
-  return ok();
-}
-
-Result<Options> parse(const std::vector<std::string>& words) {
-  Options options;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (!words[i].starts_with("-")) {
-      options.ports.push_back(words[i]);
-      continue;
-    }
-    if (words[i] == "--watch") {
-      options.watches = true;
-      continue;
-    }
-    if (i + 1 == words.size())
-      return wrong("there is no option " + in_quotes(words[i]) + ", or its value is missing");
-    if (Status taken = take_option(options, words[i], words[i + 1]); !taken.ok()) return taken.error();
-    ++i;
-  }
+Result<Options> options_of(const apps::Call& call) {
+  Options options{call.words, call.all("--driver"), call.folders("--plugins")};
+  options.watches = call.has("--watch");
   if (options.watches && options.ports.size() != 1)
     return wrong("--watch needs one port, whose device it watches");
+  if (const auto text = call.text("--limit")) {
+    const auto seconds = xml::parse_number(*text);
+    if (!seconds || !(*seconds > 0.0) || *seconds > 3600.0)
+      return wrong("--limit " + in_quotes(*text) + " is no time of up to an hour in seconds");
+    options.limit = *seconds;
+  }
   return options;
 }
 
@@ -207,13 +191,13 @@ ExitCode run(Options options, const host::StopSignal& stop) {
 }
 
 ExitCode act(const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    const bool asks_help = word == "--help" || word == "-h";
-    if (!asks_help && word != "--version") continue;
-    std::fputs(asks_help ? kHelp : "hwprobe " ORCA_VERSION "\n", stdout);
+  const apps::Call call = apps::parse(program(), words);
+  if (!call.problems.empty()) return refuse(wrong(call.problems.front().message));
+  if (const auto answer = apps::answer(program(), call)) {
+    std::fputs(answer->c_str(), stdout);
     return ExitCode::all_answer;
   }
-  const Result<Options> options = parse(words);
+  const Result<Options> options = options_of(call);
   if (!options) return refuse(options.error());
   const host::StopSignal stop(static_cast<int>(ExitCode::some_silent));
   return run(*options, stop);

@@ -29,17 +29,20 @@ constexpr Duration kApplyLimit = 600s;  // several exchanges, each with its tria
 constexpr std::chrono::seconds kWatchInterval{1};
 constexpr std::chrono::seconds kStubborn{1};
 constexpr std::chrono::milliseconds kPause{10};
+constexpr std::array<std::string_view, 3> kWithoutRecords{"graph", "ports", "stop"};  // in their answers
 
 // Returns the request. The options of the command are words, as on the command line. Files are named so that the
 // supervisor, which runs in another folder, finds them.
-supervisor::Ask request_of(const Call& call) {
-  supervisor::Ask ask{std::string(call.command->name), call.words, call.json};
+supervisor::Ask request_of(const apps::Call& call) {
+  supervisor::Ask ask{std::string(call.command->name), call.words, call.has("--json")};
   for (std::size_t i = 0; i < ask.words.size() && i < call.command->arguments.size(); ++i)
-    if (call.command->arguments[i].names == Names::file)
+    if (call.command->arguments[i].names == apps::Names::file)
       ask.words[i] = std::filesystem::absolute(ask.words[i]).lexically_normal().string();
-  for (const auto& [option, value] : call.options) {
-    ask.words.push_back(option);
-    if (!value.empty()) ask.words.push_back(value);
+  for (const apps::OptionSpec& option : call.command->options) {
+    for (const std::string& value : call.all(option.name)) {
+      ask.words.emplace_back(option.name);
+      if (!value.empty()) ask.words.push_back(value);
+    }
   }
   return ask;
 }
@@ -58,22 +61,23 @@ bool is_log_line(const Record& record) {
 // Collects what comes, to be printed as tables at the end; the log is printed as it comes.
 class Printer {
  public:
-  explicit Printer(const Call& call) : call_(call), follows_(call.has("--follow")) {}
+  explicit Printer(const apps::Call& call) : call_(call), follows_(call.has("--follow")) {}
 
   void take(supervisor::ControlAnswer& answer) {
     if (const auto* const text = std::get_if<supervisor::TextAnswer>(&answer)) print(text->text);
     if (const auto* const note = std::get_if<supervisor::NoteAnswer>(&answer)) take_note(note->text);
     auto* const record = std::get_if<supervisor::RecordAnswer>(&answer);
     if (record == nullptr) return;
-    if (!call_.json && is_log_line(record->record)) return print(log_line(record->record));
+    if (!call_.has("--json") && is_log_line(record->record)) return print(log_line(record->record));
     if (follows_) return print(record_json(record->record));
     records_.push_back(std::move(record->record));
   }
 
   void finish() const {
-    if (call_.watch && !call_.json) print(clear_screen());
-    if (follows_ || !call_.command->tells) return;
-    print(call_.json ? table_json(records_) : table_text(records_, terminal_columns()));
+    const bool is_json = call_.has("--json");
+    if (call_.has("--watch") && !is_json) print(clear_screen());
+    if (follows_ || std::ranges::find(kWithoutRecords, call_.command->name) != kWithoutRecords.end()) return;
+    print(is_json ? table_json(records_) : table_text(records_, terminal_columns()));
     for (const std::string& note : notes_) print_note(note);
   }
 
@@ -83,14 +87,14 @@ class Printer {
   static void print_note(const std::string& text) { std::fprintf(stderr, "orcactl: %s\n", text.c_str()); }
   static std::string clear_screen() { return terminal_columns() > 0 ? "\x1b[H\x1b[2J" : "\n"; }
 
-  const Call& call_;
+  const apps::Call& call_;
   const bool follows_;
   std::vector<Record> records_;
   std::vector<std::string> notes_;
 };
 
 // Returns the longest wait for a part of the answer.
-Duration limit_of(const Call& call) {
+Duration limit_of(const apps::Call& call) {
   if (call.has("--follow")) return kForEver;
   constexpr std::array<std::string_view, 4> kApplying{"apply", "connect", "disconnect", "move"};
   if (std::ranges::find(kApplying, call.command->name) != kApplying.end()) return kApplyLimit;
@@ -101,7 +105,7 @@ Duration limit_of(const Call& call) {
 
 bool is_cut_off(const Status& outcome) { return !outcome.ok() && outcome.error().code == Code::unavailable; }
 
-Status ask_once(const Call& call, Client& client) {
+Status ask_once(const apps::Call& call, Client& client) {
   Printer printer(call);
   const Status outcome = client.ask(
       request_of(call), [&](supervisor::ControlAnswer& answer) { printer.take(answer); }, limit_of(call));
@@ -112,14 +116,14 @@ Status ask_once(const Call& call, Client& client) {
 
 // Asks to stop again, over a new connection, if the old one is lost: because too many want to talk to the system, or because it has
 // ended. The motors may be stopped twice. Other commands may not be carried out twice.
-Status ask_stubbornly(const Call& call, Client& client) {
+Status ask_stubbornly(const apps::Call& call, Client& client) {
   const bool ends = call.command->name == "stop";
   const bool may_repeat = ends || call.command->name == "estop";
   const auto limit = std::chrono::steady_clock::now() + kStubborn;
   Status outcome = ask_once(call, client);
   while (may_repeat && is_cut_off(outcome) && std::chrono::steady_clock::now() < limit) {
     std::this_thread::sleep_for(kPause);
-    std::variant<Client, Failure> again = Client::connect(call.system);
+    std::variant<Client, Failure> again = Client::connect(call);
     if (const auto* const failure = std::get_if<Failure>(&again)) {
       if (ends && failure->error.code == Code::not_found) return ok();
     } else {
@@ -151,8 +155,8 @@ ExitCode report(const Failure& failure) {
   return failure.code;
 }
 
-ExitCode ask(const Call& call) {
-  std::variant<Client, Failure> connected = Client::connect(call.system);
+ExitCode ask(const apps::Call& call) {
+  std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) {
     const bool has_no_deployer = failure->code == ExitCode::no_deployer;
     const std::optional<ExitCode> obeyed = has_no_deployer ? order_orphans(call) : std::nullopt;
@@ -161,18 +165,18 @@ ExitCode ask(const Call& call) {
   for (;;) {
     const Status outcome = ask_stubbornly(call, std::get<Client>(connected));
     if (!outcome.ok()) return report({outcome.error()});
-    if (!call.watch) return ExitCode::done;
+    if (!call.has("--watch")) return ExitCode::done;
     std::this_thread::sleep_for(kWatchInterval);
   }
 }
 
-ExitCode print_names(const Call& call) {
+ExitCode print_names(const apps::Call& call) {
   const std::string& kind = call.words.front();
   std::set<std::string> names;
   if (kind == "system") {
     for (const std::string& name : supervisor::running_systems().value_or({})) names.insert(name);
   } else {
-    std::variant<Client, Failure> connected = Client::connect(call.system);
+    std::variant<Client, Failure> connected = Client::connect(call);
     if (auto* const failure = std::get_if<Failure>(&connected)) return failure->code;
     Client& client = std::get<Client>(connected);
     if (kind == "component" || kind == "group" || kind == "process") add_names(client, "ps", "name", names);

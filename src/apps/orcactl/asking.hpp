@@ -5,17 +5,17 @@
 #include <set>
 #include <string>
 
-#include "call.hpp"
 #include "client.hpp"
+#include "common/command_line.hpp"
 #include "exit_code.hpp"
 
 namespace orca::orcactl {
 
 /// Carries out a command that the supervisor answers, once, or again and again with --watch.
-[[nodiscard]] ExitCode ask(const Call& call);
+[[nodiscard]] ExitCode ask(const apps::Call& call);
 
 /// Prints names for completion, one per line. Without a system there are none.
-[[nodiscard]] ExitCode print_names(const Call& call);
+[[nodiscard]] ExitCode print_names(const apps::Call& call);
 
 /// Returns the values of the cells of a name in the answer to a command; none if it fails.
 [[nodiscard]] std::set<std::string> names_of(Client& client, const char* command, const char* cell);

@@ -24,8 +24,8 @@ Failure unreachable(const Error& why) { return {why, ExitCode::no_deployer}; }
 
 }  // namespace
 
-std::variant<Client, Failure> Client::connect(const std::string& system) {
-  std::string name = system;
+std::variant<Client, Failure> Client::connect(const apps::Call& call) {
+  std::string name = call.text("--system").value_or("");
   if (name.empty()) {
     const Result<std::vector<std::string>> running = supervisor::running_systems();
     if (!running) return unreachable(running.error());

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/command_line.hpp"
 #include "exit_code.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
@@ -25,9 +26,8 @@ class Client {
   /// Takes a part of an answer.
   using Taker = std::function<void(supervisor::ControlAnswer&)>;
 
-  /// Connects.
-  /// @param system  name of its graph; empty: the only one that runs.
-  [[nodiscard]] static std::variant<Client, Failure> connect(const std::string& system);
+  /// Connects to the system that a call names; if it names none, to the only one that runs.
+  [[nodiscard]] static std::variant<Client, Failure> connect(const apps::Call& call);
 
   /// Asks, and passes each part of the answer on until it ends.
   /// @param limit  [s] for each part.

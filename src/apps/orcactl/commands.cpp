@@ -2,10 +2,13 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "commands.hpp"
 
-#include <algorithm>
-
 namespace orca::orcactl {
 namespace {
+
+using apps::Argument;
+using apps::Command;
+using apps::Names;
+using apps::OptionSpec;
 
 const Argument kPort{"PORT", Names::port};
 const Argument kComponent{"COMPONENT", Names::component};
@@ -65,14 +68,10 @@ constexpr std::string_view kRewireDetails =
 // What a system is and does.
 std::vector<Command> showing_commands() {
   return {
-      {.name = "ps",
-       .watches = true,
-       .tells = true,
-       .text = "the components: where they run and how they are"},
+      {.name = "ps", .watches = true, .text = "the components: where they run and how they are"},
       {.name = "graph", .text = "the graph, with files, arguments and profiles merged"},
       {.name = "ports", .text = "the ports of all components, and what they are connected to"},
       {.name = "plugins",
-       .tells = true,
        .text = "the plugin files, and who uses them",
        .details = "A file counts as pinned if it, or a copy of it that was exchanged, stays in memory "
                   "although nothing uses "
@@ -84,7 +83,6 @@ std::vector<Command> showing_commands() {
 std::vector<Command> port_commands() {
   return {
       {.name = "echo",
-       .way = Way::tap,
        .arguments = {kPort},
        .options = {kCount,
                    {"--for", "DURATION", "end after this time"},
@@ -99,28 +97,22 @@ std::vector<Command> port_commands() {
                   "Objects that "
                   "come faster than they can be printed are left out, and counted on stderr."},
       {.name = "hz",
-       .way = Way::tap,
        .arguments = {kPort},
        .options = {kFor},
-       .tells = true,
        .text = "how often objects pass a port, each second"},
       {.name = "latency",
-       .way = Way::tap,
        .arguments = {{"PORT", Names::port, true}},
        .options = {kFor,
                    {"--from", "PORT", "where data begin: follow causes back to this port"},
                    {"--to", "PORT", "where data arrive, or \"wheels\""}},
-       .tells = true,
        .text = "how old objects are when they pass a port, each second",
        .details = kLatencyDetails},
       {.name = "send",
-       .way = Way::offer,
        .arguments = {kPort, {"XML"}},
        .options = {kTimeout},
        .text = "send an object to a SendServer",
        .details = kSendDetails},
       {.name = "query",
-       .way = Way::offer,
        .arguments = {kPort, {"XML"}},
        .options = {kTimeout},
        .text = "ask a QueryServer, and print its reply",
@@ -134,7 +126,6 @@ std::vector<Command> history_commands() {
       {.name = "get",
        .arguments = {{"COMPONENT[.PARAM]", Names::param}},
        .watches = true,
-       .tells = true,
        .text = "the value of a parameter, or of all of a component, in SI"},
       {.name = "set",
        .arguments = {{"COMPONENT.PARAM", Names::param},
@@ -146,27 +137,21 @@ std::vector<Command> history_commands() {
                   "changes. Each component changes between two of its laps, one after the other; if one "
                   "refuses, those before it get their old values back. A process that is started again "
                   "begins with the values of the graph."},
-      {.name = "counters",
-       .watches = true,
-       .tells = true,
-       .text = "what the connections have carried, dropped and refused"},
+      {.name = "counters", .watches = true, .text = "what the connections have carried, dropped and refused"},
       {.name = "log",
        .arguments = {{"NAME", Names::component, true, true}},
        .options = {{"--follow", "", "go on with the lines that come"},
-                   {"--level", "LEVEL", "debug, info (default), warning or error: no lines below"}},
-       .tells = true,
+                   {"--level", "debug|info|warning|error", "no lines below (default info)"}},
        .text = "the last lines of the log, of all processes or of those named"},
       {.name = "alarms",
        .arguments = {{"ack N", Names::none, true, true}},
        .watches = true,
-       .tells = true,
        .text = "the alarms that nobody has acknowledged",
        .details = "An alarm stays until it is acknowledged, even if its source has been started again: "
                   "alarms ack N takes "
                   "out the one with that number, alarms ack all takes out all."},
       {.name = "missions",
        .arguments = {{"MISSION", Names::none, true}},
-       .tells = true,
        .text = "what happened in each mission, in order"},
   };
 }
@@ -176,7 +161,6 @@ std::vector<Command> operating_commands() {
   return {
       {.name = "estop",
        .options = {{"--release", "", "let the motors obey commands again"}},
-       .tells = true,
        .text = "stop all motors now, and hold them until estop --release",
        .details =
            "The order goes to each process over its control channel, not over a connection of the "
@@ -191,18 +175,15 @@ std::vector<Command> operating_commands() {
        .details = "Processes that go on after their deployer was killed obey this and estop themselves."},
       {.name = "restart",
        .arguments = {{"NAME", Names::process}},
-       .tells = true,
        .text = "start the process of a component again, with all that runs in it"},
       {.name = "suspend",
        .arguments = {kComponents},
-       .tells = true,
        .text = "pause a component, or all of a group, between two laps",
        .details = "The components of a group are suspended one after the other, in the reverse order of "
                   "their start; those that are suspended already stay so. If one cannot be suspended, those "
                   "before it are resumed."},
       {.name = "resume",
        .arguments = {kComponents},
-       .tells = true,
        .text = "let a suspended component go on, or all of a group",
        .details = "The components of a group are resumed one after the other, in the order of their start; "
                   "those that are not suspended are left alone. If one cannot be resumed, those before it "
@@ -217,14 +198,13 @@ std::vector<Command> exchanging_commands() {
   return {
       {.name = "swap",
        .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
-       .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on; may be repeated", true},
+       .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on", true},
                    {"--tryout", "DURATION",
                     "time for which the new code is tried with what reaches the old one (default 2 s)"},
                    {"--probation", "DURATION",
                     "time in which a failure brings the old code back (default 2 s)"},
                    kUntried,
                    {"--fresh", "", "begin without the old code's state, which is not asked for it"}},
-       .tells = true,
        .text = "exchange the code of a component, or a driver, while it runs",
        .details =
            "For two seconds, what reaches the component is collected; then the new code is tried with that "
@@ -247,28 +227,23 @@ std::vector<Command> exchanging_commands() {
            "is no trial and no probation then."},
       {.name = "connect",
        .arguments = {kPort, kPort, {"ATTRIBUTE=VALUE", Names::none, true, true}},
-       .tells = true,
        .text = "make a connection while the system runs, or give it another policy",
        .details = kRewireDetails},
       {.name = "disconnect",
        .arguments = {kPort, kPort},
-       .tells = true,
        .text = "remove a connection while the system runs",
        .details = kRewireDetails},
       {.name = "move",
        .arguments = {kPort, {"SERVER_PORT", Names::port}},
-       .tells = true,
        .text = "let a client's port use another server from now on, with the same policy",
        .details = kRewireDetails},
       {.name = "diff",
        .arguments = {{"GRAPH.xml", Names::file}},
-       .tells = true,
        .text = "what apply would change, and what stops meanwhile",
        .details = kApplyDetails},
       {.name = "apply",
        .arguments = {{"GRAPH.xml", Names::file}},
        .options = {kUntried},
-       .tells = true,
        .text = "let the running system become what a graph says: all of it, or nothing",
        .details = kApplyDetails},
   };
@@ -278,44 +253,40 @@ std::vector<Command> exchanging_commands() {
 std::vector<Command> shell_commands() {
   return {
       {.name = "names",
-       .way = Way::names,
        .arguments = {{"KIND"}},
        .text = "names for completion, one per line: component, group, port, param, process or system"},
-      {.name = "completion",
-       .way = Way::completion,
-       .arguments = {{"SHELL"}},
-       .text = "the completion script of bash or zsh: source <(orcactl completion bash)"},
-      {.name = "man", .way = Way::manual, .text = "the man page: orcactl man | man -l -"},
   };
-}
-
-const std::vector<Command>& table() {
-  static const std::vector<Command> all = [] {
-    std::vector<Command> commands;
-    for (const auto& group : {showing_commands(), port_commands(), history_commands(), operating_commands(),
-                              exchanging_commands(), shell_commands()})
-      commands.insert(commands.end(), group.begin(), group.end());
-    return commands;
-  }();
-  return all;
 }
 
 }  // namespace
 
-std::span<const Command> commands() { return table(); }
-
-const Command* find_command(std::string_view name) {
-  const auto found = std::ranges::find(table(), name, &Command::name);
-  return found == table().end() ? nullptr : &*found;
-}
-
-std::span<const OptionSpec> common_options() {
-  static const std::vector<OptionSpec> all{
-      {"--system", "NAME", "which system, if several run: the name of its graph"},
-      {"--json", "", "for programs: JSON on stdout; one object per line where the output goes on"},
-      {"--watch", "", "repeat every second, until interrupted"},
-      {"--help", "", "this text, or that of a command"},
-  };
+const apps::Program& program() {
+  static const apps::Program all = [] {
+    apps::Program program{
+        .name = "orcactl",
+        .usage = "[--system NAME] COMMAND ...",
+        .text = "look at a running system, and command it",
+        .details =
+            "  orcactl ps                            what runs, and how it is\n"
+            "  orcactl echo base.OdometryPush        the objects that pass a port\n"
+            "  orcactl estop                         stop all motors now\n",
+        .options = {{"--system", "NAME", "which system, if several run: the name of its graph", false,
+                     "Options"},
+                    {"--json", "",
+                     "for programs: JSON on stdout; one object per line where the output goes on"},
+                    {"--watch", "", "repeat every second, until interrupted"}},
+        .exits = {"0 done", "1 refused: the reason is on stderr", "2 the command line is wrong",
+                  "3 no deployer runs"},
+        .notes =
+            "\nIt talks to the deployer that runs a graph, through a Unix socket of the same user:\n"
+            "$XDG_RUNTIME_DIR/orca/GRAPH.sock, or /tmp/orca-UID/GRAPH.sock where there is no such folder. A "
+            "system\n"
+            "has the name of its graph.\n"};
+    for (const auto& group : {showing_commands(), port_commands(), history_commands(), operating_commands(),
+                              exchanging_commands(), shell_commands()})
+      program.commands.insert(program.commands.end(), group.begin(), group.end());
+    return program;
+  }();
   return all;
 }
 

@@ -179,7 +179,7 @@ Result<std::string> port_meant_by(const std::string& word, const std::set<std::s
               "\"wheels\" could mean " + joined(meant, ", ") + "; name one of these ports");
 }
 
-Status follow(Client& client, const Call& call) {
+Status follow(Client& client, const apps::Call& call) {
   const std::set<std::string> ports = names_of(client, "names", "port");
   const Result<std::string> from = port_meant_by(call.options.find("--from")->second, ports);
   if (!from) return from.error();
@@ -190,7 +190,7 @@ Status follow(Client& client, const Call& call) {
   const std::optional<Duration> whole = call.duration("--for");
   for (;;) {
     if (Status looked = follower.look_for(whole.value_or(1s)); !looked.ok()) return looked;
-    print_lines(follower.take(), call.json);
+    print_lines(follower.take(), call.has("--json"));
     if (whole) return ok();
   }
 }

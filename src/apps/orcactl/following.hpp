@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "call.hpp"
 #include "client.hpp"
+#include "common/command_line.hpp"
 #include "orca/base/result.hpp"
 
 namespace orca::orcactl {
@@ -18,6 +18,6 @@ namespace orca::orcactl {
 
 /// Carries out latency with --from and --to: measures from the moment when data were sensed until an object arrives that
 /// was sent because of them.
-[[nodiscard]] Status follow(Client& client, const Call& call);
+[[nodiscard]] Status follow(Client& client, const apps::Call& call);
 
 }  // namespace orca::orcactl

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include <cstdio>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "asking.hpp"
-#include "call.hpp"
+#include "commands.hpp"
+#include "common/manual.hpp"
 #include "common/output.hpp"
 #include "exit_code.hpp"
-#include "manual.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "tapping.hpp"
@@ -15,45 +18,38 @@
 namespace {
 
 using namespace orca::orcactl;
+namespace apps = orca::apps;
 
-ExitCode show(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
-  return ExitCode::done;
-}
-
-ExitCode show_completion(const std::string& shell) {
-  const std::string script = completion_script(shell);
-  if (!script.empty()) return show(script);
-  return report(
-      {orca::fail(orca::Code::invalid_argument, "completion is there for bash and zsh, not for " + shell),
-       ExitCode::usage});
-}
-
-ExitCode carry_out(const Call& call) {
-  if (call.help) return show(call.command == nullptr ? help_text() : help_text(*call.command));
-  switch (call.command->way) {
-    case Way::ask: return ask(call);
-    case Way::tap: return tap(call);
-    case Way::offer: return offer(call);
-    case Way::names: return print_names(call);
-    case Way::completion: return show_completion(call.words.front());
-    case Way::manual: return show(man_page(ORCA_VERSION));
-  }
-  return ExitCode::usage;
+ExitCode carry_out(const apps::Call& call) {
+  using Way = ExitCode (*)(const apps::Call&);
+  static const std::map<std::string_view, Way> ways{{"echo", tap},    {"hz", tap},
+                                                    {"latency", tap}, {"send", offer},
+                                                    {"query", offer}, {"names", print_names}};
+  const auto way = ways.find(call.command->name);
+  return way == ways.end() ? ask(call) : way->second(call);
 }
 
 // Lack of memory, threads or descriptors is a refusal like others.
-ExitCode carry_out_contained(const Call& call) {
+ExitCode carry_out_contained(const apps::Call& call) {
   const orca::Result<ExitCode> code =
       orca::contain_exhaustion([&]() -> orca::Result<ExitCode> { return carry_out(call); });
   return code ? *code : report({code.error()});
 }
 
+ExitCode act(const std::vector<std::string>& words) {
+  const apps::Call call = apps::parse(program(), words);
+  if (!call.problems.empty())
+    return report({orca::fail(orca::Code::invalid_argument, call.problems.front().message), ExitCode::usage});
+  const std::optional<std::string> answer = apps::answer(program(), call);
+  if (!answer) return carry_out_contained(call);
+  std::fputs(answer->c_str(), stdout);
+  return ExitCode::done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const orca::Result<Call> call = parse_call({argv + 1, argv + argc});
-  const ExitCode code = call ? carry_out_contained(*call) : report({call.error(), ExitCode::usage});
+  const ExitCode code = act({argv + 1, argv + argc});
   const bool lost = !orca::apps::output_has_arrived();
   return static_cast<int>(code == ExitCode::done && lost ? ExitCode::refused : code);
 }

@@ -103,7 +103,7 @@ Status print_reply(const OfferOutcome& outcome, bool as_json) {
   return ok();
 }
 
-Status carry_out(const Call& call, LineAnswer& answer) {
+Status carry_out(const apps::Call& call, LineAnswer& answer) {
   const bool asks = call.command->name == "query";
   if (asks && answer.reply.empty())
     return fail(Code::invalid_argument, call.words[0] + " answers no questions; use orcactl send");
@@ -116,13 +116,13 @@ Status carry_out(const Call& call, LineAnswer& answer) {
       exchange(line, *object, call.duration("--timeout").value_or(kDefaultTimeout));
   if (!outcome) return outcome.error();
   if (!outcome->outcome.ok()) return outcome->outcome;
-  return outcome->type.empty() ? ok() : print_reply(*outcome, call.json);
+  return outcome->type.empty() ? ok() : print_reply(*outcome, call.has("--json"));
 }
 
 }  // namespace
 
-ExitCode offer(const Call& call) {
-  std::variant<Client, Failure> connected = Client::connect(call.system);
+ExitCode offer(const apps::Call& call) {
+  std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
   Result<LineAnswer> answer = std::get<Client>(connected).open_line(call.words.front(), {});
   if (!answer) return report({answer.error()});

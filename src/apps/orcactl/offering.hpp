@@ -2,12 +2,12 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
-#include "call.hpp"
+#include "common/command_line.hpp"
 #include "exit_code.hpp"
 
 namespace orca::orcactl {
 
 /// Carries out send or query: hands an object to a port, and prints the reply.
-[[nodiscard]] ExitCode offer(const Call& call);
+[[nodiscard]] ExitCode offer(const apps::Call& call);
 
 }  // namespace orca::orcactl

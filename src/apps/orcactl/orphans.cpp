@@ -35,7 +35,7 @@ std::vector<std::string> orphaned_systems(const std::string& system) {
   return orphaned;
 }
 
-std::optional<Order> order_of(const Call& call) {
+std::optional<Order> order_of(const apps::Call& call) {
   if (call.command->name == "stop") return supervisor::TakeDown{};
   if (call.command->name != "estop") return std::nullopt;
   if (call.has("--release")) return supervisor::ReleaseMotors{};
@@ -68,7 +68,7 @@ Result<std::string> give(Waiting& waiting, Order order) {
   return self->process;
 }
 
-ExitCode give_all(const std::string& system, const Call& call) {
+ExitCode give_all(const std::string& system, const apps::Call& call) {
   std::vector<std::string> obeyed;
   ExitCode code = ExitCode::done;
   for (Waiting& waiting : supervisor::connect_to_waiting(system)) {
@@ -98,9 +98,9 @@ std::string hint_at_orphans(const std::string& system) {
          " stop";
 }
 
-std::optional<ExitCode> order_orphans(const Call& call) {
+std::optional<ExitCode> order_orphans(const apps::Call& call) {
   if (!order_of(call)) return std::nullopt;
-  const std::vector<std::string> orphaned = orphaned_systems(call.system);
+  const std::vector<std::string> orphaned = orphaned_systems(call.text("--system").value_or(""));
   if (orphaned.empty()) return std::nullopt;
   if (orphaned.size() == 1) return give_all(orphaned.front(), call);
   return report({fail(Code::invalid_argument,

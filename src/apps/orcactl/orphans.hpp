@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "call.hpp"
+#include "common/command_line.hpp"
 #include "exit_code.hpp"
 
 namespace orca::orcactl {
@@ -17,6 +17,6 @@ namespace orca::orcactl {
 
 /// Gives a command to the processes of a system that run without a deployer: they obey stop and estop.
 /// @return nothing if the command is another one, or if there are no such processes.
-[[nodiscard]] std::optional<ExitCode> order_orphans(const Call& call);
+[[nodiscard]] std::optional<ExitCode> order_orphans(const apps::Call& call);
 
 }  // namespace orca::orcactl

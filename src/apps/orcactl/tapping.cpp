@@ -54,14 +54,14 @@ Result<std::string> field_of(const ObjectType& type, const void* object, const s
   return line;
 }
 
-Result<std::string> text_of(const Tapped& passed, const Call& call) {
+Result<std::string> text_of(const Tapped& passed, const apps::Call& call) {
   const Result<ObjectRef> object = object_of(passed);
   if (!object) return object.error();
   const std::optional<std::string> field = call.text("--field");
   const Result<std::string> shown = field ? field_of(object->type(), object->get(), *field)
                                           : Result<std::string>(to_xml(object->type(), object->get()));
   if (!shown) return shown.error();
-  if (!call.json) return *shown + "\n";
+  if (!call.has("--json")) return *shown + "\n";
   constexpr double kNanoseconds = 1e9;
   return record_json({{"passed", static_cast<double>(passed.passed) / kNanoseconds, 6},
                       {"created", static_cast<double>(passed.created) / kNanoseconds, 6},
@@ -71,7 +71,7 @@ Result<std::string> text_of(const Tapped& passed, const Call& call) {
                       {field ? "value" : "xml", *shown}});
 }
 
-Status echo(Channel& line, const Call& call) {
+Status echo(Channel& line, const apps::Call& call) {
   const std::optional<Duration> whole = call.duration("--for");
   const auto begin = Clock::now();
   std::uint64_t lost = 0;
@@ -106,7 +106,7 @@ Status collect(Channel& line, Duration span, PassedFigures& figures) {
   }
 }
 
-Status measure(Channel& line, const Call& call) {
+Status measure(Channel& line, const apps::Call& call) {
   const std::optional<Duration> whole = call.duration("--for");
   const Duration span = whole.value_or(kSecond);
   PassedFigures figures;
@@ -114,7 +114,7 @@ Status measure(Channel& line, const Call& call) {
     if (Status collected = collect(line, span, figures); !collected.ok()) return collected;
     const supervisor::Record record =
         call.command->name == "hz" ? figures.take_rate(to_seconds(span)) : figures.take_ages();
-    if (call.json) {
+    if (call.has("--json")) {
       print(record_json(record));
     } else {
       const std::string table = table_text({&record, 1}, 0);
@@ -125,7 +125,7 @@ Status measure(Channel& line, const Call& call) {
 }
 
 // latency looks at one port, or from one to another.
-Status names_ports(const Call& call) {
+Status names_ports(const apps::Call& call) {
   const std::string command(call.command->name);
   if (call.has("--from") != call.has("--to"))
     return fail(Code::invalid_argument, command + " needs --from PORT and --to PORT together");
@@ -155,9 +155,9 @@ Result<ObjectRef> object_of(const Tapped& passed) {
   return std::move(object).seal();
 }
 
-ExitCode tap(const Call& call) {
+ExitCode tap(const apps::Call& call) {
   if (const Status named = names_ports(call); !named.ok()) return report({named.error(), ExitCode::usage});
-  std::variant<Client, Failure> connected = Client::connect(call.system);
+  std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
   if (call.has("--from")) {
     const Status done = follow(std::get<Client>(connected), call);

@@ -2,7 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
-#include "call.hpp"
+#include "common/command_line.hpp"
 #include "exit_code.hpp"
 #include "orca/base/result.hpp"
 #include "orca/idl/object.hpp"
@@ -11,7 +11,7 @@
 namespace orca::orcactl {
 
 /// Carries out echo, hz or latency: looks at the objects that pass a port.
-[[nodiscard]] ExitCode tap(const Call& call);
+[[nodiscard]] ExitCode tap(const apps::Call& call);
 
 /// Decodes what a process sends about an object that has passed a port.
 /// @errors  data_loss.

@@ -225,9 +225,11 @@ ExitCode table(const Options& options) {
 }
 
 ExitCode act(const Options& options) {
+  if (options.answer) {
+    std::fputs(options.answer->c_str(), stdout);
+    return ExitCode::done;
+  }
   switch (options.action) {
-    case Options::Action::help: std::fputs(help_text(), stdout); return ExitCode::done;
-    case Options::Action::version: std::puts("orca simbatch " ORCA_VERSION); return ExitCode::done;
     case Options::Action::check: return check(options);
     case Options::Action::table: return table(options);
     case Options::Action::report: return report_again(options);
