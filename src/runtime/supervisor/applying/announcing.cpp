@@ -29,7 +29,7 @@ void Announcing::take_back() const {
     if (before == nullptr) announce_end(node.name, node.process, staying(all_, renewed_));
   }
   const auto orders = orders_for(moved);
-  const auto notes = make_processes_(running_, renewed_);
+  const auto notes = starter_.introduce_processes(running_, renewed_);
   for (Member* const member : staying(all_, renewed_)) {
     if (!member->is_built()) continue;  // it comes up with the graph of the run
     if (notes)
@@ -53,7 +53,8 @@ Result<std::vector<AddComponent>> Announcing::orders_for(
     const std::vector<graph::ComponentNode>& components) const {
   std::vector<AddComponent> orders;
   for (const graph::ComponentNode& node : components) {
-    Result<AddComponent> order = make_component_(node);
+    if (running_.find_component(node.name) == nullptr) ledger_.expect(node.name);
+    Result<AddComponent> order = starter_.introduce(node);
     if (!order) return order.error();
     orders.push_back(std::move(order).value());
   }
@@ -61,7 +62,7 @@ Result<std::vector<AddComponent>> Announcing::orders_for(
 }
 
 Status Announcing::tell(const std::vector<AddComponent>& components, const graph::Graph& graph) const {
-  const auto notes = make_processes_(graph, renewed_);
+  const auto notes = starter_.introduce_processes(graph, renewed_);
   if (!notes) return notes.error();
   const Members stayers = staying(all_, renewed_);
   if (Status told = announce(components, stayers); !told.ok()) return told;

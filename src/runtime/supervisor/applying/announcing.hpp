@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <functional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/vocabulary.hpp"
+#include "starting/starter.hpp"
 
 namespace orca::supervisor {
 
@@ -19,16 +20,9 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread.
 class Announcing {
  public:
-  using MakeComponent = std::function<Result<AddComponent>(const graph::ComponentNode&)>;
-  using MakeProcesses =
-      std::function<Result<std::vector<NoteProcess>>(const graph::Graph&, const std::set<std::string>&)>;
-
-  /// @param running         the graph of the run. All outlive the object.
-  /// @param make_component  makes the order that tells of a component.
-  /// @param make_processes  makes the orders that tell of some processes of a graph.
-  Announcing(const graph::Graph& running, const Members& all, const MakeComponent& make_component,
-             const MakeProcesses& make_processes)
-      : running_(running), all_(all), make_component_(make_component), make_processes_(make_processes) {}
+  /// @param running  the graph of the run. All outlive the object.
+  Announcing(const graph::Graph& running, const Members& all, Starter& starter, Ledger& ledger)
+      : running_(running), all_(all), starter_(starter), ledger_(ledger) {}
 
   /// Tells them of all that is new to them.
   /// @return the orders to those that construct components.
@@ -40,14 +34,13 @@ class Announcing {
   [[nodiscard]] std::vector<std::string> tell_of_the_gone() const;
 
  private:
-  [[nodiscard]] Result<std::vector<AddComponent>> orders_for(
-      const std::vector<graph::ComponentNode>& components) const;
+  Result<std::vector<AddComponent>> orders_for(const std::vector<graph::ComponentNode>& components) const;
   Status tell(const std::vector<AddComponent>& components, const graph::Graph& graph) const;
 
   const graph::Graph& running_;
   const Members& all_;
-  const MakeComponent& make_component_;
-  const MakeProcesses& make_processes_;
+  Starter& starter_;
+  Ledger& ledger_;
   std::set<std::string> renewed_;                // processes that begin, end or begin anew
   std::vector<graph::ComponentNode> newcomers_;  // in them
   std::vector<graph::ComponentNode> gone_;       // from them

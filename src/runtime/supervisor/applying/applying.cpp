@@ -3,8 +3,8 @@
 
 #include <utility>
 
+#include "applying/change.hpp"
 #include "applying/graph_edit.hpp"
-#include "applying/work.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/print.hpp"
@@ -23,12 +23,6 @@ Record record_of(const graph::GraphPlan::Line& line) {
 
 }  // namespace
 
-Applying::Applying(const graph::Graph& graph, const std::vector<Member*>& all, Operating& operating,
-                   Exchanging& exchanging, Levers levers)
-    : graph_(graph), all_(all), operating_(operating), exchanging_(exchanging), levers_(std::move(levers)) {}
-
-Applying::~Applying() = default;
-
 void Applying::answer(const ReplyPtr& reply, const Result<Outcome>& outcome) {
   if (!outcome) return reply->refuse(outcome.error());
   for (const graph::GraphPlan::Line& line : outcome->plan.lines) reply->add(record_of(line));
@@ -37,48 +31,44 @@ void Applying::answer(const ReplyPtr& reply, const Result<Outcome>& outcome) {
 }
 
 void Applying::compare(const std::string& file, const ReplyPtr& reply) {
-  begin({file}, Way::compares, [reply](const Result<Outcome>& outcome) { answer(reply, outcome); });
+  answer(reply, carry_out({file}, Way::compares));
 }
 
 void Applying::apply(const std::string& file, bool untried, const ReplyPtr& reply) {
-  begin({file}, untried ? Way::carries_out_untried : Way::carries_out,
-        [reply, file](const Result<Outcome>& outcome) {
-          answer(reply, outcome);
-          if (outcome) log::info(kLogName, "an operator has applied " + file);
-        });
+  const Result<Outcome> outcome = carry_out({file}, untried ? Way::carries_out_untried : Way::carries_out);
+  answer(reply, outcome);
+  if (outcome) log::info(kLogName, "an operator has applied " + file);
 }
 
 void Applying::connect(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(with_connection(graph_, words), reply);
+  edit(with_connection(place_.graph, words), reply);
 }
 
 void Applying::disconnect(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(without_connection(graph_, words.at(0), words.at(1)), reply);
+  edit(without_connection(place_.graph, words.at(0), words.at(1)), reply);
 }
 
 void Applying::move(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  edit(with_other_server(graph_, words.at(0), words.at(1)), reply);
+  edit(with_other_server(place_.graph, words.at(0), words.at(1)), reply);
 }
 
-void Applying::edit(Result<std::string> text, const ReplyPtr& reply) {
+void Applying::edit(const Result<std::string>& text, const ReplyPtr& reply) {
   if (!text) return reply->refuse(text.error());
-  begin({"the changed graph", std::move(text).value()}, Way::carries_out,
-        [reply](const Result<Outcome>& outcome) {
-          answer(reply, outcome);
-          if (!outcome) return;
-          for (const graph::GraphPlan::Line& line : outcome->plan.lines)
-            log::info(kLogName, "an operator has changed the system: " + line.part);
-        });
+  const Result<Outcome> outcome = carry_out({"the changed graph", *text}, Way::carries_out);
+  answer(reply, outcome);
+  if (!outcome) return;
+  for (const graph::GraphPlan::Line& line : outcome->plan.lines)
+    log::info(kLogName, "an operator has changed the system: " + line.part);
 }
 
 void Applying::lose(const std::string& process) {
-  if (work_) work_->lose(process);
+  if (change_ != nullptr) change_->lose(process);
 }
 
 void Applying::accept(const CheckedSystem& system, std::string text) {
   applied_ = std::move(text);
   levers_.accept(system);
-  came_up(all_);
+  came_up(place_.all);
 }
 
 // The order of the file counts for who adopts them, and is not that of the graph that was changed in place.
@@ -89,42 +79,43 @@ void Applying::came_up(const std::vector<Member*>& members) const {
 }
 
 void Applying::go_on() {
-  if (work_) work_->go_on();
-  if (work_ && work_->has_ended()) work_.reset();
-  if (work_ || !saved_) return;
-  begin({*std::exchange(saved_, {})}, Way::carries_out, [](const Result<Outcome>& outcome) {
-    if (!outcome)
-      return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
-                                      outcome.error().text());
-    for (const graph::GraphPlan::Line& line : outcome->plan.lines)
-      log::info(kLogName, "saved: " + line.part + ", " + line.change.field + ": " + line.change.before +
-                              " -> " + line.change.after);
-  });
+  if (change_ != nullptr || !saved_) return;
+  place_.conductor.begin("apply", [this, file = *std::exchange(saved_, {})] { carry_out_saved(file); });
+}
+
+void Applying::carry_out_saved(const std::string& file) {
+  const Result<Outcome> outcome = carry_out({file}, Way::carries_out);
+  if (!outcome)
+    return log::error(kLogName, "the graph that was saved is not carried out, and all goes on as before: " +
+                                    outcome.error().text());
+  for (const graph::GraphPlan::Line& line : outcome->plan.lines)
+    log::info(kLogName, "saved: " + line.part + ", " + line.change.field + ": " + line.change.before +
+                            " -> " + line.change.after);
 }
 
 Status Applying::can_change() const {
-  if (work_)
+  if (change_ != nullptr)
     return fail(Code::unavailable, "another graph is being compared or applied; try again when that is done");
   if (!levers_.read) return fail(Code::unimplemented, "this supervisor reads no graphs");
-  if (graph_.machines.size() < 2) return ok();
+  if (place_.graph.machines.size() < 2) return ok();
   std::vector<std::string> machines;
-  for (const graph::MachineNode& node : graph_.machines) machines.push_back(node.name);
+  for (const graph::MachineNode& node : place_.graph.machines) machines.push_back(node.name);
   return fail(Code::unimplemented,
               "a system on several machines (" + listed(machines) +
                   ") takes no other graph while it runs; stop it, and start it with that one");
 }
 
-void Applying::begin(GraphSource source, Way way, Told told) {
-  if (const Status free = can_change(); !free.ok()) return told(free.error());
-  work_ = std::make_shared<Work>(*this, std::move(source), way, std::move(told));
+Result<Applying::Outcome> Applying::carry_out(const GraphSource& source, Way way) {
+  if (Status free = can_change(); !free.ok()) return free.error();
+  return Change(*this, way, source.text.has_value()).carry_out(source);
 }
 
 // Returns the graph as it would be written for what runs now.
 graph::Graph Applying::present() const {
-  graph::Graph present = graph_;
+  graph::Graph present = place_.graph;
   for (graph::ComponentNode& node : present.components) {
-    node.params = operating_.params_of(node);
-    node.type = exchanging_.code_of(node).type;
+    node.params = place_.operating.params_of(node);
+    node.type = place_.exchanging.code_of(node).type;
   }
   return present;
 }

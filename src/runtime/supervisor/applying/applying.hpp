@@ -2,14 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/exchanging.hpp"
 #include "control/operating.hpp"
+#include "members/conductor.hpp"
+#include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "members/reply.hpp"
 #include "orca/base/executive.hpp"
@@ -18,6 +19,7 @@
 #include "orca/graph/plan.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "starting/renewal.hpp"
+#include "starting/starter.hpp"
 
 namespace orca::supervisor {
 
@@ -29,7 +31,7 @@ namespace orca::supervisor {
 /// back. At last components that nobody is connected to any more end. A file that asks for more than that is refused before
 /// anything changes.
 ///
-/// Thread contract: the supervisor's thread.
+/// Thread contract: the supervisor's thread. What answers an operator waits, so a job of the conductor calls it.
 class Applying {
  public:
   /// What it needs of the run.
@@ -38,29 +40,24 @@ class Applying {
     std::optional<Backend> executor;  ///< Of all processes; nothing: each has its own.
     /// Makes a graph that of the run: it is carried out.
     std::function<void(const CheckedSystem&)> accept;
-    /// Gives both ends of edges new memory, by name: a change of them has failed.
-    std::function<Status(const std::set<std::string>&)> renew;
-    /// Makes the order that tells of a component which comes: it is reported from now on.
-    std::function<Result<AddComponent>(const graph::ComponentNode&)> introduce;
-    /// Makes the orders that tell of some processes of a graph which begin, or begin anew. There is a place for them then.
-    std::function<Result<std::vector<NoteProcess>>(const graph::Graph&, const std::set<std::string>&)>
-        introduce_processes;
     /// Returns why no processes can begin anew at present, if that is so.
     std::function<Status()> can_renew;
-    /// Lets processes end and begin as another graph says, or else again as before.
-    std::function<void(Renewal::Wish, Renewal::Done)> renew_processes;
-    /// Returns the graph of the run and what is known of its plugins.
-    std::function<CheckedSystem()> present;
-    std::function<void()> wake;  ///< Lets go_on() be called soon. It is called on other threads.
+    std::function<void()> wake;  ///< Lets the conductor go on soon. It is called on other threads.
+  };
+  /// What it works with. All of it outlives the object.
+  struct Place {
+    Conductor& conductor;
+    const graph::Graph& graph;
+    const SystemFacts& facts;
+    const Members& all;  ///< The processes of the run.
+    Operating& operating;
+    Exchanging& exchanging;
+    Starter& starter;
+    Renewal& renewal;
+    Ledger& ledger;
   };
 
-  /// The references outlive the object.
-  /// @param all  the processes of the run.
-  Applying(const graph::Graph& graph, const std::vector<Member*>& all, Operating& operating,
-           Exchanging& exchanging, Levers levers);
-  ~Applying();
-  Applying(const Applying&) = delete;
-  Applying& operator=(const Applying&) = delete;
+  Applying(Place place, Levers levers) : place_(place), levers_(std::move(levers)) {}
 
   /// Answers with what a file would change, and what that takes.
   void compare(const std::string& file, const ReplyPtr& reply);
@@ -85,34 +82,31 @@ class Applying {
   void lose(const std::string& process);
   /// Tells processes that work which graph the run has, if it is not that of the start.
   void came_up(const std::vector<Member*>& members) const;
-  /// Goes on with what has been read.
+  /// Begins to carry out what was saved. Call it often.
   void go_on();
 
  private:
-  class Work;
+  class Change;
   // What was done, or is to be done.
   struct Outcome {
     graph::GraphPlan plan;
     std::vector<Record> processes;  // what becomes of those that do not just go on
   };
   static void answer(const ReplyPtr& reply, const Result<Outcome>& outcome);
-  using Told = std::function<void(const Result<Outcome>&)>;
 
   enum class Way { compares, carries_out, carries_out_untried };
-  void begin(GraphSource source, Way way, Told told);
-  void edit(Result<std::string> text, const ReplyPtr& reply);
+  Result<Outcome> carry_out(const GraphSource& source, Way way);
+  void carry_out_saved(const std::string& file);
+  void edit(const Result<std::string>& text, const ReplyPtr& reply);
   void accept(const CheckedSystem& system, std::string text);
   [[nodiscard]] graph::Graph present() const;
 
-  const graph::Graph& graph_;
-  const std::vector<Member*>& all_;
-  Operating& operating_;
-  Exchanging& exchanging_;
+  const Place place_;
   const Levers levers_;
   std::optional<std::string> saved_;  // a file that waits
   std::optional<std::string>
-      applied_;                 // the run's graph, as graph::print() writes it; none: that of the start
-  std::shared_ptr<Work> work_;  // what is under way
+      applied_;               // the run's graph, as graph::print() writes it; none: that of the start
+  Change* change_ = nullptr;  // what is under way
 };
 
 }  // namespace orca::supervisor

@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -100,14 +101,13 @@ class StageMaker {
 };
 
 // The orders are made once, since they hold the memory.
-JointStep step_of(const std::string& component, Duties duties,
-                  const std::shared_ptr<std::set<std::string>>& left) {
+JointStep step_of(const std::string& component, Duties duties, std::set<std::string>& left) {
   const auto orders = std::make_shared<Duties>(std::move(duties));
   const auto make = [orders]() -> std::optional<ThereAndBack> {
     return ThereAndBack{orders->go.order(), orders->back.order()};
   };
-  const auto obeyed = [orders, left](bool has_gone) {
-    if (has_gone) left->insert(orders->left.begin(), orders->left.end());
+  const auto obeyed = [orders, &left](bool has_gone) {
+    if (has_gone) left.insert(orders->left.begin(), orders->left.end());
   };
   return {component, make, obeyed, false};
 }
@@ -116,8 +116,7 @@ JointStep step_of(const std::string& component, Duties duties,
 
 Result<std::vector<JointStep>> edge_steps(const graph::Graph& graph,
                                           const std::vector<graph::GraphPlan::Rewiring>& connections,
-                                          const std::set<std::string>& lost,
-                                          const std::shared_ptr<std::set<std::string>>& left) {
+                                          const std::set<std::string>& lost, std::set<std::string>& left) {
   StageMaker maker(graph);
   const Status added = contain_exhaustion([&] {
     for (const graph::GraphPlan::Rewiring& one : connections)

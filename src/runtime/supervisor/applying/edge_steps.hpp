@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -25,12 +24,12 @@ namespace orca::supervisor {
 ///
 /// @param graph  that has the components of all connections.
 /// @param lost   processes that take no part: what they run begins anew.
-/// @param left   gets the names of edges that their clients have left while their servers may have not: after a failure their
+/// @param left   outlives the steps. It gets the names of edges that their clients have left while their servers may have not: after a failure their
 ///               ends need new memory to find each other again.
 /// @errors  unavailable if the system gives no memory.
 [[nodiscard]] Result<std::vector<JointStep>> edge_steps(
     const graph::Graph& graph, const std::vector<graph::GraphPlan::Rewiring>& connections,
-    const std::set<std::string>& lost, const std::shared_ptr<std::set<std::string>>& left);
+    const std::set<std::string>& lost, std::set<std::string>& left);
 
 /// Lets nobody wait at a component for what is sent or asked on connections whose other end is in a process that begins anew:
 /// they have no other end until then.

@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "control/driver_exchange.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
 #include "orca/plugin/image.hpp"
@@ -90,41 +89,22 @@ std::string counted(std::uint64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-}  // namespace
-
-// An exchange that has been begun. Whoever has ordered it is told of its end once, even if the process that carries it out
-// ends before it has answered.
-class Exchanging::Pending {
+// Keeps a component from being exchanged twice at a time.
+class Busy {
  public:
-  Pending(std::string component, std::shared_ptr<std::set<std::string>> busy, Told told)
-      : component_(std::move(component)), busy_(std::move(busy)), told_(std::move(told)) {
-    busy_->insert(component_);
+  Busy(std::set<std::string>& all, const std::string& component) : all_(all), component_(component) {
+    all_.insert(component_);
   }
-  ~Pending() {
-    end(Result<Record>(fail(
-        Code::unavailable,
-        "its process ended before the exchange was done; it begins with the code of the graph", component_)));
-  }
-  Pending(const Pending&) = delete;
-  Pending& operator=(const Pending&) = delete;
-
-  // Whoever is told may begin another exchange of the component at once.
-  void end(const Result<Record>& outcome) {
-    if (!told_) return;
-    busy_->erase(component_);
-    std::exchange(told_, {})(outcome);
-  }
-  /// @param answer  of the process that carries it out, with one record.
-  void end(const Answer& answer) {
-    if (!answer.outcome.ok()) return end(Result<Record>(answer.outcome.error()));
-    for (const Record& record : answer.records) end(Result<Record>(record));
-  }
+  ~Busy() { all_.erase(component_); }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
 
  private:
+  std::set<std::string>& all_;
   const std::string component_;
-  const std::shared_ptr<std::set<std::string>> busy_;
-  Told told_;
 };
+
+}  // namespace
 
 const PluginFacts& Exchanging::plugin_of(const std::string& type) const {
   static const PluginFacts unknown;
@@ -147,12 +127,10 @@ CodeFacts Exchanging::code_of(const std::string& name, const std::string& type,
 void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& reply) {
   Result<SwapWish> wish = read_wish(words);
   if (!wish) return reply->refuse(wish.error());
-  exchange(std::move(wish).value(),
-           [this, reply, name = wish->component, params = wish->params](const Result<Record>& done) {
-             if (!done) return reply->refuse(done.error());
-             operating_.note_set(name, params);
-             reply->add(*done);
-           });
+  const Result<Record> done = exchange(*wish);
+  if (!done) return reply->refuse(done.error());
+  operating_.note_set(wish->component, wish->params);
+  reply->add(*done);
 }
 
 void Exchanging::take_rebuilt(const std::string& file) {
@@ -167,14 +145,11 @@ void Exchanging::take_rebuilt(const std::string& file) {
   }
 }
 
-void Exchanging::swap_rebuilt(const graph::ComponentNode& node) {
-  const CodeFacts code = code_of(node);
-  exchange({node.name, code.plugin.file, code.type, {}, kTryoutOfRebuilt},
-           [name = node.name](const Result<Record>& done) {
-             if (done) return log::info(name, "runs the code that was built anew");
-             log::error(name, "the code that was built anew does not run, and the old one goes on: " +
-                                  done.error().text());
-           });
+void Exchanging::swap_rebuilt(const SwapWish& wish) {
+  const Result<Record> done = exchange(wish);
+  if (done) return log::info(wish.component, "runs the code that was built anew");
+  log::error(wish.component,
+             "the code that was built anew does not run, and the old one goes on: " + done.error().text());
 }
 
 std::set<std::string> Exchanging::plugin_files() const {
@@ -183,37 +158,104 @@ std::set<std::string> Exchanging::plugin_files() const {
   return files;
 }
 
-bool Exchanging::is_busy(const std::string& component) const { return busy_->contains(component); }
-
-void Exchanging::exchange(SwapWish wish, Told told) {
+Result<Record> Exchanging::exchange(const SwapWish& wish) {
   if (is_busy(wish.component))
-    return told(fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
-                     wish.component));
-  const auto pending = std::make_shared<Pending>(wish.component, busy_, std::move(told));
+    return fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
+                wish.component);
+  const Busy busy(busy_, wish.component);
   const graph::HardwareNode* const hardware = graph_.find_hardware(wish.component);
-  if (hardware != nullptr && graph_.find_component(wish.component) == nullptr)
-    return begin_driver(wish, *hardware, pending);
-  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
-  if (!node) return pending->end(node.error());
-  const Result<Member*> member = names_.ready_member_of(**node);
-  if (!member) return pending->end(member.error());
+  const bool is_driver = hardware != nullptr && graph_.find_component(wish.component) == nullptr;
+  return is_driver ? exchange_driver(wish, *hardware) : exchange_component(wish);
+}
+
+Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
+  const auto find = [&] { return names_.component(wish.component); };
+  Result<const graph::ComponentNode*> node = find();
+  if (!node) return node.error();
+  Result<Member*> member = names_.ready_member_of(**node);
+  if (!member) return member.error();
   Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
-  if (!image) return pending->end(image.error());
+  if (!image) return image.error();
   log::info(wish.component, "its code is to be exchanged for " + image->origin());
-  host::ShadowOrder order{graph_,
-                          wish.component,
-                          wish.type.empty() ? code_of(**node).type : wish.type,
-                          ports_of(wish.component),
-                          operating_.params_of(**node),
-                          wish.params,
-                          wish.tryout};
-  if (wish.has_worked) return order_swap(order, std::move(image).value(), wish, true, pending);
+  const host::ShadowOrder order{graph_,
+                                wish.component,
+                                wish.type.empty() ? code_of(**node).type : wish.type,
+                                ports_of(wish.component),
+                                operating_.params_of(**node),
+                                wish.params,
+                                wish.tryout};
+  const Result<bool> was_tried = wish.has_worked ? true : try_out(wish, order, **member, *image);
+  if (!was_tried) return was_tried.error();
+  node = find();
+  if (!node) return node.error();  // it has gone meanwhile
+  member = names_.ready_member_of(**node);
+  if (!member) return member.error();
+  const std::string file = image->origin();
+  return order_swap(**member, {order.component,
+                               order.type,
+                               {order.new_params.begin(), order.new_params.end()},
+                               static_cast<std::uint64_t>(wish.probation.count()),
+                               file,
+                               std::move(*image).take_bytes(),
+                               *was_tried,
+                               wish.fresh});
+}
+
+// A new driver is not tried out in a shadow: the process tries the plugin as it does each time it loads one.
+Result<Record> Exchanging::exchange_driver(const SwapWish& wish, const graph::HardwareNode& hardware) {
+  const Result<Member*> member = names_.ready_member_of(hardware);
+  if (!member) return member.error();
+  Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
+  if (!image) return image.error();
+  const std::string file = image->origin();
+  log::info(hardware.name, "its driver is to be exchanged for " + file);
+  return order_swap(**member, {hardware.name,
+                               wish.type,
+                               {wish.params.begin(), wish.params.end()},
+                               0,
+                               file,
+                               std::move(*image).take_bytes(),
+                               false,
+                               false});
+}
+
+// Returns whether the code could be tried out. If it could not, the wish takes it all the same.
+Result<bool> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& order, Member& member,
+                                 plugin::PluginImage& image) {
   std::vector<WatchedPort> ports;
-  if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, **member);
-  Tryout::Lines lines{std::move(ports), lines_to_servers_of(wish.component)};
-  open_.push_back(
-      {std::make_unique<Tryout>(std::move(order), std::move(image).value(), std::move(lines), wake_),
-       std::move(wish), pending});
+  if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, member);
+  Tryout tryout(order, std::move(image), {std::move(ports), lines_to_servers_of(wish.component)}, wake_);
+  if (!conductor_.wait([&] { return tryout.is_done(); }))
+    return fail(Code::unavailable, "the run ends before the new code was tried out", wish.component);
+  image = tryout.take_plugin();
+  const Result<host::ShadowReport>& tried = tryout.outcome();
+  if (!tried)
+    return fail(tried.error().code,
+                "the new one was tried out beside the one that runs, and not taken: " + tried.error().text(),
+                wish.component);
+  if (tried->untried.empty()) {
+    log::info(wish.component, "the new code was tried out: it got " + counted(tried->given, "object") +
+                                  " and pushed " + std::to_string(tried->pushed));
+  } else if (wish.untried || !host::kTriesCode) {
+    log::warning(wish.component, "the new code could not be tried out: " + tried->untried);
+  } else {
+    return fail(Code::failed_precondition,
+                "the new one cannot be tried out, and is not taken: " + tried->untried +
+                    "; with --untried it is taken all the same, and if it crashes or hangs then, its process "
+                    "ends and begins anew",
+                wish.component);
+  }
+  return tried->untried.empty();
+}
+
+Result<Record> Exchanging::order_swap(Member& member, SwapCode swap) {
+  const std::string component = swap.component;
+  const std::optional<Answer> answer = conductor_.ask(member, std::move(swap));
+  if (answer && !answer->outcome.ok()) return answer->outcome.error();
+  if (answer && !answer->records.empty()) return answer->records.front();
+  return fail(Code::unavailable,
+              "its process ended before the exchange was done; it begins with the code of the graph",
+              component);
 }
 
 std::vector<ServerLine> Exchanging::lines_to_servers_of(const std::string& component) const {
@@ -241,72 +283,14 @@ std::vector<PortContract> Exchanging::ports_of(const std::string& component) con
   return ports;
 }
 
-void Exchanging::begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware,
-                              const PendingPtr& pending) {
-  const Status ordered = order_driver_exchange(wish, hardware, names_,
-                                               [pending](const Answer& answer) { pending->end(answer); });
-  if (!ordered.ok()) pending->end(ordered.error());
-}
-
 void Exchanging::go_on() {
-  for (Open& open : std::exchange(open_, {})) {  // whoever is told of an end may begin another exchange
-    if (open.tryout->is_done()) {
-      go_on(open);
-    } else {
-      open_.push_back(std::move(open));
-    }
+  for (const graph::ComponentNode& node : graph_.components) {
+    if (!rebuilt_.contains(node.name) || is_busy(node.name)) continue;
+    rebuilt_.erase(node.name);
+    const CodeFacts code = code_of(node);
+    const SwapWish wish{node.name, code.plugin.file, code.type, {}, kTryoutOfRebuilt};
+    conductor_.begin("swap " + node.name, [this, wish] { swap_rebuilt(wish); });
   }
-  for (const graph::ComponentNode& node : graph_.components)
-    if (rebuilt_.contains(node.name) && !is_busy(node.name)) {
-      rebuilt_.erase(node.name);
-      swap_rebuilt(node);
-    }
-}
-
-void Exchanging::go_on(Open& open) {
-  const std::string& component = open.tryout->order().component;
-  const Result<host::ShadowReport>& tried = open.tryout->outcome();
-  if (tried) return exchange(open, *tried);
-  open.pending->end(
-      fail(tried.error().code,
-           "the new one was tried out beside the one that runs, and not taken: " + tried.error().text(),
-           component));
-}
-
-void Exchanging::exchange(Open& open, const host::ShadowReport& tried) {
-  const host::ShadowOrder& order = open.tryout->order();
-  const std::string& component = order.component;
-  if (tried.untried.empty()) {
-    log::info(component, "the new code was tried out: it got " + counted(tried.given, "object") +
-                             " and pushed " + std::to_string(tried.pushed));
-  } else if (open.wish.untried || !host::kTriesCode) {
-    log::warning(component, "the new code could not be tried out: " + tried.untried);
-  } else {
-    return open.pending->end(fail(Code::failed_precondition,
-                                  "the new one cannot be tried out, and is not taken: " + tried.untried +
-                                      "; with --untried it is taken all the same, and if it crashes or hangs "
-                                      "then, its process ends and begins anew",
-                                  component));
-  }
-  order_swap(order, open.tryout->take_plugin(), open.wish, tried.untried.empty(), open.pending);
-}
-
-void Exchanging::order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, const SwapWish& wish,
-                            bool was_tried, const PendingPtr& pending) const {
-  const Result<const graph::ComponentNode*> node = names_.component(order.component);
-  if (!node) return pending->end(node.error());  // it has gone meanwhile
-  const Result<Member*> member = names_.ready_member_of(**node);
-  if (!member) return pending->end(member.error());
-  const std::string file = plugin.origin();
-  SwapCode swap{order.component,
-                order.type,
-                {order.new_params.begin(), order.new_params.end()},
-                static_cast<std::uint64_t>(wish.probation.count()),
-                file,
-                std::move(plugin).take_bytes(),
-                was_tried,
-                wish.fresh};
-  (*member)->ask_for(std::move(swap), [pending](const Answer& answer) { pending->end(answer); });
 }
 
 void Exchanging::note(const ExchangedCode& code) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "control/operating.hpp"
 #include "control/system_names.hpp"
 #include "control/trial/tryout.hpp"
+#include "members/conductor.hpp"
 #include "members/member.hpp"
 #include "members/reply.hpp"
 #include "orca/base/result.hpp"
@@ -49,24 +49,28 @@ struct SwapWish {
 class Exchanging {
  public:
   /// All of these outlive the object.
-  /// @param wake  lets go_on() be called soon. It is called on other threads.
-  Exchanging(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
-             Operating& operating, std::function<void()> wake)
-      : graph_(graph), facts_(facts), names_(names), operating_(operating), wake_(std::move(wake)) {}
+  /// @param wake  lets the conductor go on soon. It is called on other threads.
+  Exchanging(Conductor& conductor, const graph::Graph& graph, const SystemFacts& facts,
+             const SystemNames& names, Operating& operating, std::function<void()> wake)
+      : conductor_(conductor),
+        graph_(graph),
+        facts_(facts),
+        names_(names),
+        operating_(operating),
+        wake_(std::move(wake)) {}
 
-  /// Exchanges a component's code, after it was tried out, or a driver. The answer ends when the old code, or the new one if it was
-  /// refused, is gone.
+  /// Exchanges a component's code, after it was tried out, or a driver. A job of the conductor waits until the old code, or
+  /// the new one if it was refused, is gone.
   /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION] [--untried]
   ///               [--fresh].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
-  /// Takes the end of an exchange, with what an operator is told of it.
-  using Told = std::function<void(const Result<Record>&)>;
   /// Does the same for a wish that was read.
-  void exchange(SwapWish wish, Told told);
+  /// @return what an operator is told of it.
+  Result<Record> exchange(const SwapWish& wish);
   /// Exchanges the code of all components that run a plugin whose file was built anew, each after it was tried out, and after
   /// an exchange that is under way. What comes of it goes to the log.
   void take_rebuilt(const std::string& file);
-  /// Goes on with what has been tried out.
+  /// Begins to exchange what was built anew. Call it often.
   void go_on();
 
   /// Returns the plugins of the components of this machine.
@@ -82,7 +86,7 @@ class Exchanging {
   [[nodiscard]] const PluginFacts& plugin_of(const std::string& type) const;
 
   /// Returns whether the code of a component is being tried out or exchanged.
-  [[nodiscard]] bool is_busy(const std::string& component) const;
+  [[nodiscard]] bool is_busy(const std::string& component) const { return busy_.contains(component); }
   /// Forgets a component that has gone.
   void forget(const std::string& component) { exchanged_.erase(component); }
   /// Notes that a component runs other code.
@@ -93,37 +97,25 @@ class Exchanging {
   void came_up(const std::vector<Member*>& members);
 
  private:
-  class Pending;
-  using PendingPtr = std::shared_ptr<Pending>;
-
-  // What is tried out.
-  struct Open {
-    std::unique_ptr<Tryout> tryout;
-    SwapWish wish;
-    PendingPtr pending;
-  };
-
-  void swap_rebuilt(const graph::ComponentNode& node);
+  void swap_rebuilt(const SwapWish& wish);
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
   [[nodiscard]] std::vector<ServerLine> lines_to_servers_of(const std::string& component) const;
-  void go_on(Open& open);
-  void exchange(Open& open, const host::ShadowReport& tried);
-  void order_swap(const host::ShadowOrder& order, plugin::PluginImage plugin, const SwapWish& wish,
-                  bool was_tried, const PendingPtr& pending) const;
-  void begin_driver(const SwapWish& wish, const graph::HardwareNode& hardware, const PendingPtr& pending);
+  [[nodiscard]] Result<Record> exchange_component(const SwapWish& wish);
+  [[nodiscard]] Result<Record> exchange_driver(const SwapWish& wish, const graph::HardwareNode& hardware);
+  [[nodiscard]] Result<bool> try_out(const SwapWish& wish, const host::ShadowOrder& order, Member& member,
+                                     plugin::PluginImage& image);
+  [[nodiscard]] Result<Record> order_swap(Member& member, SwapCode swap);
   [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type,
                                   const std::string& process) const;
   void forget_exchange(const std::string& name, const std::string& type);
 
+  Conductor& conductor_;
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const SystemNames& names_;
   Operating& operating_;
   const std::function<void()> wake_;
-  std::vector<Open> open_;
-  // The components of which an exchange has been begun and has not ended; orders that host processes have not answered
-  // share it.
-  const std::shared_ptr<std::set<std::string>> busy_ = std::make_shared<std::set<std::string>>();
+  std::set<std::string> busy_;     // components of which an exchange has been begun and has not ended
   std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
   std::map<std::string, std::map<std::string, std::string>> builds_;  // build ids by process, then by type
   std::map<std::string, CodeFacts> exchanged_;                        // by component or hardware

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <deque>
+#include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "members/conductor.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
@@ -40,30 +41,23 @@ struct JointStep {
 /// Thread contract: the supervisor's thread.
 class JointOrders {
  public:
-  /// Takes the answer of a component.
-  using Answered = std::function<void(const Status&)>;
-  /// Sends an order to a component. `answered` is called exactly once, unless the order cannot be sent, or the joint
-  /// order has been destroyed.
-  /// @errors  the reason why the order cannot be sent.
-  using Sender = std::function<Status(const std::string& component, Order order, Answered answered)>;
-  /// Takes the end of a joint order: an error names the component that has refused, and those that could not go back.
-  using Done = std::function<void(const Status&)>;
+  /// Sends an order to a component, and waits until it has obeyed or refused.
+  using Sender = std::function<Status(const std::string& component, Order order)>;
 
-  explicit JointOrders(Sender sender);
-  ~JointOrders();
-  JointOrders(const JointOrders&) = delete;
-  JointOrders& operator=(const JointOrders&) = delete;
+  /// @param conductor  outlives the object.
+  JointOrders(Conductor& conductor, Sender sender) : conductor_(conductor), sender_(std::move(sender)) {}
 
-  /// Carries out the steps in this order, once all earlier joint orders have ended.
-  void add(std::vector<JointStep> steps, Done done);
+  /// Carries out the steps in this order, once all earlier joint orders have ended. A job of the conductor waits for that.
+  /// @errors  the reason of the component that has refused, with its name and those of components that could not go back.
+  Status carry_out(const std::vector<JointStep>& steps);
 
  private:
   class Joint;
-  void go_on();
 
+  Conductor& conductor_;
   const Sender sender_;
-  std::deque<std::shared_ptr<Joint>> waiting_;  // the first one is being carried out
-  bool is_going_on_ = false;
+  std::uint64_t begun_ = 0;  // how many have been
+  std::uint64_t ended_ = 0;
 };
 
 }  // namespace orca::supervisor

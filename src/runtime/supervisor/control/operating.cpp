@@ -17,24 +17,6 @@
 namespace orca::supervisor {
 namespace {
 
-// An answer that comes for certain: the component's, or the word that its process has ended without one.
-class CertainAnswer {
- public:
-  CertainAnswer(std::string process, JointOrders::Answered take)
-      : process_(std::move(process)), take_(std::move(take)) {}
-  ~CertainAnswer() {
-    if (take_) take_(fail(Code::unavailable, "process " + process_ + " has ended before it answered"));
-  }
-  CertainAnswer(const CertainAnswer&) = delete;
-  CertainAnswer& operator=(const CertainAnswer&) = delete;
-
-  void give(const Status& outcome) { std::exchange(take_, nullptr)(outcome); }
-
- private:
-  const std::string process_;
-  JointOrders::Answered take_;
-};
-
 using Nodes = std::vector<const graph::ComponentNode*>;
 
 // A component of a group, and its state before an order. Nodes of the graph may move while the order waits.
@@ -43,7 +25,6 @@ struct StateBefore {
   std::string process;
   std::string state;
 };
-using StatesBefore = std::vector<StateBefore>;
 
 std::vector<std::string> names_of(const Nodes& nodes) {
   std::vector<std::string> names;
@@ -141,23 +122,28 @@ class Operating::SettingReader {
   Code code_ = Code::invalid_argument;
 };
 
-Operating::Operating(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
-                     host::Reports reports, RunLevers levers)
-    : graph_(graph),
+Operating::Operating(Conductor& conductor, const graph::Graph& graph, const SystemFacts& facts,
+                     const SystemNames& names, host::Reports reports, RunLevers levers)
+    : conductor_(conductor),
+      graph_(graph),
       facts_(facts),
       names_(names),
       reports_(std::move(reports)),
       levers_(std::move(levers)),
-      joint_orders_([this](const std::string& component, Order order, JointOrders::Answered answered) {
-        return send(component, std::move(order), std::move(answered));
+      joint_orders_(conductor, [this](const std::string& component, Order order) {
+        return send(component, std::move(order));
       }) {}
 
-Status Operating::send(const std::string& component, Order order, JointOrders::Answered answered) const {
+Status Operating::send(const std::string& component, Order order) const {
   const Result<Member*> member = ready_member_of(component);
   if (!member) return member.error();
-  const auto answer = std::make_shared<CertainAnswer>((*member)->name(), std::move(answered));
-  (*member)->ask(std::move(order), [answer](const Status& outcome) { answer->give(outcome); });
-  return ok();
+  const std::optional<Answer> answer = conductor_.ask(**member, std::move(order));
+  if (answer) return answer->outcome;
+  return fail(Code::unavailable, "process " + (*member)->name() + " has ended before it answered");
+}
+
+void Operating::tell(const std::string& component, Order order) const {
+  if (const Result<Member*> member = ready_member_of(component)) (*member)->tell(std::move(order));
 }
 
 std::string Operating::process_of(const std::string& component) const {
@@ -194,29 +180,26 @@ void Operating::pause(const std::string& name, bool suspends, const ReplyPtr& re
   if (const Status ready = are_ready(names_of(*nodes)); !ready.ok()) return reply->refuse(ready.error());
   if (suspends) std::ranges::reverse(*nodes);
   const bool is_group = graph_.find_group(name) != nullptr;
-  const auto before = std::make_shared<StatesBefore>();
+  std::vector<StateBefore> before;
   std::vector<JointStep> steps;
   for (const graph::ComponentNode* const node : *nodes) {
-    const auto make = [this, component = node->name, process = node->process, suspends, is_group,
-                       before]() -> std::optional<ThereAndBack> {
+    const auto make = [&, component = node->name, process = node->process]() -> std::optional<ThereAndBack> {
       const host::ComponentState state = reports_(component).state;
-      before->push_back({component, process, host::to_string(state)});
+      before.push_back({component, process, host::to_string(state)});
       if (is_group && host::is_suspended(state) == suspends) return std::nullopt;
       if (suspends) return ThereAndBack{Suspend{component}, Resume{component}};
       return ThereAndBack{Resume{component}, Suspend{component}};
     };
     steps.push_back({node->name, make, [](bool) {}});
   }
-  joint_orders_.add(std::move(steps), [this, name, suspends, is_group, before, reply](const Status& end) {
-    if (!end.ok()) return reply->refuse(end.error());
-    log::info(kLogName, std::string("an operator has ") + (suspends ? "suspended " : "resumed ") + name);
-    if (!is_group) return;
-    for (const StateBefore& one : *before)
-      reply->add(Record{{"component", one.component},
-                        {"process", one.process},
-                        {"before", one.state},
-                        {"now", host::to_string(reports_(one.component).state)}});
-  });
+  if (const Status end = carry_out(steps); !end.ok()) return reply->refuse(end.error());
+  log::info(kLogName, std::string("an operator has ") + (suspends ? "suspended " : "resumed ") + name);
+  if (!is_group) return;
+  for (const StateBefore& one : before)
+    reply->add(Record{{"component", one.component},
+                      {"process", one.process},
+                      {"before", one.state},
+                      {"now", host::to_string(reports_(one.component).state)}});
 }
 
 // ---- Parameters
@@ -296,34 +279,28 @@ void Operating::note_set(const std::string& owner, const std::map<std::string, s
 void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply) {
   const Result<std::vector<Setting>> settings = SettingReader(*this, facts_).read(words);
   if (!settings) return reply->refuse(settings.error());
-  change(*settings, [reply](const Status& end) {
-    if (!end.ok()) reply->refuse(end.error());
-  });
+  if (const Status end = change(*settings); !end.ok()) reply->refuse(end.error());
 }
 
-void Operating::change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done) {
+Status Operating::change(const std::map<std::string, graph::Params>& wanted) {
   std::vector<Setting> settings;
-  for (const auto& [name, values] : wanted) {
-    settings.push_back({name, graph::print_values(values), values});
-  }
-  change(settings, std::move(done));
+  for (const auto& [name, values] : wanted) settings.push_back({name, graph::print_values(values), values});
+  return change(settings);
 }
 
-void Operating::change(const std::vector<Setting>& settings, JointOrders::Done done) {
+Status Operating::change(const std::vector<Setting>& settings) {
   std::vector<std::string> components;
   std::vector<JointStep> steps;
   for (const Setting& setting : settings) {
     components.push_back(setting.component);
     steps.push_back(step_of(setting));
   }
-  if (const Status ready = are_ready(components); !ready.ok()) return done(ready);
-  joint_orders_.add(std::move(steps), [done = std::move(done), settings](const Status& end) {
-    if (end.ok())
-      for (const Setting& setting : settings)
-        for (const auto& [param, value] : setting.values)
-          log::info(setting.component, "an operator has set " + param + " to " + graph::print_value(value));
-    done(end);
-  });
+  if (Status ready = are_ready(components); !ready.ok()) return ready;
+  if (Status end = carry_out(steps); !end.ok()) return end;
+  for (const Setting& setting : settings)
+    for (const auto& [param, value] : setting.values)
+      log::info(setting.component, "an operator has set " + param + " to " + graph::print_value(value));
+  return ok();
 }
 
 // Returns the present values of what is to change. Since the order was given, the component may have gone or got another

@@ -10,6 +10,7 @@
 
 #include "control/joint_orders.hpp"
 #include "control/system_names.hpp"
+#include "members/conductor.hpp"
 #include "members/member.hpp"
 #include "members/reply.hpp"
 #include "orca/base/result.hpp"
@@ -27,40 +28,41 @@ struct RunLevers {
   std::function<void()> wake;  ///< Lets the supervisor's thread look at once. From any thread.
 };
 
-/// Carries out what an operator orders: pauses, new parameters, restarts, the end.
+/// Carries out what an operator orders: pauses, new parameters, restarts, the end. Jobs of the conductor call whatever says
+/// that it waits.
 ///
 /// Thread contract: the supervisor's thread.
 class Operating {
  public:
   /// All of these outlive the object.
-  Operating(const graph::Graph& graph, const SystemFacts& facts, const SystemNames& names,
-            host::Reports reports, RunLevers levers);
+  Operating(Conductor& conductor, const graph::Graph& graph, const SystemFacts& facts,
+            const SystemNames& names, host::Reports reports, RunLevers levers);
 
   /// Pause a component, or all of a group, and let them go on. All of a group obey, or none; who is so already is left
   /// alone. They are resumed in the order in which they start, and suspended the other way round. The answer has a
-  /// record for each of a group.
+  /// record for each of a group. They wait.
   void suspend(const std::string& name, const ReplyPtr& reply);
   void resume(const std::string& name, const ReplyPtr& reply);
   /// Answers with a parameter, "component.param", or with all of a component and of the driver that it serves. A driver's name, too,
   /// may stand before its parameters.
   void get(const std::string& what, const ReplyPtr& reply) const;
   /// Changes parameters of any components: all of them, or none. They are checked before anything changes, and the
-  /// answer has everything that is wrong with them. Those of a driver are refused with the command that puts it in anew.
+  /// answer has everything that is wrong with them. Those of a driver are refused with the command that puts it in anew. It waits.
   /// @param words  "component.param" and its value, in turn.
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
-  /// Does the same with values that have been read and checked, by component.
-  void change(const std::map<std::string, graph::Params>& wanted, JointOrders::Done done);
-  /// Carries out steps of several components, all of them or none, when no other joint order is under way.
-  void carry_out(std::vector<JointStep> steps, JointOrders::Done done) {
-    joint_orders_.add(std::move(steps), std::move(done));
-  }
+  /// Does the same with values that have been read and checked, by component. It waits.
+  Status change(const std::map<std::string, graph::Params>& wanted);
+  /// Carries out steps of several components, all of them or none, when no other joint order is under way. It waits.
+  Status carry_out(const std::vector<JointStep>& steps) { return joint_orders_.carry_out(steps); }
   /// Learns where components are that are not in the graph, because they come or go; by name.
   void expect(std::map<std::string, std::string> processes) { comers_ = std::move(processes); }
   /// Returns the process of a component of the graph, or of one that comes or goes; empty: there is no such component.
   [[nodiscard]] std::string process_of(const std::string& component) const;
-  /// Sends an order to a component. `answered` is called exactly once, unless the order cannot be sent.
-  /// @errors  not_found; unavailable if its process takes no orders at present.
-  Status send(const std::string& component, Order order, JointOrders::Answered answered) const;
+  /// Sends an order to a component, and waits until it has obeyed or refused.
+  /// @errors  its own; not_found; unavailable if its process takes no orders at present, or ends before it has answered.
+  [[nodiscard]] Status send(const std::string& component, Order order) const;
+  /// Sends an order to a component that nobody waits for, if its process takes orders at present.
+  void tell(const std::string& component, Order order) const;
   /// Returns whether an operator has paused a component.
   [[nodiscard]] bool is_suspended(const std::string& component) const {
     return host::is_suspended(reports_(component).state);
@@ -108,11 +110,12 @@ class Operating {
 
   void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
   [[nodiscard]] Status are_ready(const std::vector<std::string>& components) const;
-  void change(const std::vector<Setting>& settings, JointOrders::Done done);
+  Status change(const std::vector<Setting>& settings);
   [[nodiscard]] Result<graph::Params> present_of(const Setting& setting) const;
   [[nodiscard]] JointStep step_of(const Setting& setting);
   [[nodiscard]] Result<Member*> ready_member_of(const std::string& component) const;
 
+  Conductor& conductor_;
   const graph::Graph& graph_;
   const SystemFacts& facts_;
   const SystemNames& names_;

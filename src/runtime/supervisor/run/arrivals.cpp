@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "arrivals.hpp"
 
+#include <memory>
 #include <utility>
 
 #include "members/alarm_relay.hpp"
@@ -19,9 +20,10 @@ void Arrivals::start(const Members& members) {
       log::info(place_.log_name, "process " + member->name() + " is started, because it is needed");
   for (const Member* const member : members)
     if (!member->node().on_demand) place_.control.lose(*member);  // it gets a graph that may just change
-  Starter::Begun begun = place_.starter.start(members);
-  bring_up(begun, is_first);
-  for (const auto& [member, error] : begun.failed) {
+  const auto begun = std::make_shared<Starter::Begun>(place_.starter.start(members));
+  watch(begun->members);
+  place_.conductor.begin("bring-up", [this, begun, is_first] { bring_up(*begun, is_first); });
+  for (const auto& [member, error] : begun->failed) {
     if (!is_first) {
       place_.could_not_start(*member, error);
     } else if (!place_.conclusion.is_over()) {
@@ -31,18 +33,6 @@ void Arrivals::start(const Members& members) {
   }
 }
 
-void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
-  const Members& members = begun.members;
-  if (members.empty()) return;
-  watch(members);
-  began_.push_back(std::make_unique<BringUp>(
-      place_.starter.plan(members), consent(is_first), [this, members] { built(members); },
-      [this, members, is_first](const Status& outcome, Member* culprit) {
-        outcome.ok() ? came_up(members, is_first) : did_not_come_up(outcome.error(), *culprit);
-      }));
-  began_.back()->begin(std::move(begun.setups));
-}
-
 void Arrivals::watch(const Members& members) {
   for (const Member* member : members) {
     for (const std::string& warning : member->process()->warnings()) log::warning(member->name(), warning);
@@ -50,28 +40,43 @@ void Arrivals::watch(const Members& members) {
   }
 }
 
-// Only the start is common to all machines.
-BringUp::Consent Arrivals::consent(bool is_first) const {
-  if (!place_.neighbours || !is_first) return {};
-  Gathering& gathering = place_.neighbours->gathering();
-  return {[&gathering](const std::string& component) { return gathering.may_configure(component); },
-          [&gathering] { return gathering.may_begin(); }};
+// Each is set up and built, and opens its hardware. Then components are configured one after the other, whichever process
+// they are in, and all gates open.
+void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
+  const Company company({place_.conductor, [this] { return place_.conclusion.is_over(); },
+                         [this](Member& culprit, const Error& error) { did_not_come_up(culprit, error); }},
+                        begun.members);
+  const StartOrder components = place_.starter.in_start_order(begun.members);
+  auto setup = begun.setups.begin();
+  if (!company.ask_all([&](const Member&) { return std::move(*setup++); })) return;
+  if (!company.ask_all([](const Member&) { return Build{}; })) return;
+  built(company.present());
+  if (!company.ask_all([](const Member&) { return OpenHardware{}; })) return;
+  if (!configure_all(company, components, is_first)) return;
+  for (Member* const member : company.present()) {
+    member->tell(OpenGates{});
+    member->enter(Phase::up);
+  }
+  came_up(company.present(), is_first);
+}
+
+// Only the start is common to all machines. Returns false if nothing more will happen.
+bool Arrivals::configure_all(const Company& company, const StartOrder& components, bool is_first) {
+  const bool is_common = is_first && place_.neighbours;
+  for (const auto& [member, component] : components) {
+    const auto is_its_turn = [&, &who = *member, &name = component] {
+      return !is_common || !company.has(who) || place_.neighbours->gathering().may_configure(name);
+    };
+    if (!company.wait(is_its_turn)) return false;
+    if (company.has(*member) && !company.ask(*member, Configure{component})) return false;
+  }
+  return company.wait([&] { return !is_common || place_.neighbours->gathering().may_begin(); });
 }
 
 void Arrivals::take_over() {
   has_begun_ = true;
   up_since_ = steady_now();
   place_.conclusion.came_up();
-}
-
-void Arrivals::go_on() {
-  std::erase_if(began_, [](const auto& bring_up) { return bring_up->is_over(); });
-  if (place_.conclusion.is_over()) return;
-  for (const auto& bring_up : began_) bring_up->go_on();
-}
-
-void Arrivals::lose(Member& member) {
-  for (const auto& bring_up : began_) bring_up->lose(member);
 }
 
 void Arrivals::built(const Members& members) {
@@ -82,7 +87,6 @@ void Arrivals::built(const Members& members) {
 
 void Arrivals::came_up(const Members& members, bool is_first) {
   for (Member* const member : members) {
-    if (member->phase() != Phase::up) continue;
     if (!is_first)
       log::info(place_.log_name,
                 "process " + member->name() +
@@ -98,7 +102,7 @@ void Arrivals::came_up(const Members& members, bool is_first) {
   if (is_first && place_.neighbours) place_.neighbours->gathering().enter(idl::MACHINE_WORKING);
 }
 
-void Arrivals::did_not_come_up(const Error& error, Member& culprit) {
+void Arrivals::did_not_come_up(Member& culprit, const Error& error) {
   if (place_.conclusion.is_over()) return;
   if (!place_.conclusion.has_come_up()) return place_.conclusion.refuse_start(error);
   log::error(culprit.name(), "the process does not come up again: " + error.text());

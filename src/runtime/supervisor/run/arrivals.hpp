@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,10 +11,11 @@
 #include "control_desk.hpp"
 #include "machines/neighbours.hpp"
 #include "machines/trading.hpp"
+#include "members/conductor.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "orca/supervisor/heartbeats.hpp"
-#include "starting/bring_up.hpp"
+#include "starting/company.hpp"
 #include "starting/starter.hpp"
 
 namespace orca::supervisor {
@@ -27,6 +27,7 @@ class Arrivals {
  public:
   /// What it works with. All of it outlives the object.
   struct Place {
+    Conductor& conductor;
     Starter& starter;
     Heartbeats& beats;
     Ledger& ledger;
@@ -46,26 +47,21 @@ class Arrivals {
   void start(const Members& members);
   /// Goes on with a run that another supervisor has begun: none of the processes that are started is of its first ones.
   void take_over();
-  /// Goes on with those that come up. Call it often.
-  void go_on();
-  /// Goes on without a process, which has ended.
-  void lose(Member& member);
 
   /// Returns when everything had come up; nothing if it has not yet.
   [[nodiscard]] std::optional<TimePoint> up_since() const { return up_since_; }
 
  private:
   void bring_up(Starter::Begun& begun, bool is_first);
+  bool configure_all(const Company& company, const StartOrder& components, bool is_first);
   void watch(const Members& members);
-  [[nodiscard]] BringUp::Consent consent(bool is_first) const;
   void built(const Members& members);
   void came_up(const Members& members, bool is_first);
-  void did_not_come_up(const Error& error, Member& culprit);
+  void did_not_come_up(Member& culprit, const Error& error);
 
   const Place place_;
   bool has_begun_ = false;
   std::optional<TimePoint> up_since_;
-  std::vector<std::unique_ptr<BringUp>> began_;
 };
 
 }  // namespace orca::supervisor

@@ -21,6 +21,10 @@ constexpr Duration kSocketLook = 1s;  // until the next look at the socket's fil
 const std::set<std::string, std::less<>> kOfThisMachine{"ps",     "plugins",  "counters",
                                                         "alarms", "missions", "log"};
 
+// These wait for the system, so each is a job of its own.
+const std::set<std::string, std::less<>> kJobs{"suspend", "resume",     "swap", "diff", "apply",
+                                               "connect", "disconnect", "move", "set"};
+
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
   return std::ranges::find(ask.words, option) != ask.words.end();
@@ -49,14 +53,16 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
 
 }  // namespace
 
-ControlDesk::ControlDesk(const graph::Graph& whole, const graph::Graph& here, const SystemFacts& facts,
-                         const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers,
-                         Applying::Levers applying)
-    : ledger_(ledger),
+ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const graph::Graph& here,
+                         const SystemFacts& facts, const Members& members, Ledger& ledger, Starter& starter,
+                         Renewal& renewal, const RunLevers& levers, Applying::Levers applying)
+    : conductor_(conductor),
+      ledger_(ledger),
       names_(whole, here, facts.ports, members),
-      operating_(here, facts, names_, ledger.reports(), levers),
-      exchanging_(here, facts, names_, operating_, levers.wake),
-      applying_(here, members, operating_, exchanging_, std::move(applying)),
+      operating_(conductor, here, facts, names_, ledger.reports(), levers),
+      exchanging_(conductor, here, facts, names_, operating_, levers.wake),
+      applying_({conductor, here, facts, members, operating_, exchanging_, starter, renewal, ledger},
+                std::move(applying)),
       showing_(whole, here, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
 
@@ -164,8 +170,13 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
   return all;
 }
 
-// Whatever an operator asks, and however wrong that goes, the system works on.
 void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
+  if (!kJobs.contains(ask.command)) return attempt(ask, reply);
+  conductor_.begin(ask.command, [this, ask, reply] { attempt(ask, reply); });
+}
+
+// Whatever an operator asks, and however wrong that goes, the system works on.
+void ControlDesk::attempt(const Ask& ask, const ReplyPtr& reply) {
   try {
     carry_out(ask, reply);
   } catch (const std::exception& error) {

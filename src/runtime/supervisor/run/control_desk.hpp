@@ -19,6 +19,7 @@
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
 #include "machines/system_hold.hpp"
+#include "members/conductor.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "orca/base/result.hpp"
@@ -35,12 +36,14 @@ class ControlDesk {
   /// All of these outlive the object.
   /// @param whole  the graph of the whole system.
   /// @param here   what of it runs on this machine.
-  ControlDesk(const graph::Graph& whole, const graph::Graph& here, const SystemFacts& facts,
-              const std::vector<Member*>& members, Ledger& ledger, const RunLevers& levers,
-              Applying::Levers applying);
+  ControlDesk(Conductor& conductor, const graph::Graph& whole, const graph::Graph& here,
+              const SystemFacts& facts, const Members& members, Ledger& ledger, Starter& starter,
+              Renewal& renewal, const RunLevers& levers, Applying::Levers applying);
 
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
   void open(Result<ControlSocket> socket);
+  /// Gives the system's socket up. From now on nobody can reach the system.
+  void close() { server_.reset(); }
   /// Adds what it waits for.
   void add_to(std::vector<pollfd>& all) const;
   /// Carries out what clients ask, and passes on what they follow. Never waits.
@@ -79,6 +82,7 @@ class ControlDesk {
 
   static const Handlers& handlers();
   void handle(const Ask& ask, const ReplyPtr& reply);
+  void attempt(const Ask& ask, const ReplyPtr& reply);
   void carry_out(const Ask& ask, const ReplyPtr& reply);
   using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
   void rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring);
@@ -88,6 +92,7 @@ class ControlDesk {
   void look_at_files(Moment now);
   void look_after_socket(Moment now);
 
+  Conductor& conductor_;
   Ledger& ledger_;
   const SystemNames names_;
   Operating operating_;

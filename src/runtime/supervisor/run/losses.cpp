@@ -39,7 +39,6 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   place_.beats.forget(member.place());
   place_.control.lose(member);  // before its orders are answered by its end
   member.forget();
-  place_.arrivals.lose(member);
   place_.ledger.lose(member.name(), "its process " + how);
   for (const Wiring::Outer& outer : place_.starter.wiring().edges_at(member.name())) cut(outer, member, how);
   const std::string text = "process " + member.name() + " " + how;

@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "arrivals.hpp"
 #include "conclusion.hpp"
 #include "control_desk.hpp"
 #include "members/ledger.hpp"
@@ -40,7 +39,6 @@ class Losses {
     Heartbeats& beats;
     ControlDesk& control;
     Conclusion& conclusion;
-    Arrivals& arrivals;
     OnDemand& on_demand;
     Renewal& renewal;
   };

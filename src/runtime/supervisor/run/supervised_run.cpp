@@ -14,6 +14,7 @@
 #include "machines/neighbours.hpp"
 #include "machines/trading.hpp"
 #include "members/alarm_relay.hpp"
+#include "members/conductor.hpp"
 #include "members/ledger.hpp"
 #include "members/listening.hpp"
 #include "members/log_relay.hpp"
@@ -63,7 +64,8 @@ class SupervisedRun {
         starter_(graph_, options, run_, roster_),
         ledger_(here_, listener, run_.start, options.log_name),
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
-        control_(graph_, here_, facts_, roster_.all(), ledger_, levers(), applying()) {
+        control_(conductor_, graph_, here_, facts_, roster_.all(), ledger_, starter_, renewal_, levers(),
+                 applying()) {
     ledger_.relay_to(relay_);
     if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
@@ -75,6 +77,16 @@ class SupervisedRun {
   }
 
   host::RunResult execute(Result<ControlSocket> socket) {
+    host::RunResult result;
+    conductor_.run([&] {
+      result = run(std::move(socket));
+      control_.close();  // before the jobs of operators end without an answer
+    });
+    return result;
+  }
+
+ private:
+  host::RunResult run(Result<ControlSocket> socket) {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
     control_.open(std::move(socket));
@@ -95,7 +107,6 @@ class SupervisedRun {
     return result;
   }
 
- private:
   // ---- Operators
 
   RunLevers levers() {
@@ -103,8 +114,7 @@ class SupervisedRun {
       if (!conclusion_.is_over()) conclusion_.stop("");
     };
     const auto restart = [this](Member& member) -> Status {
-      if (conclusion_.is_over() || !conclusion_.has_come_up())
-        return fail(Code::failed_precondition, "the system is just coming up or ending");
+      if (Status works = this->works(); !works.ok()) return works;
       if (renewal_.is_under_way())
         return fail(Code::unavailable, "processes are just beginning anew; try again when they are up");
       policy_.restart(member.index(), now());
@@ -116,28 +126,13 @@ class SupervisedRun {
   }
 
   Applying::Levers applying() {
-    return {
-        options_.read,
-        options_.executor,
-        [this](const CheckedSystem& wanted) { return accept(wanted); },
-        [this](const std::set<std::string>& edges) { return starter_.renew_edges(edges); },
-        [this](const graph::ComponentNode& node) {
-          if (graph_.find_component(node.name) == nullptr) ledger_.expect(node.name);
-          return starter_.introduce(node);
-        },
-        [this](const graph::Graph& graph, const std::set<std::string>& processes) {
-          return starter_.introduce_processes(graph, processes);
-        },
-        [this] {
-          const bool is_ready = conclusion_.has_come_up() && !conclusion_.is_over();
-          return is_ready ? ok()
-                          : Status(fail(Code::failed_precondition, "the system is just coming up or ending"));
-        },
-        [this](Renewal::Wish wish, Renewal::Done done) { renewal_.begin(std::move(wish), std::move(done)); },
-        [this] {
-          return CheckedSystem{graph_, facts_, {}};
-        },
-        [this] { poller_.wake(); }};
+    return {options_.read, options_.executor, [this](const CheckedSystem& wanted) { accept(wanted); },
+            [this] { return works(); }, [this] { poller_.wake(); }};
+  }
+
+  [[nodiscard]] Status works() const {
+    if (conclusion_.has_come_up() && !conclusion_.is_over()) return ok();
+    return fail(Code::failed_precondition, "the system is just coming up or ending");
   }
 
   // Goes on with a graph that is carried out already. Processes that are started from now on run it.
@@ -205,10 +200,9 @@ class SupervisedRun {
     if (neighbours_) neighbours_->turn(now());
     control_.hear_machines(now());
     look_at_beats();
-    arrivals_.go_on();
+    conductor_.go_on(now());
     if (conclusion_.is_over()) return;
     if (conclusion_.has_come_up()) on_demand_.look(now());
-    renewal_.turn(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();
   }
@@ -255,6 +249,7 @@ class SupervisedRun {
     const bool has_printed = listen(
         member, [&](const Report& report) { return take(member, report); }, now());
     member.pass_on_question();
+    conductor_.go_on(now());  // before anything is made of the end of the process
     return has_printed;
   }
 
@@ -394,20 +389,23 @@ class SupervisedRun {
   Trading trading_{graph_, roster_.all(), reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
+  Conductor conductor_;
   std::map<std::size_t, std::pair<pid_t, std::optional<ProcessorWait>>> waits_;  // by place
   Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;
   Conclusion conclusion_{here_, reports_, options_.log_name};
-  Arrivals arrivals_{{starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
+  Arrivals arrivals_{{conductor_, starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
                       graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
                         losses_.could_not_start(member, error);
                       }}};
   OnDemand on_demand_{roster_.all(), starter_, ledger_, [this](Member& member) { let_go(member); }};
-  Renewal renewal_{{roster_, policy_, starter_,
+  Renewal renewal_{conductor_,
+                   {roster_, policy_, starter_,
                     [this](Member& member, bool keeps_states) { losses_.end(member, keeps_states); },
-                    [this](const std::string& component) { ledger_.pardon(component); }, options_.log_name}};
+                    [this](const std::string& component) { ledger_.pardon(component); },
+                    [this] { return conclusion_.is_over(); }, options_.log_name}};
   Losses losses_{{graph_, options_.log_name, stop_, roster_, starter_, ledger_, policy_, beats_, control_,
-                  conclusion_, arrivals_, on_demand_, renewal_}};
+                  conclusion_, on_demand_, renewal_}};
   std::optional<TimePoint> began_at_;  // when all machines were there
   TimePoint end_ = called_at_;
 };

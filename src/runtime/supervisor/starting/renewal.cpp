@@ -8,36 +8,42 @@
 
 namespace orca::supervisor {
 
-void Renewal::begin(Wish wish, Done done) {
-  wish_ = std::move(wish);
-  done_ = std::move(done);
+Status Renewal::carry_out(const Wish& wish) {
+  wish_ = wish;
   failure_.reset();
   others_.clear();
   finished_.clear();
   for (const Member* const member : members())
     if (place_.policy.has_finished(member->index())) finished_.insert(member->name());
   place_.starter.forget_old_states();
-  phase_ = Phase::ending;
-  end_all();
+  Status outcome = go_over();
+  phase_ = Phase::none;
+  if (!place_.is_over()) return outcome;
+  return fail(Code::unavailable, "the run ends before all processes have begun anew");
 }
 
-void Renewal::turn(Moment now) {
-  switch (phase_) {
-    case Phase::none: return;
-    case Phase::ending:
-    case Phase::ending_again:
-      if (!has_ended()) return;
-      phase_ == Phase::ending ? wish_.go() : wish_.go_back();
-      phase_ = phase_ == Phase::ending ? Phase::beginning : Phase::beginning_again;
-      return start_all(now);
-    case Phase::beginning:
-      if (now >= limit_ && !failure_)
-        failure_ = fail(Code::deadline_exceeded, "not everything came up in time");
-      if (failure_) return go_back(*failure_);
-      return is_up() ? finish(ok()) : void();
-    case Phase::beginning_again:
-      if (is_up() || now >= limit_) finish(*failure_);
-  }
+Status Renewal::go_over() {
+  end_all(Phase::ending);
+  if (place_.is_over()) return ok();
+  const Starter::States states = place_.starter.states();
+  wish_.go();
+  begin_all(Phase::beginning);
+  const bool is_settled = conductor_.wait([this] { return place_.is_over() || failure_ || is_up(); },
+                                          Moment::clock::now() + kStartLimit);
+  if (!is_settled) failure_ = fail(Code::deadline_exceeded, "not everything came up in time");
+  return failure_ ? Status(go_back(states)) : ok();
+}
+
+// The states that count are those of the first end: code that was there for a moment only may have written others.
+Error Renewal::go_back(const Starter::States& states) {
+  end_all(Phase::ending_again);
+  if (place_.is_over()) return *failure_;
+  wish_.go_back();
+  place_.starter.set_states(states);
+  begin_all(Phase::beginning_again);
+  conductor_.wait([this] { return place_.is_over() || phase_ == Phase::none || is_up(); },
+                  Moment::clock::now() + kStartLimit);
+  return *failure_;
 }
 
 void Renewal::note_start(const Member& member) {
@@ -51,7 +57,8 @@ bool Renewal::lose(const Member& member, bool is_normal, const std::string& how)
   if (ends && !is_normal)
     log::warning(place_.log_name, "process " + member.name() + ", which is to begin anew, " + how);
   if (phase_ == Phase::beginning_again) {
-    finish(fail(failure_->code, failure_->text() + "; and process " + member.name() + " " + how));
+    failure_ = fail(failure_->code, failure_->text() + "; and process " + member.name() + " " + how);
+    phase_ = Phase::none;
     return false;  // it is started again as ever
   }
   if (phase_ == Phase::beginning && !failure_)
@@ -61,39 +68,29 @@ bool Renewal::lose(const Member& member, bool is_normal, const std::string& how)
   return true;
 }
 
-// The states that count are those of the first end: code that was there for a moment only may have written others.
-void Renewal::end_all() {
+// Ends the processes, and waits until they have.
+void Renewal::end_all(Phase phase) {
+  phase_ = phase;
   for (Member* const member : members()) {
     place_.policy.retire(member->index());
-    if (member->process() != nullptr) place_.end(*member, phase_ == Phase::ending && member->has_come_up());
+    if (member->process() != nullptr) place_.end(*member, phase == Phase::ending && member->has_come_up());
   }
+  conductor_.wait([this] { return place_.is_over() || has_ended(); });
 }
 
-void Renewal::start_all(Moment now) {
-  if (phase_ == Phase::beginning) states_ = place_.starter.states();
-  if (phase_ == Phase::beginning_again) place_.starter.set_states(states_);
+// Lets the processes be started.
+void Renewal::begin_all(Phase phase) {
+  phase_ = phase;
   std::set<std::string> heirs;
   for (Member* const member : members()) {
-    if (phase_ == Phase::beginning_again && finished_.contains(member->name())) continue;
-    place_.policy.restart(member->index(), now);
+    if (phase == Phase::beginning_again && finished_.contains(member->name())) continue;
+    place_.policy.restart(member->index(), Moment::clock::now());
     for (const std::string& component : place_.starter.components_of(*member)) {
       place_.pardon(component);
       heirs.insert(component);
     }
   }
   place_.starter.pass_on_states(std::move(heirs));
-  limit_ = now + kStartLimit;
-}
-
-void Renewal::go_back(const Error& reason) {
-  failure_ = reason;
-  phase_ = Phase::ending_again;
-  end_all();
-}
-
-void Renewal::finish(const Status& outcome) {
-  phase_ = Phase::none;
-  std::exchange(done_, nullptr)(outcome);
 }
 
 Members Renewal::members() const {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "members/conductor.hpp"
 #include "members/member.hpp"
 #include "members/roster.hpp"
 #include "orca/base/result.hpp"
@@ -33,6 +34,7 @@ class Renewal {
     std::function<void(Member&, bool keeps_states)> end;
     /// Forgets that a component has failed.
     std::function<void(const std::string& component)> pardon;
+    std::function<bool()> is_over;  ///< Returns whether the run is.
     const std::string& log_name;
   };
   struct Wish {
@@ -41,15 +43,13 @@ class Renewal {
     std::function<void()>
         go_back;  ///< Makes the graph of before that of the run. None of the processes runs.
   };
-  /// Takes the outcome: an error says why the processes run as before.
-  using Done = std::function<void(const Status&)>;
 
-  explicit Renewal(Place place) : place_(std::move(place)) {}
+  Renewal(Conductor& conductor, Place place) : conductor_(conductor), place_(std::move(place)) {}
 
+  /// Does what is wished. A job of the conductor waits for that.
+  /// @errors  why the processes run as before, or not at all, because the run is over.
   /// @pre  none is under way.
-  void begin(Wish wish, Done done);
-  /// Goes on. Call it often, before the processes are started that are due.
-  void turn(Moment now);
+  Status carry_out(const Wish& wish);
   [[nodiscard]] bool is_under_way() const { return phase_ != Phase::none; }
   /// Notes that a process is about to be started. One that begins with the new graph goes back with the others.
   void note_start(const Member& member);
@@ -62,23 +62,21 @@ class Renewal {
  private:
   enum class Phase { none, ending, beginning, ending_again, beginning_again };
 
-  void end_all();
-  void start_all(Moment now);
-  void go_back(const Error& reason);
-  void finish(const Status& outcome);
+  Status go_over();
+  Error go_back(const Starter::States& states);
+  void end_all(Phase phase);
+  void begin_all(Phase phase);
   [[nodiscard]] Members members() const;
   [[nodiscard]] bool has_ended() const;
   [[nodiscard]] bool is_up() const;
 
+  Conductor& conductor_;
   const Place place_;
   Phase phase_ = Phase::none;
   Wish wish_;
   std::set<std::string> others_;    // processes that have begun with the new graph on their own
   std::set<std::string> finished_;  // those of the wish that had ended for good before
-  Starter::States states_;          // of the components when their processes ended
-  Done done_;
   std::optional<Error> failure_;
-  Moment limit_{};  // for all to come up
 };
 
 }  // namespace orca::supervisor

@@ -168,14 +168,14 @@ void Starter::renew_others(const Members& started, Wiring::Lots& lots) {
   }
 }
 
-BringUp::Plan Starter::plan(const Members& members) const {
-  BringUp::Plan plan{members, {}};
+StartOrder Starter::in_start_order(const Members& members) const {
+  StartOrder components;
   for (const std::string& component : graph::start_order(graph_)) {
     const std::string& process = graph_.find_component(component)->process;
     const auto member = std::ranges::find(members, process, [](const Member* m) { return m->name(); });
-    if (member != members.end()) plan.components.emplace_back(*member, component);
+    if (member != members.end()) components.emplace_back(*member, component);
   }
-  return plan;
+  return components;
 }
 
 std::vector<std::string> Starter::components_of(const Member& member) const {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "bring_up.hpp"
 #include "members/member.hpp"
 #include "members/roster.hpp"
 #include "orca/base/result.hpp"
@@ -18,6 +17,10 @@
 #include "wiring.hpp"
 
 namespace orca::supervisor {
+
+inline constexpr Duration kStartLimit = 15s;  ///< For processes that are started together to come up.
+
+using StartOrder = std::vector<std::pair<Member*, std::string>>;  ///< Components, with their processes.
 
 /// Starts host processes and gives them what they need: the graph, the run page, the memory of their edges.
 ///
@@ -37,15 +40,15 @@ class Starter {
           Roster& roster);
 
   /// Starts processes that do not run, all together, and renews the edges to those that do. One that is asleep takes over
-  /// the edges that wait for it. The bring-up begins when the caller calls begin() with the returned setups.
+  /// the edges that wait for it. They come up when the caller passes the returned setups on.
   Begun start(const Members& members);
 
   /// Renews the edges of a process on demand that has ended. They wait for it.
   /// @errors  as RingSegment::create(); unavailable for exhaustion.
   Status renew_edges_of(const Member& member);
 
-  /// Returns the plan by which these processes come up.
-  [[nodiscard]] BringUp::Plan plan(const Members& members) const;
+  /// Returns the components of processes in the order in which they are configured.
+  [[nodiscard]] StartOrder in_start_order(const Members& members) const;
 
   /// Returns the names of the components that run in a process.
   [[nodiscard]] std::vector<std::string> components_of(const Member& member) const;

@@ -49,12 +49,12 @@ std::string text(const Order& order) {
 struct Planned {
   Words words;
   std::vector<JointStep> steps;
-  std::shared_ptr<std::set<std::string>> left = std::make_shared<std::set<std::string>>();
+  std::unique_ptr<std::set<std::string>> left = std::make_unique<std::set<std::string>>();
 };
 
 Planned plan(const Rewirings& rewirings, const std::set<std::string>& lost = {}) {
   Planned planned;
-  planned.steps = edge_steps(four_components(), rewirings, lost, planned.left).value();
+  planned.steps = edge_steps(four_components(), rewirings, lost, *planned.left).value();
   for (JointStep& step : planned.steps) {
     CHECK_FALSE(step.may_obey_late);
     const std::optional<ThereAndBack> orders = *step.make();

@@ -69,7 +69,11 @@ class Desk {
     SocketPair pair = std::move(make_socket_pair()).value();
     const auto there = std::make_shared<Channel>(std::move(pair.supervisor));
     Channel here(std::move(pair.host));
-    action(operating_, std::make_shared<Reply>(there, 1, false));
+    const auto order = [&] { action(operating_, std::make_shared<Reply>(there, 1, false)); };
+    conductor_.run([&] {
+      conductor_.begin("order", order);
+      conductor_.go_on(Moment{});
+    });
     ControlAnswer answer = std::move(decode_answer(std::move(here.wait_for_message(kLimit)).value())).value();
     const Status outcome = std::get<EndAnswer>(answer).outcome;
     return outcome.ok() ? "" : outcome.error().text();
@@ -81,11 +85,11 @@ class Desk {
   std::string refusal_of_set_before(const Words& words, const std::function<void(graph::Graph&)>& change) {
     return refusal_of([&](Operating& desk, const ReplyPtr& reply) {
       const auto make = [&]() -> std::optional<ThereAndBack> {
-        desk.set(words, reply);
+        conductor_.begin("set", [&, reply] { desk.set(words, reply); });
         change(graph_);
         return std::nullopt;
       };
-      desk.carry_out({{"goto", make, [](bool) {}}}, [](const Status&) {});
+      CHECK(desk.carry_out({{"goto", make, [](bool) {}}}).ok());
     });
   }
   std::string refusal_of_suspend(const std::string& name) {
@@ -107,8 +111,9 @@ class Desk {
   Member q_{graph::ProcessNode{.name = "q"}, 1, 1};
   const Members members_{&p_, &q_};
   const SystemNames names_{graph_, graph_, facts_.ports, members_};
+  Conductor conductor_;
   Operating operating_{
-      graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
+      conductor_, graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
 };
 
 }  // namespace
