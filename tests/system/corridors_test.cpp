@@ -86,15 +86,15 @@ void check_widths(const Course& course, int step, double passes, int widest = 20
 }  // namespace
 
 TEST_CASE("no avoider takes longer for a wider corridor, nor touches its walls", "[system][corridors]") {
-  check_widths({"LaserAvoid", "pioneer_2dx"}, 12, 0.7);
-  check_widths({"LaserAvoid", "omni"}, 14, 0.7);
-  check_widths({"SonarAvoid", "nomad_scout"}, 12, 0.8);
-  check_widths({"SonarAvoid", "peoplebot"}, 14, 0.74);
+  check_widths({"LaserAvoid", "pioneer_2dx"}, 24, 0.7);
+  check_widths({"LaserAvoid", "omni"}, 28, 0.7);
+  check_widths({"SonarAvoid", "nomad_scout"}, 24, 0.8);
+  check_widths({"SonarAvoid", "peoplebot"}, 28, 0.74);
   for (const char* const avoider : {"VfhPlus", "Dwa", "NdPlus", "GridPlanner"})
-    check_widths({avoider, "pioneer_2dx"}, 28, 0.9);
-  check_widths({"GridPlanner", "barn_base"}, 2, 0.6, 72);
-  check_widths({"NdPlus", "create2"}, 4, 0.7, 80);
-  check_widths({"PotentialField", "barn_base"}, 28, kFieldIsSteady);
+    check_widths({avoider, "pioneer_2dx"}, 56, 0.9);
+  check_widths({"GridPlanner", "barn_base"}, 4, 0.6, 72);
+  check_widths({"NdPlus", "create2"}, 8, 0.7, 80);
+  check_widths({"PotentialField", "barn_base"}, 56, kFieldIsSteady);
 }
 
 TEST_CASE("no robot with any avoider takes longer for a corridor that is 2 cm wider", "[.][slow]") {

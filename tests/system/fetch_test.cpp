@@ -7,6 +7,7 @@
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -41,7 +42,7 @@ std::string store_without(const TempFolder& folder, const std::string& pattern) 
 
 TEST_CASE("the can stands on the table's place afterwards", "[system][gripper]") {
   const std::string realism = GENERATE(as<std::string>{}, "nominal", "harsh");
-  for (int seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= part_of(10); ++seed) {
     const Run run = fetch({"--seed", std::to_string(seed), "--set", "realism=" + realism});
     CAPTURE(realism, seed);
     INFO(run.err);

@@ -5,6 +5,7 @@
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -55,7 +56,7 @@ double first_time(const Run& run, const std::string& text) {
 
 // Checks that the Pioneer reaches the three goals of its graph within the time and touches nothing.
 void check_three_goals(const Words& more) {
-  for (int seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= part_of(10); ++seed) {
     const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed",
                                        std::to_string(seed), "--until", "120 s"} +
                                  virtual_clock() + more);
@@ -161,16 +162,13 @@ TEST_CASE("the same run with LaserAvoid has the same trace", "[system][laser]") 
   CHECK(run.trace_hash() == behind_the_pillar().trace_hash());
 }
 
-TEST_CASE(
-    "the Pioneer drives to three goals in different rooms by its laser and touches nothing, for ten seeds",
-    "[system][laser][pioneer]") {
+TEST_CASE("the Pioneer drives to three goals in different rooms by its laser and touches nothing",
+          "[system][laser][pioneer]") {
   check_three_goals({});
 }
 
-TEST_CASE(
-    "with VfhPlus instead of LaserAvoid the Pioneer reaches the same goals and touches nothing, for ten "
-    "seeds",
-    "[system][laser][pioneer][vfh]") {
+TEST_CASE("with VfhPlus instead of LaserAvoid the Pioneer reaches the same goals and touches nothing",
+          "[system][laser][pioneer][vfh]") {
   check_three_goals(kVfhPlus);
 }
 
@@ -206,15 +204,14 @@ TEST_CASE("Dwa, NdPlus and PotentialField have exactly the ports of LaserAvoid",
     CHECK(ports_of(type) == ports_of("orca.LaserAvoid"));
 }
 
-TEST_CASE("with Dwa the Pioneer reaches its goals and touches nothing, for ten seeds, at harsh realism too",
+TEST_CASE("with Dwa the Pioneer reaches its goals and touches nothing, at harsh realism too",
           "[system][laser][pioneer][dwa]") {
   check_three_goals(kDwa);
   check_three_goals(kDwa + Words{"--set", "realism=harsh"});
 }
 
-TEST_CASE(
-    "with NdPlus the Pioneer reaches its goals and touches nothing, for ten seeds, at harsh realism too",
-    "[system][laser][pioneer][nd]") {
+TEST_CASE("with NdPlus the Pioneer reaches its goals and touches nothing, at harsh realism too",
+          "[system][laser][pioneer][nd]") {
   check_three_goals(kNdPlus);
   check_three_goals(kNdPlus + Words{"--set", "realism=harsh"});
 }

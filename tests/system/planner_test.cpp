@@ -4,6 +4,7 @@
 #include <string>
 
 #include "deployer.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -27,7 +28,7 @@ Run to_the_goal(const std::string& world, int seed, const Words& more = {}) {
 }
 
 void check_twenty_seeds(const std::string& world, const Words& more = {}) {
-  for (int seed = 1; seed <= 20; ++seed) {
+  for (int seed = 1; seed <= part_of(20); ++seed) {
     const Run run = to_the_goal(world, seed, more);
     INFO("seed " << seed << "\n" << run.out << run.err);
     CHECK(run.contacts().empty());
@@ -39,7 +40,7 @@ void check_twenty_seeds(const std::string& world, const Words& more = {}) {
 
 TEST_CASE("the Pioneer plans its way to three goals of the office and touches nothing", "[system][planner]") {
   for (const char* realism : {"nominal", "harsh"})
-    for (int seed = 1; seed <= 3; ++seed) {
+    for (int seed = 1; seed <= part_of(3); ++seed) {
       const Run run = office({"--seed", std::to_string(seed), "--set", std::string("realism=") + realism});
       INFO(realism << ", seed " << seed << "\n" << run.out << run.err);
       CHECK(run.exit_code() == 0);
@@ -85,15 +86,12 @@ TEST_CASE("a goal that no way leads to is given up, and the next one is reached"
   CHECK(run.contacts().empty());
 }
 
-TEST_CASE(
-    "it gets round the U that a robot which drives straight to the goal ends in, with any of twenty seeds",
-    "[system][planner]") {
+TEST_CASE("it gets round the U that a robot which drives straight to the goal ends in", "[system][planner]") {
   check_twenty_seeds(source_file("sim/worlds/u_trap.xml"));
 }
 
-TEST_CASE(
-    "it drives through doors that are 10 cm wider than the robot without a contact, with any of twenty seeds",
-    "[system][planner]") {
+TEST_CASE("it drives through doors that are 10 cm wider than the robot without a contact",
+          "[system][planner]") {
   const TempFolder folder;
   check_twenty_seeds(folder.write("doors.xml", kNarrowDoors));
 }

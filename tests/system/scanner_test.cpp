@@ -4,6 +4,7 @@
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -32,7 +33,7 @@ Run drive_shipped(const Words& more) {
 }  // namespace
 
 TEST_CASE("what a scanner on a post sees saves the robot a way that is closed", "[system][scanner]") {
-  for (int seed = 1; seed <= 5; ++seed) {
+  for (int seed = 1; seed <= part_of(5); ++seed) {
     const Words words{"--seed", std::to_string(seed)};
     const Run with = drive_shipped(words);
     const Run without = drive(kScanner, "", words);

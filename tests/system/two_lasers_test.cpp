@@ -4,6 +4,7 @@
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -42,7 +43,7 @@ std::string depot_with_outage(const TempFolder& folder, const std::string& laser
 
 TEST_CASE("a robot with two lasers drives round what only one of them sees", "[system][lasers]") {
   const std::string realism = GENERATE(as<std::string>{}, "nominal", "harsh");
-  for (int seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= part_of(10); ++seed) {
     const Run run = drive_shipped({"--seed", std::to_string(seed), "--set", "realism=" + realism});
     CAPTURE(realism, seed);
     INFO(run.err);
@@ -63,7 +64,7 @@ TEST_CASE("with each of the avoid behaviours that listen to lasers it does", "[s
 }
 
 TEST_CASE("without the second laser it drives into a pallet", "[system][lasers]") {
-  for (int seed = 1; seed <= 5; ++seed) {
+  for (int seed = 1; seed <= part_of(5); ++seed) {
     const Run run = drive_changed(kSecondLaser, "", {"--seed", std::to_string(seed)});
     CAPTURE(seed);
     INFO(run.err);
