@@ -72,17 +72,10 @@ class ComponentReader {
     const Text* name = node_.known("hardware");
     if (name == nullptr) return nullptr;
     const CheckedHardware* hardware = model_.find_hardware(name->value);
-    if (hardware == nullptr && !model_.excused.contains(name->value)) report_no_hardware(*name);
+    if (hardware == nullptr)
+      report_unknown(node_, *name, codes::kUnknownHardware, "hardware", model_.hardware_names, "", model_,
+                     report_);
     return hardware;
-  }
-
-  void report_no_hardware(const Text& name) {
-    const std::vector<std::string>& names = model_.hardware_names;
-    const std::string hint = report_.hint_in_contexts(name.value, names);
-    if (model_.parts_missing && hint.empty()) return;
-    report_.error(codes::kUnknownHardware, name.position,
-                  node_.title() + ": there is no hardware " + in_quotes(name.value) +
-                      "; the graph has: " + listed(names) + hint);
   }
 
   void check_hardware_wanted() {

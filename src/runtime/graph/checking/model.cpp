@@ -6,6 +6,17 @@
 
 namespace orca::graph {
 
+void report_unknown(const Node& node, const Text& name, const char* code, const std::string& kind,
+                    const std::vector<std::string>& names, const std::string& remedy, const Model& model,
+                    Report& report) {
+  if (model.excused.contains(name.value)) return;
+  const std::string hint = report.hint_in_contexts(name.value, names);
+  if (model.parts_missing && hint.empty()) return;
+  report.error(code, name.position,
+               node.title() + ": there is no " + kind + " " + in_quotes(name.value) +
+                   "; the graph has: " + listed(names) + (hint.empty() ? remedy : hint));
+}
+
 bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
                             const Model& model, Report& report) {
   if (model.component(name) != nullptr) return true;

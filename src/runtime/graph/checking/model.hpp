@@ -123,6 +123,14 @@ struct Model {
   }
 };
 
+// Reports that a part names something that there is not, unless that may follow from an error that is reported already.
+// @param kind    "machine"
+// @param names   those that there are
+// @param remedy  the end of the message if no name is near
+void report_unknown(const Node& node, const Text& name, const char* code, const std::string& kind,
+                    const std::vector<std::string>& names, const std::string& remedy, const Model& model,
+                    Report& report);
+
 // Returns whether `name` is a component. Reports at `place` that it is not, unless that is excused.
 bool check_component_exists(const std::string& name, const xml::Position& place, const std::string& title,
                             const Model& model, Report& report);

@@ -75,13 +75,8 @@ class Placement {
 
   bool check_exists(const Node& node, const Text& name) {
     if (model_.find_process(name.value) != nullptr) return true;
-    if (model_.excused.contains(name.value)) return false;
-    const std::string hint = report_.hint_in_contexts(name.value, model_.process_names);
-    if (model_.parts_missing && hint.empty()) return false;
-    report_.error(codes::kUnknownProcess, name.position,
-                  node.title() + ": there is no process " + in_quotes(name.value) +
-                      "; the graph has: " + listed(model_.process_names) +
-                      (hint.empty() ? "; declare it: <process name=" + in_quotes(name.value) + "/>" : hint));
+    report_unknown(node, name, codes::kUnknownProcess, "process", model_.process_names,
+                   "; declare it: <process name=" + in_quotes(name.value) + "/>", model_, report_);
     return false;
   }
 

@@ -117,7 +117,8 @@ class ProcessReader {
       checked_.value.machine = name->value;
       checked_.placed = true;
     } else {
-      report_unknown_machine(*name);
+      report_unknown(node_, *name, codes::kUnknownMachine, "machine", model_.machine_names, "", model_,
+                     report_);
     }
   }
 
@@ -125,16 +126,6 @@ class ProcessReader {
     report_.error(
         codes::kNoMachine, node_.place("machine"),
         node_.title() + " names no machine; add machine=\"NAME\", one of: " + listed(model_.machine_names));
-  }
-
-  void report_unknown_machine(const Text& name) {
-    if (model_.excused.contains(name.value)) return;
-    const std::vector<std::string>& names = model_.machine_names;
-    const std::string hint = report_.hint_in_contexts(name.value, names);
-    if (model_.parts_missing && hint.empty()) return;
-    report_.error(codes::kUnknownMachine, name.position,
-                  node_.title() + ": there is no machine " + in_quotes(name.value) +
-                      "; the graph has: " + listed(names) + hint);
   }
 
   const Node& node_;

@@ -24,10 +24,10 @@ struct HardwareNode {
   std::string type;                    ///< E.g. "orca.hw.Sim".
   std::string process = kMainProcess;  ///< That of all components that are bound to it.
   Params params;
-  xml::Position position;  ///< Place of its element; not compared.
-  Params here{};           ///< As of a component.
+  Place position;
+  Uncompared<Params> here{};  ///< As of a component.
 
-  friend bool operator==(const HardwareNode& a, const HardwareNode& b);
+  friend bool operator==(const HardwareNode&, const HardwareNode&) = default;
 };
 
 /// A port of a component of the graph, by its name in the graph.
@@ -67,21 +67,21 @@ struct ComponentNode {
   Params params;
   Properties properties;                     ///< Those that the graph declares.
   std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.
-  xml::Position position;                    ///< Place of its element; not compared.
-  /// Defaults that are files of the folder in which the program was started; not compared. print() leaves out parameters that
-  /// have them still, because a relative path in a graph starts at the graph's file.
-  Params here{};
+  Place position;
+  /// Defaults that are files of the folder in which the program was started. print() leaves out parameters that have
+  /// them still, because a relative path in a graph starts at the graph's file.
+  Uncompared<Params> here{};
 
-  friend bool operator==(const ComponentNode& a, const ComponentNode& b);
+  friend bool operator==(const ComponentNode&, const ComponentNode&) = default;
 };
 
 /// Components that an operator orders about by one name.
 struct GroupNode {
   std::string name;                     ///< No component has the same.
   std::vector<std::string> components;  ///< At least one, each once.
-  xml::Position position;               ///< Place of its element; not compared.
+  Place position;
 
-  friend bool operator==(const GroupNode& a, const GroupNode& b);
+  friend bool operator==(const GroupNode&, const GroupNode&) = default;
 };
 
 /// The carrier of an edge's objects.
@@ -108,8 +108,8 @@ struct Edge {
   /// Policy of this edge alone, its min_interval always 0. What the graph does not set is the default of the
   /// receiving port.
   QueuePolicy queue;
-  Duration interval{0};     ///< Push: deliver at most one object per interval; 0: every one.
-  xml::Position position;   ///< Place of its element; not compared.
+  Duration interval{0};  ///< Push: deliver at most one object per interval; 0: every one.
+  Place position;
   bool late_bound = false;  ///< Made from a candidate: subscribed to only once the component names it.
   Link link = Link::local;  ///< What the graph says; else chosen by the processes and machines of its ends.
   /// Rank, from 1, among the edges of a proxy that uses one of them at a time; 0: it uses this edge only, or all.
@@ -123,16 +123,16 @@ struct Edge {
   /// Returns what people and programs call it; no other edge of the graph is called so: "avoid.motion to fuser.motion".
   [[nodiscard]] std::string name() const { return from.text() + " to " + to.text(); }
 
-  friend bool operator==(const Edge& a, const Edge& b);
+  friend bool operator==(const Edge&, const Edge&) = default;
 };
 
 /// Another graph that a run goes over to.
 struct PlannedChange {
-  std::string file;        ///< Absolute, if a graph names it.
-  Duration at{0};          ///< [s of the run's clock] since everything was up.
-  xml::Position position;  ///< Place of its element; not compared.
+  std::string file;  ///< Absolute, if a graph names it.
+  Duration at{0};    ///< [s of the run's clock] since everything was up.
+  Place position;
 
-  friend bool operator==(const PlannedChange& a, const PlannedChange& b);
+  friend bool operator==(const PlannedChange&, const PlannedChange&) = default;
 };
 
 /// A system graph that was checked against the contracts of its plugins. Every name in it exists, every edge

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/executive.hpp"
@@ -53,6 +54,15 @@ enum class OnLoss {
   return "?";
 }
 
+/// A value that does not count when parts of a graph are compared.
+template <class Value>
+struct Uncompared : Value {
+  Uncompared() = default;
+  Uncompared(Value value) : Value(std::move(value)) {}
+  friend bool operator==(const Uncompared&, const Uncompared&) { return true; }
+};
+using Place = Uncompared<xml::Position>;  ///< Of the element from which a part was read.
+
 /// A host process of the system. Virtual time takes no notice of it: all parts run in one process there.
 struct ProcessNode {
   std::string name{};
@@ -67,9 +77,9 @@ struct ProcessNode {
   bool on_demand = false;  ///< Started when something in it is needed.
   Duration idle_time{0};   ///< Time [s] without use after which an on-demand one ends; 0: it stays.
   Duration hang_limit{std::chrono::milliseconds(500)};  ///< Silence [s] after which it counts as hung.
-  xml::Position position{};                             ///< Place of its element; not compared.
+  Place position{};
 
-  friend bool operator==(const ProcessNode& a, const ProcessNode& b);
+  friend bool operator==(const ProcessNode&, const ProcessNode&) = default;
 };
 
 /// A computer of the system.
@@ -79,9 +89,9 @@ struct MachineNode {
   std::string interface {};       ///< Network interface for links to other machines, "wlan0"; empty: any.
   OnLoss on_loss = OnLoss::stop;  ///< What the other machines do when this one goes away.
   Duration loss_limit{std::chrono::seconds(1)};  ///< Silence [s] after which it counts as gone.
-  xml::Position position{};                      ///< Place of its element; not compared.
+  Place position{};
 
-  friend bool operator==(const MachineNode& a, const MachineNode& b);
+  friend bool operator==(const MachineNode&, const MachineNode&) = default;
 };
 
 /// The rules by which processes are started again.
