@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case_in.hpp"
 #include "orca/base/executive.hpp"
 
 namespace orca::test {
@@ -28,6 +29,11 @@ void run_on(const ExecutiveOptions& options, const std::function<void(Executive&
 /// Runs `body` on each kind of executive, one after the other; a failure names the executive.
 void run_on_each(const std::vector<ExecutiveOptions>& kinds, const std::function<void(Executive&)>& body);
 
+/// As run_on_each(), for each kind that works in this build.
+inline void on_all_executives(const std::function<void(Executive&)>& body) {
+  run_on_each(all_executives(), body);
+}
+
 /// Waits until `condition` holds, for at most 5 s. Serves to wait for what another strand will do soon.
 ///
 /// @return whether it holds.
@@ -37,3 +43,7 @@ void run_on_each(const std::vector<ExecutiveOptions>& kinds, const std::function
 inline void sleep(Executive& executive, Duration time) { executive.sleep_until(executive.now() + time); }
 
 }  // namespace orca::test
+
+/// A test case that runs on each kind of executive, one after the other; its body has `executive`.
+#define EXECUTIVE_CASE(title, tags) \
+  CASE_IN(orca::test::on_all_executives, (orca::Executive & executive), title, tags)

@@ -77,44 +77,38 @@ TEST_CASE("a component may give the port itself, instead of its name, as the por
   });
 }
 
-TEST_CASE("wait_until ends as soon as an arrival makes its condition true", "[component]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Host host(executive, "both");
-    Both both(host);
-    Source source(executive);
-    REQUIRE(LocalLinks().connect(source.endpoint("out"), host.peer().endpoint("left")).ok());
-    both.left.subscribe();
-    bool holds = false;
-    Script script(host.peer(),
-                  [&] { holds = both.wait_until([&] { return both.left.new_data_arrived(); }, 1h); });
-    CHECK_FALSE(script.ends_within(10ms));
-    source.out.push(full_stop());
-    REQUIRE(script.ends_within(5s));
-    CHECK(holds);
-  });
+EXECUTIVE_CASE("wait_until ends as soon as an arrival makes its condition true", "[component]") {
+  Host host(executive, "both");
+  Both both(host);
+  Source source(executive);
+  REQUIRE(LocalLinks().connect(source.endpoint("out"), host.peer().endpoint("left")).ok());
+  both.left.subscribe();
+  bool holds = false;
+  Script script(host.peer(),
+                [&] { holds = both.wait_until([&] { return both.left.new_data_arrived(); }, 1h); });
+  CHECK_FALSE(script.ends_within(10ms));
+  source.out.push(full_stop());
+  REQUIRE(script.ends_within(5s));
+  CHECK(holds);
 }
 
-TEST_CASE("wait_until gives up at its limit", "[component]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Host host(executive, "both");
-    Both both(host);
-    const TimePoint before = executive.now();
-    CHECK_FALSE(both.wait_until([] { return false; }, 20ms));
-    const Duration waited = executive.now() - before;
-    CHECK(waited >= 20ms);
-    if (executive.is_virtual()) CHECK(waited == 20ms);
-  });
+EXECUTIVE_CASE("wait_until gives up at its limit", "[component]") {
+  Host host(executive, "both");
+  Both both(host);
+  const TimePoint before = executive.now();
+  CHECK_FALSE(both.wait_until([] { return false; }, 20ms));
+  const Duration waited = executive.now() - before;
+  CHECK(waited >= 20ms);
+  if (executive.is_virtual()) CHECK(waited == 20ms);
 }
 
-TEST_CASE("wait_until does not hold a component that must leave its lap", "[component]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Host host(executive, "both");
-    Both both(host);
-    Script script(host.peer(), [&] { both.wait_until([] { return false; }, 1h); });
-    host.peer().leave();
-    REQUIRE(script.ends_within(5s));
-    CHECK(script.interrupted());
-  });
+EXECUTIVE_CASE("wait_until does not hold a component that must leave its lap", "[component]") {
+  Host host(executive, "both");
+  Both both(host);
+  Script script(host.peer(), [&] { both.wait_until([] { return false; }, 1h); });
+  host.peer().leave();
+  REQUIRE(script.ends_within(5s));
+  CHECK(script.interrupted());
 }
 
 TEST_CASE("the sender of readings that say nothing valid is named once in ten seconds", "[component]") {

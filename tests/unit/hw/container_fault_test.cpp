@@ -33,74 +33,65 @@ long place_of(const Diary& diary, const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("a device that cannot be opened is a fault with the driver's reason", "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive, {{"open", cable_is_off}});
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.scout.fault() == "the cable is off");
-    CHECK(robot.diary.has("log: the cable is off"));
-    robot.scout.acquire();
-    sleep(executive, 20ms);
-    CHECK(robot.scout.state() == HardwareState::fault);
-    CHECK_FALSE(robot.diary.has("start"));
-  });
+EXECUTIVE_CASE("a device that cannot be opened is a fault with the driver's reason", "[hw][fault]") {
+  RunningScout robot(executive, {{"open", cable_is_off}});
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.scout.fault() == "the cable is off");
+  CHECK(robot.diary.has("log: the cable is off"));
+  robot.scout.acquire();
+  sleep(executive, 20ms);
+  CHECK(robot.scout.state() == HardwareState::fault);
+  CHECK_FALSE(robot.diary.has("start"));
 }
 
-TEST_CASE("a device that cannot be started is a fault", "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive, {{"start", cable_is_off}});
-    use_and_drive(robot);
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.scout.fault() == "the cable is off");
-    CHECK_FALSE(robot.diary.has("-> Active"));
-    CHECK_FALSE(robot.diary.has("drive 0.5 0.25"));
-  });
+EXECUTIVE_CASE("a device that cannot be started is a fault", "[hw][fault]") {
+  RunningScout robot(executive, {{"start", cable_is_off}});
+  use_and_drive(robot);
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.scout.fault() == "the cable is off");
+  CHECK_FALSE(robot.diary.has("-> Active"));
+  CHECK_FALSE(robot.diary.has("drive 0.5 0.25"));
 }
 
-TEST_CASE(
+EXECUTIVE_CASE(
     "when a device fails while the base moves, the motors are commanded to stand and the device is stopped",
     "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    std::atomic<bool> cable_on{true};
-    RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
-    use_and_drive(robot);
-    REQUIRE(robot.notes("drive 0.5 0.25"));
-    cable_on = false;
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.scout.fault() == "the cable is off");
-    CHECK(place_of(robot.diary, "drive 0 0") < place_of(robot.diary, "-> Fault"));
-    CHECK(place_of(robot.diary, "stop") < place_of(robot.diary, "-> Fault"));
-    CHECK(place_of(robot.diary, "drive 0 0") < place_of(robot.diary, "stop"));
-  });
+  std::atomic<bool> cable_on{true};
+  RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
+  use_and_drive(robot);
+  REQUIRE(robot.notes("drive 0.5 0.25"));
+  cable_on = false;
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.scout.fault() == "the cable is off");
+  CHECK(place_of(robot.diary, "drive 0 0") < place_of(robot.diary, "-> Fault"));
+  CHECK(place_of(robot.diary, "stop") < place_of(robot.diary, "-> Fault"));
+  CHECK(place_of(robot.diary, "drive 0 0") < place_of(robot.diary, "stop"));
 }
 
-TEST_CASE("after a fault nothing moves: commands are refused, and new users change nothing", "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    std::atomic<bool> cable_on{false};
-    RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
-    REQUIRE(robot.gets(HardwareState::fault));
-    cable_on = true;
-    robot.scout.acquire();
-    robot.scout.release();
-    robot.scout.acquire();
-    sleep(executive, 100ms);
-    CHECK(robot.scout.state() == HardwareState::fault);
-    const Status refused = robot.scout.command(*turn(0.25, 0.5));
-    REQUIRE_FALSE(refused.ok());
-    CHECK_THAT(refused.error().text(), Contains("Fault"));
-    CHECK_FALSE(robot.diary.has("start"));
-  });
+EXECUTIVE_CASE("after a fault nothing moves: commands are refused, and new users change nothing",
+               "[hw][fault]") {
+  std::atomic<bool> cable_on{false};
+  RunningScout robot(executive, {{"poll", [&] { return cable_on ? ok() : cable_is_off(); }}});
+  REQUIRE(robot.gets(HardwareState::fault));
+  cable_on = true;
+  robot.scout.acquire();
+  robot.scout.release();
+  robot.scout.acquire();
+  sleep(executive, 100ms);
+  CHECK(robot.scout.state() == HardwareState::fault);
+  const Status refused = robot.scout.command(*turn(0.25, 0.5));
+  REQUIRE_FALSE(refused.ok());
+  CHECK_THAT(refused.error().text(), Contains("Fault"));
+  CHECK_FALSE(robot.diary.has("start"));
 }
 
-TEST_CASE("the first failure stays the reason of the fault", "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive,
-                       {{"drive", [] { return fail(Code::unavailable, "the motors do not answer"); }},
-                        {"stop", []() -> Status { throw std::runtime_error("the cable burns"); }}});
-    use_and_drive(robot);
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.scout.fault() == "the motors do not answer");
-  });
+EXECUTIVE_CASE("the first failure stays the reason of the fault", "[hw][fault]") {
+  RunningScout robot(executive,
+                     {{"drive", [] { return fail(Code::unavailable, "the motors do not answer"); }},
+                      {"stop", []() -> Status { throw std::runtime_error("the cable burns"); }}});
+  use_and_drive(robot);
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.scout.fault() == "the motors do not answer");
 }
 
 TEST_CASE("any exception of a driver, in any function, is a fault with its text and nothing more",
@@ -119,30 +110,26 @@ TEST_CASE("any exception of a driver, in any function, is a fault with its text 
   });
 }
 
-TEST_CASE("a driver may throw something other than a std::exception", "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive, {{"poll", []() -> Status { throw 7; }}});
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK_THAT(robot.scout.fault(), Contains("the hardware plugin threw the int"));
-  });
+EXECUTIVE_CASE("a driver may throw something other than a std::exception", "[hw][fault]") {
+  RunningScout robot(executive, {{"poll", []() -> Status { throw 7; }}});
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK_THAT(robot.scout.fault(), Contains("the hardware plugin threw the int"));
 }
 
-TEST_CASE("a driver that throws while the base moves leaves standing motors and a closed device",
-          "[hw][fault]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    std::atomic<bool> burns{false};
-    RunningScout robot(executive, {{"poll", [&]() -> Status {
-                                      if (burns) throw std::runtime_error("smoke");
-                                      return ok();
-                                    }}});
-    use_and_drive(robot);
-    REQUIRE(robot.notes("drive 0.5 0.25"));
-    burns = true;
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.diary.has("drive 0 0"));
-    CHECK(robot.diary.has("stop"));
-    robot.end();
-    CHECK(robot.diary.lines().back() == "close");
-    CHECK(robot.scout.state() == HardwareState::fault);
-  });
+EXECUTIVE_CASE("a driver that throws while the base moves leaves standing motors and a closed device",
+               "[hw][fault]") {
+  std::atomic<bool> burns{false};
+  RunningScout robot(executive, {{"poll", [&]() -> Status {
+                                    if (burns) throw std::runtime_error("smoke");
+                                    return ok();
+                                  }}});
+  use_and_drive(robot);
+  REQUIRE(robot.notes("drive 0.5 0.25"));
+  burns = true;
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.diary.has("drive 0 0"));
+  CHECK(robot.diary.has("stop"));
+  robot.end();
+  CHECK(robot.diary.lines().back() == "close");
+  CHECK(robot.scout.state() == HardwareState::fault);
 }

@@ -90,66 +90,62 @@ struct CableRobot {
 
 }  // namespace
 
-TEST_CASE("a device that is unplugged stops its motors, and works again when it is back", "[hw][recovery]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.drive();
-    robot.outside.plugged = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    CHECK_FALSE(robot.scout.is_lost());
-    CHECK(robot.scout.fault() == "no such port");
-    CHECK(robot.diary.has("drive 0 0"));
-    CHECK(robot.diary.has("-> Fault"));
-    CHECK(robot.diary.has("close"));
-    CHECK_FALSE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    sleep(executive, 1200ms);
-    CHECK(robot.scout.state() == HardwareState::backoff);
-    robot.outside.plugged = true;
-    REQUIRE(eventually(executive, [&] { return robot.scout.state() == HardwareState::active; }));
-    CHECK(robot.count("start") == 2);
-    CHECK(robot.diary.has("log: it works again"));
-  });
+PATIENT_CASE("a device that is unplugged stops its motors, and works again when it is back",
+             "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.drive();
+  robot.outside.plugged = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  CHECK_FALSE(robot.scout.is_lost());
+  CHECK(robot.scout.fault() == "no such port");
+  CHECK(robot.diary.has("drive 0 0"));
+  CHECK(robot.diary.has("-> Fault"));
+  CHECK(robot.diary.has("close"));
+  CHECK_FALSE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  sleep(executive, 1200ms);
+  CHECK(robot.scout.state() == HardwareState::backoff);
+  robot.outside.plugged = true;
+  REQUIRE(eventually(executive, [&] { return robot.scout.state() == HardwareState::active; }));
+  CHECK(robot.count("start") == 2);
+  CHECK(robot.diary.has("log: it works again"));
 }
 
-TEST_CASE("the base of a device that came back stands until an operator lets it move", "[hw][recovery]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.drive();
-    robot.outside.plugged = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    robot.outside.plugged = true;
-    REQUIRE(robot.gets(HardwareState::active));
-    const long driven = robot.count("drive 0.5 0.25");
-    const Status refused = robot.scout.command(*turn(0.25, 0.5));
-    REQUIRE_FALSE(refused.ok());
-    CHECK_THAT(refused.error().text(), Contains("it has failed; orcactl estop --release lets it move again"));
-    sleep(executive, 30ms);
-    CHECK(robot.count("drive 0.5 0.25") == driven);
-    robot.scout.wheels().let_go();
-    CHECK(robot.scout.command(*turn(0.25, 0.5)).ok());
-    CHECK(eventually(executive, [&] { return robot.count("drive 0.5 0.25") == driven + 1; }));
-  });
+EXECUTIVE_CASE("the base of a device that came back stands until an operator lets it move",
+               "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.drive();
+  robot.outside.plugged = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  robot.outside.plugged = true;
+  REQUIRE(robot.gets(HardwareState::active));
+  const long driven = robot.count("drive 0.5 0.25");
+  const Status refused = robot.scout.command(*turn(0.25, 0.5));
+  REQUIRE_FALSE(refused.ok());
+  CHECK_THAT(refused.error().text(), Contains("it has failed; orcactl estop --release lets it move again"));
+  sleep(executive, 30ms);
+  CHECK(robot.count("drive 0.5 0.25") == driven);
+  robot.scout.wheels().let_go();
+  CHECK(robot.scout.command(*turn(0.25, 0.5)).ok());
+  CHECK(eventually(executive, [&] { return robot.count("drive 0.5 0.25") == driven + 1; }));
 }
 
-TEST_CASE("a base that is held without an order is reported until it is let go, and an order is not",
-          "[hw][recovery]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.drive();
-    robot.scout.hold("emergency stop");
-    sleep(executive, 30ms);
-    CHECK(robot.scout.let_go());
-    robot.scout.wheels().hold("its button was pressed");
-    CHECK(eventually(executive, [&] { return robot.diary.has("held: its button was pressed"); }));
-    CHECK(robot.scout.let_go());
-    CHECK(eventually(executive, [&] { return robot.diary.has("obeys again"); }));
-    robot.outside.plugged = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    const std::string failed = "held: it has failed; orcactl estop --release lets it move again";
-    CHECK(eventually(executive, [&] { return robot.diary.has(failed); }));
-    CHECK_FALSE(robot.diary.has("held: emergency stop"));
-    CHECK(robot.count("obeys again") == 1);
-  });
+EXECUTIVE_CASE("a base that is held without an order is reported until it is let go, and an order is not",
+               "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.drive();
+  robot.scout.hold("emergency stop");
+  sleep(executive, 30ms);
+  CHECK(robot.scout.let_go());
+  robot.scout.wheels().hold("its button was pressed");
+  CHECK(eventually(executive, [&] { return robot.diary.has("held: its button was pressed"); }));
+  CHECK(robot.scout.let_go());
+  CHECK(eventually(executive, [&] { return robot.diary.has("obeys again"); }));
+  robot.outside.plugged = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  const std::string failed = "held: it has failed; orcactl estop --release lets it move again";
+  CHECK(eventually(executive, [&] { return robot.diary.has(failed); }));
+  CHECK_FALSE(robot.diary.has("held: emergency stop"));
+  CHECK(robot.count("obeys again") == 1);
 }
 
 TEST_CASE("a device that stays away is told once, and asked for less and less often", "[hw][recovery]") {
@@ -168,85 +164,75 @@ TEST_CASE("a device that stays away is told once, and asked for less and less of
   });
 }
 
-TEST_CASE("a device that fails for one reason after the other is told each, and comes back",
-          "[hw][recovery]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    std::atomic<const char*> reason{"the device has gone"};
-    robot.scout.trouble["open"] = robot.scout.trouble["poll"] = [&] {
-      return robot.outside.plugged ? ok() : fail(Code::unavailable, reason.load());
-    };
-    robot.drive();
-    robot.outside.plugged = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    reason = "no such port";
-    REQUIRE(eventually(executive, [&] { return robot.diary.has("log: no such port"); }));
-    REQUIRE(robot.gets(HardwareState::backoff));
-    robot.outside.plugged = true;
-    REQUIRE(robot.gets(HardwareState::active));
-    CHECK(robot.count("-> Fault") == 2);
-  });
+PATIENT_CASE("a device that fails for one reason after the other is told each, and comes back",
+             "[hw][recovery]") {
+  CableRobot robot(executive);
+  std::atomic<const char*> reason{"the device has gone"};
+  robot.scout.trouble["open"] = robot.scout.trouble["poll"] = [&] {
+    return robot.outside.plugged ? ok() : fail(Code::unavailable, reason.load());
+  };
+  robot.drive();
+  robot.outside.plugged = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  reason = "no such port";
+  REQUIRE(eventually(executive, [&] { return robot.diary.has("log: no such port"); }));
+  REQUIRE(robot.gets(HardwareState::backoff));
+  robot.outside.plugged = true;
+  REQUIRE(robot.gets(HardwareState::active));
+  CHECK(robot.count("-> Fault") == 2);
 }
 
-TEST_CASE("a device that was never there is a fault for good: the system does not start", "[hw][recovery]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.outside.plugged = false;
-    robot.scout.run();
-    REQUIRE(robot.gets(HardwareState::fault));
-    CHECK(robot.scout.is_lost());
-    sleep(executive, 700ms);
-    CHECK(robot.count("open") == 1);
-  });
+PATIENT_CASE("a device that was never there is a fault for good: the system does not start",
+             "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.outside.plugged = false;
+  robot.scout.run();
+  REQUIRE(robot.gets(HardwareState::fault));
+  CHECK(robot.scout.is_lost());
+  sleep(executive, 700ms);
+  CHECK(robot.count("open") == 1);
 }
 
-TEST_CASE("a container is probing until its driver knows what is there, and can be shut down meanwhile",
-          "[hw][recovery]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.outside.answers = false;
-    robot.scout.run();
-    REQUIRE(robot.gets(HardwareState::probing));
-    CHECK_FALSE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    sleep(executive, 500ms);  // longer than it may be silent while it works
-    CHECK(robot.scout.state() == HardwareState::probing);
-    robot.outside.answers = true;
-    REQUIRE(robot.gets(HardwareState::ready));
-    robot.scout.shut_down();
-    CHECK(robot.scout.join_until(executive.now() + 5s));
-    robot.outside.answers = false;
-    robot.scout.run();
-    REQUIRE(robot.gets(HardwareState::probing));
-    robot.scout.shut_down();
-    CHECK(robot.scout.join_until(executive.now() + 5s));
-    CHECK(robot.scout.state() == HardwareState::closed);
-    CHECK(robot.diary.lines().back() == "-> Closed");
-  });
+PATIENT_CASE("a container is probing until its driver knows what is there, and can be shut down meanwhile",
+             "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.outside.answers = false;
+  robot.scout.run();
+  REQUIRE(robot.gets(HardwareState::probing));
+  CHECK_FALSE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  sleep(executive, 500ms);  // longer than it may be silent while it works
+  CHECK(robot.scout.state() == HardwareState::probing);
+  robot.outside.answers = true;
+  REQUIRE(robot.gets(HardwareState::ready));
+  robot.scout.shut_down();
+  CHECK(robot.scout.join_until(executive.now() + 5s));
+  robot.outside.answers = false;
+  robot.scout.run();
+  REQUIRE(robot.gets(HardwareState::probing));
+  robot.scout.shut_down();
+  CHECK(robot.scout.join_until(executive.now() + 5s));
+  CHECK(robot.scout.state() == HardwareState::closed);
+  CHECK(robot.diary.lines().back() == "-> Closed");
 }
 
-TEST_CASE("a device that falls silent has failed, with advice", "[hw][recovery]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.drive();
-    robot.outside.speaks = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    CHECK(robot.scout.fault() ==
-          "nothing has come from it for 0.3 s; is it still connected and switched on?");
-    robot.outside.speaks = true;
-    REQUIRE(robot.gets(HardwareState::active));
-  });
+PATIENT_CASE("a device that falls silent has failed, with advice", "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.drive();
+  robot.outside.speaks = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  CHECK(robot.scout.fault() == "nothing has come from it for 0.3 s; is it still connected and switched on?");
+  robot.outside.speaks = true;
+  REQUIRE(robot.gets(HardwareState::active));
 }
 
-TEST_CASE("a container in backoff can be shut down", "[hw][recovery]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    CableRobot robot(executive);
-    robot.drive();
-    robot.outside.plugged = false;
-    REQUIRE(robot.gets(HardwareState::backoff));
-    robot.scout.shut_down();
-    CHECK(robot.scout.join_until(executive.now() + 5s));
-    CHECK(robot.scout.state() == HardwareState::closed);
-  });
+EXECUTIVE_CASE("a container in backoff can be shut down", "[hw][recovery]") {
+  CableRobot robot(executive);
+  robot.drive();
+  robot.outside.plugged = false;
+  REQUIRE(robot.gets(HardwareState::backoff));
+  robot.scout.shut_down();
+  CHECK(robot.scout.join_until(executive.now() + 5s));
+  CHECK(robot.scout.state() == HardwareState::closed);
 }
 
 TEST_CASE("input is read when it comes, whatever the driver's period, on every executive of the steady clock",

@@ -11,163 +11,143 @@ using Catch::Contains;
 using hw::HardwareState;
 using Lines = std::vector<std::string>;
 
-TEST_CASE("a container opens its device and does not start it before somebody uses it", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    CHECK(robot.gets(HardwareState::ready));
-    sleep(executive, 20ms);
-    CHECK(robot.diary.lines() == Lines{"-> Opening", "open", "-> Ready"});
-  });
+EXECUTIVE_CASE("a container opens its device and does not start it before somebody uses it",
+               "[hw][container]") {
+  RunningScout robot(executive);
+  CHECK(robot.gets(HardwareState::ready));
+  sleep(executive, 20ms);
+  CHECK(robot.diary.lines() == Lines{"-> Opening", "open", "-> Ready"});
 }
 
-TEST_CASE("a container that is not simulated cannot be drawn", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    CHECK(robot.scout.drawable() == nullptr);
-  });
+EXECUTIVE_CASE("a container that is not simulated cannot be drawn", "[hw][container]") {
+  RunningScout robot(executive);
+  CHECK(robot.scout.drawable() == nullptr);
 }
 
-TEST_CASE("the device runs from the first user to the last", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    REQUIRE(robot.gets(HardwareState::ready));
-    robot.scout.acquire();
-    CHECK(robot.gets(HardwareState::active));
-    robot.scout.acquire();
-    robot.scout.release();
-    sleep(executive, 20ms);
-    CHECK(robot.scout.state() == HardwareState::active);
-    robot.scout.release();
-    CHECK(robot.gets(HardwareState::ready));
-    CHECK(robot.diary.lines() ==
-          Lines{"-> Opening", "open", "-> Ready", "start", "-> Active", "stop", "-> Ready"});
-  });
+EXECUTIVE_CASE("the device runs from the first user to the last", "[hw][container]") {
+  RunningScout robot(executive);
+  REQUIRE(robot.gets(HardwareState::ready));
+  robot.scout.acquire();
+  CHECK(robot.gets(HardwareState::active));
+  robot.scout.acquire();
+  robot.scout.release();
+  sleep(executive, 20ms);
+  CHECK(robot.scout.state() == HardwareState::active);
+  robot.scout.release();
+  CHECK(robot.gets(HardwareState::ready));
+  CHECK(robot.diary.lines() ==
+        Lines{"-> Opening", "open", "-> Ready", "start", "-> Active", "stop", "-> Ready"});
 }
 
-TEST_CASE("readings come only while the device runs, and old ones are forgotten when it stops",
-          "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
-    std::atomic<int> seen{0};
-    odometry.set_sink(&robot, [&](ObjectLoan reading) {
-      ++seen;
-      return std::move(reading).seal();
-    });
-    sleep(executive, 120ms);
-    CHECK(seen == 0);
-    robot.scout.acquire();
-    CHECK(eventually(executive, [&] { return seen >= 3; }));
-    CHECK(odometry.latest());
-    robot.scout.release();
-    CHECK(robot.gets(HardwareState::ready));
-    CHECK_FALSE(odometry.latest());
-    odometry.set_sink(&robot, nullptr);
+EXECUTIVE_CASE("readings come only while the device runs, and old ones are forgotten when it stops",
+               "[hw][container]") {
+  RunningScout robot(executive);
+  hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
+  std::atomic<int> seen{0};
+  odometry.set_sink(&robot, [&](ObjectLoan reading) {
+    ++seen;
+    return std::move(reading).seal();
   });
+  sleep(executive, 120ms);
+  CHECK(seen == 0);
+  robot.scout.acquire();
+  CHECK(eventually(executive, [&] { return seen >= 3; }));
+  CHECK(odometry.latest());
+  robot.scout.release();
+  CHECK(robot.gets(HardwareState::ready));
+  CHECK_FALSE(odometry.latest());
+  odometry.set_sink(&robot, nullptr);
 }
 
-TEST_CASE("a command is carried out at once, and is zero when no other follows in time", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    const TimePoint sent = executive.now();
-    REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    CHECK(robot.notes("drive 0.5 0.25"));
-    if (executive.is_virtual()) CHECK(executive.now() - sent < 50ms);
-    CHECK_FALSE(robot.diary.has("drive 0 0"));
-    CHECK(robot.notes("drive 0 0"));
-    CHECK(executive.now() - sent >= kScoutCommandAge);
-    if (executive.is_virtual()) CHECK(executive.now() - sent <= kScoutCommandAge + 1ms);
-    CHECK(robot.scout.wheels().expired_count() == 1);
-    CHECK(robot.scout.state() == HardwareState::active);
-  });
+EXECUTIVE_CASE("a command is carried out at once, and is zero when no other follows in time",
+               "[hw][container]") {
+  RunningScout robot(executive);
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  const TimePoint sent = executive.now();
+  REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  CHECK(robot.notes("drive 0.5 0.25"));
+  if (executive.is_virtual()) CHECK(executive.now() - sent < 50ms);
+  CHECK_FALSE(robot.diary.has("drive 0 0"));
+  CHECK(robot.notes("drive 0 0"));
+  CHECK(executive.now() - sent >= kScoutCommandAge);
+  if (executive.is_virtual()) CHECK(executive.now() - sent <= kScoutCommandAge + 1ms);
+  CHECK(robot.scout.wheels().expired_count() == 1);
+  CHECK(robot.scout.state() == HardwareState::active);
 }
 
-TEST_CASE("a base that is held stops at once with a full stop, and takes commands again when it is let go",
-          "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    REQUIRE(robot.notes("drive 0.5 0.25"));
-    robot.scout.wheels().hold("emergency stop");
-    CHECK(robot.scout.command(*full_stop()).ok());
-    CHECK(robot.notes("drive 0 0"));
-    CHECK(robot.scout.command(*turn(0.25, 0.5)).error().code == Code::unavailable);
-    CHECK(robot.scout.state() == HardwareState::active);
-    robot.scout.wheels().let_go();
-    CHECK(robot.scout.command(*turn(0.5, 0.5)).ok());
-    CHECK(robot.notes("drive 0.5 0.5"));
-  });
+EXECUTIVE_CASE(
+    "a base that is held stops at once with a full stop, and takes commands again when it is let go",
+    "[hw][container]") {
+  RunningScout robot(executive);
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  REQUIRE(robot.notes("drive 0.5 0.25"));
+  robot.scout.wheels().hold("emergency stop");
+  CHECK(robot.scout.command(*full_stop()).ok());
+  CHECK(robot.notes("drive 0 0"));
+  CHECK(robot.scout.command(*turn(0.25, 0.5)).error().code == Code::unavailable);
+  CHECK(robot.scout.state() == HardwareState::active);
+  robot.scout.wheels().let_go();
+  CHECK(robot.scout.command(*turn(0.5, 0.5)).ok());
+  CHECK(robot.notes("drive 0.5 0.5"));
 }
 
-TEST_CASE("a set-point is given to the motors once, however often it is commanded", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    for (int i = 0; i < 10; ++i) {
-      CHECK(robot.scout.command(*turn(0.25, 0.5)).ok());
-      sleep(executive, 5ms);
-    }
-    const Lines lines = robot.diary.lines();
-    CHECK(std::count(lines.begin(), lines.end(), "drive 0.5 0.25") == 1);
-  });
+EXECUTIVE_CASE("a set-point is given to the motors once, however often it is commanded", "[hw][container]") {
+  RunningScout robot(executive);
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  for (int i = 0; i < 10; ++i) {
+    CHECK(robot.scout.command(*turn(0.25, 0.5)).ok());
+    sleep(executive, 5ms);
+  }
+  const Lines lines = robot.diary.lines();
+  CHECK(std::count(lines.begin(), lines.end(), "drive 0.5 0.25") == 1);
 }
 
-TEST_CASE("a base that moves is stopped before the device is stopped", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    REQUIRE(robot.notes("drive 0.5 0.25"));
-    robot.scout.release();
-    REQUIRE(robot.gets(HardwareState::ready));
-    const Lines lines = robot.diary.lines();
-    CHECK(Lines(lines.end() - 4, lines.end()) == Lines{"drive 0.5 0.25", "drive 0 0", "stop", "-> Ready"});
-  });
+EXECUTIVE_CASE("a base that moves is stopped before the device is stopped", "[hw][container]") {
+  RunningScout robot(executive);
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  REQUIRE(robot.notes("drive 0.5 0.25"));
+  robot.scout.release();
+  REQUIRE(robot.gets(HardwareState::ready));
+  const Lines lines = robot.diary.lines();
+  CHECK(Lines(lines.end() - 4, lines.end()) == Lines{"drive 0.5 0.25", "drive 0 0", "stop", "-> Ready"});
 }
 
-TEST_CASE("a command of an earlier use is not carried out in the next", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    REQUIRE(robot.gets(HardwareState::ready));
-    REQUIRE(robot.scout.wheels().command(*turn(0.25, 0.5), executive.now()).ok());
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    sleep(executive, 20ms);
-    CHECK_FALSE(robot.diary.has("drive 0.5 0.25"));
-  });
+EXECUTIVE_CASE("a command of an earlier use is not carried out in the next", "[hw][container]") {
+  RunningScout robot(executive);
+  REQUIRE(robot.gets(HardwareState::ready));
+  REQUIRE(robot.scout.wheels().command(*turn(0.25, 0.5), executive.now()).ok());
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  sleep(executive, 20ms);
+  CHECK_FALSE(robot.diary.has("drive 0.5 0.25"));
 }
 
-TEST_CASE("shutting down stops the motors and the device, and closes it", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    robot.scout.acquire();
-    REQUIRE(robot.gets(HardwareState::active));
-    REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
-    REQUIRE(robot.notes("drive 0.5 0.25"));
-    robot.end();
-    const Lines lines = robot.diary.lines();
-    CHECK(Lines(lines.end() - 5, lines.end()) ==
-          Lines{"drive 0 0", "stop", "-> Ready", "close", "-> Closed"});
-  });
+EXECUTIVE_CASE("shutting down stops the motors and the device, and closes it", "[hw][container]") {
+  RunningScout robot(executive);
+  robot.scout.acquire();
+  REQUIRE(robot.gets(HardwareState::active));
+  REQUIRE(robot.scout.command(*turn(0.25, 0.5)).ok());
+  REQUIRE(robot.notes("drive 0.5 0.25"));
+  robot.end();
+  const Lines lines = robot.diary.lines();
+  CHECK(Lines(lines.end() - 5, lines.end()) == Lines{"drive 0 0", "stop", "-> Ready", "close", "-> Closed"});
 }
 
-TEST_CASE("a command is refused unless the device runs, with its state", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    REQUIRE(robot.gets(HardwareState::ready));
-    const Status refused = robot.scout.command(*turn(0.25, 0.5));
-    REQUIRE_FALSE(refused.ok());
-    CHECK(refused.error().code == Code::unavailable);
-    CHECK_THAT(refused.error().text(), Contains("scout is Ready, not Active"));
-    robot.end();
-    CHECK_THAT(robot.scout.command(*turn(0.25, 0.5)).error().text(), Contains("Closed"));
-  });
+EXECUTIVE_CASE("a command is refused unless the device runs, with its state", "[hw][container]") {
+  RunningScout robot(executive);
+  REQUIRE(robot.gets(HardwareState::ready));
+  const Status refused = robot.scout.command(*turn(0.25, 0.5));
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::unavailable);
+  CHECK_THAT(refused.error().text(), Contains("scout is Ready, not Active"));
+  robot.end();
+  CHECK_THAT(robot.scout.command(*turn(0.25, 0.5)).error().text(), Contains("Closed"));
 }
 
 TEST_CASE("hardware without motion refuses commands", "[hw][container]") {
@@ -192,37 +172,32 @@ TEST_CASE("hardware without motion refuses commands", "[hw][container]") {
   });
 }
 
-TEST_CASE("observers of a container are woken when its state changes", "[hw][container]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Strand watcher(executive, {"watcher", 0});
-    RunningScout robot(executive);
-    robot.scout.watch(watcher);
-    const auto wait_for = [&](HardwareState state) {
-      return watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == state; });
-    };
-    CHECK(wait_for(HardwareState::ready));
-    robot.scout.acquire();
-    CHECK(wait_for(HardwareState::active));
-    robot.scout.release();
-    CHECK(wait_for(HardwareState::ready));
-    robot.end();
-  });
+EXECUTIVE_CASE("observers of a container are woken when its state changes", "[hw][container]") {
+  Strand watcher(executive, {"watcher", 0});
+  RunningScout robot(executive);
+  robot.scout.watch(watcher);
+  const auto wait_for = [&](HardwareState state) {
+    return watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == state; });
+  };
+  CHECK(wait_for(HardwareState::ready));
+  robot.scout.acquire();
+  CHECK(wait_for(HardwareState::active));
+  robot.scout.release();
+  CHECK(wait_for(HardwareState::ready));
+  robot.end();
 }
 
-TEST_CASE("an observer that has gone is not woken", "[hw][container]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    Strand watcher(executive, {"watcher", 0});
-    RunningScout robot(executive);
-    robot.scout.watch(watcher);
-    CHECK(
-        watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == HardwareState::ready; }));
-    robot.scout.watch(watcher, false);
-    watcher.pause_until(executive.now());  // takes the wake for READY, if it came after the look that saw it
-    robot.scout.acquire();
-    int looks = 0;
-    (void)watcher.wait_for(executive.now() + 300ms, [&] { return ++looks < 0; });
-    CHECK(looks == 2);  // as the wait begins and as it ends: nobody woke it between
-    CHECK(robot.scout.state() == HardwareState::active);
-    robot.end();
-  });
+PATIENT_CASE("an observer that has gone is not woken", "[hw][container]") {
+  Strand watcher(executive, {"watcher", 0});
+  RunningScout robot(executive);
+  robot.scout.watch(watcher);
+  CHECK(watcher.wait_for(executive.now() + 5s, [&] { return robot.scout.state() == HardwareState::ready; }));
+  robot.scout.watch(watcher, false);
+  watcher.pause_until(executive.now());  // takes the wake for READY, if it came after the look that saw it
+  robot.scout.acquire();
+  int looks = 0;
+  (void)watcher.wait_for(executive.now() + 300ms, [&] { return ++looks < 0; });
+  CHECK(looks == 2);  // as the wait begins and as it ends: nobody woke it between
+  CHECK(robot.scout.state() == HardwareState::active);
+  robot.end();
 }

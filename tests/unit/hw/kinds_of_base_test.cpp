@@ -58,110 +58,95 @@ struct Nomad : ScoutBase {
 
 }  // namespace
 
-TEST_CASE("a server offers a port only for what its base can do", "[hw][server][motion]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase plain(executive);
-    CHECK(offers(plain, "MotionCommandSend"));
-    CHECK_FALSE(offers(plain, "HolonomicVelocitySend"));
-    CHECK_FALSE(offers(plain, "TurretCommandSend"));
-    ScoutBase omni(executive, {}, with(idl::HOLONOMIC));
-    CHECK(offers(omni, "MotionCommandSend"));
-    CHECK(offers(omni, "HolonomicVelocitySend"));
-    CHECK_FALSE(offers(omni, "TurretCommandSend"));
-    ScoutBase nomad(executive, {}, with(idl::SYNCHRO), true);
-    CHECK_FALSE(offers(nomad, "HolonomicVelocitySend"));
-    CHECK(offers(nomad, "TurretCommandSend"));
-  });
+EXECUTIVE_CASE("a server offers a port only for what its base can do", "[hw][server][motion]") {
+  ScoutBase plain(executive);
+  CHECK(offers(plain, "MotionCommandSend"));
+  CHECK_FALSE(offers(plain, "HolonomicVelocitySend"));
+  CHECK_FALSE(offers(plain, "TurretCommandSend"));
+  ScoutBase omni(executive, {}, with(idl::HOLONOMIC));
+  CHECK(offers(omni, "MotionCommandSend"));
+  CHECK(offers(omni, "HolonomicVelocitySend"));
+  CHECK_FALSE(offers(omni, "TurretCommandSend"));
+  ScoutBase nomad(executive, {}, with(idl::SYNCHRO), true);
+  CHECK_FALSE(offers(nomad, "HolonomicVelocitySend"));
+  CHECK(offers(nomad, "TurretCommandSend"));
 }
 
-TEST_CASE("a holonomic velocity starts an idle base, is carried out, and expires", "[hw][server][motion]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {}, with(idl::HOLONOMIC));
-    base.connect("velocity", "HolonomicVelocitySend");
-    base.run();
-    REQUIRE(base.client.velocity.send(straight_velocity(0.25, -0.5)).ok());
-    CHECK(base.robot.notes("drive 0.25 0 left -0.5"));
-    CHECK(base.robot.notes("drive 0 0 left 0"));
-    CHECK(base.gets(HardwareState::ready));
-  });
+PATIENT_CASE("a holonomic velocity starts an idle base, is carried out, and expires",
+             "[hw][server][motion]") {
+  ScoutBase base(executive, {}, with(idl::HOLONOMIC));
+  base.connect("velocity", "HolonomicVelocitySend");
+  base.run();
+  REQUIRE(base.client.velocity.send(straight_velocity(0.25, -0.5)).ok());
+  CHECK(base.robot.notes("drive 0.25 0 left -0.5"));
+  CHECK(base.robot.notes("drive 0 0 left 0"));
+  CHECK(base.gets(HardwareState::ready));
 }
 
-TEST_CASE("a holonomic velocity of zero stops a moving base at once and releases it",
-          "[hw][server][motion]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {}, with(idl::HOLONOMIC));
-    base.connect("velocity", "HolonomicVelocitySend");
-    base.run();
-    REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.5)).ok());
-    REQUIRE(base.robot.notes("drive 0 0 left 0.5"));
-    const TimePoint sent = executive.now();
-    REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.0)).ok());
-    CHECK(base.robot.notes("drive 0 0 left 0"));
-    if (executive.is_virtual()) CHECK(executive.now() - sent < 10ms);
-    CHECK(base.gets(HardwareState::ready));
-  });
+EXECUTIVE_CASE("a holonomic velocity of zero stops a moving base at once and releases it",
+               "[hw][server][motion]") {
+  ScoutBase base(executive, {}, with(idl::HOLONOMIC));
+  base.connect("velocity", "HolonomicVelocitySend");
+  base.run();
+  REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.5)).ok());
+  REQUIRE(base.robot.notes("drive 0 0 left 0.5"));
+  const TimePoint sent = executive.now();
+  REQUIRE(base.client.velocity.send(straight_velocity(0.0, 0.0)).ok());
+  CHECK(base.robot.notes("drive 0 0 left 0"));
+  if (executive.is_virtual()) CHECK(executive.now() - sent < 10ms);
+  CHECK(base.gets(HardwareState::ready));
 }
 
-TEST_CASE("the command of an actuator starts idle hardware, and is not undone when the hardware is released",
-          "[hw][server][actuators]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    Nomad base(executive);
-    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
-    CHECK(base.robot.notes("turret 1.5"));
-    CHECK(base.gets(HardwareState::ready));
-    REQUIRE(base.client.motion.send(turn(0.25, 0.5)).ok());
-    CHECK(base.robot.notes("drive 0.5 0.25"));
-    CHECK(told(base) == std::vector<std::string>{"turret 1.5"});
-    CHECK_FALSE(base.robot.diary.has("halt turret"));
-  });
+PATIENT_CASE(
+    "the command of an actuator starts idle hardware, and is not undone when the hardware is released",
+    "[hw][server][actuators]") {
+  Nomad base(executive);
+  REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+  CHECK(base.robot.notes("turret 1.5"));
+  CHECK(base.gets(HardwareState::ready));
+  REQUIRE(base.client.motion.send(turn(0.25, 0.5)).ok());
+  CHECK(base.robot.notes("drive 0.5 0.25"));
+  CHECK(told(base) == std::vector<std::string>{"turret 1.5"});
+  CHECK_FALSE(base.robot.diary.has("halt turret"));
 }
 
-TEST_CASE("an actuator carries out all commands in their order", "[hw][server][actuators]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Nomad base(executive);
-    for (const double angle : {0.5, 1.0, 0.25}) REQUIRE(base.client.turret.send(pointing(angle)).ok());
-    REQUIRE(base.robot.notes("turret 0.25"));
-    CHECK(told(base) == std::vector<std::string>{"turret 0.5", "turret 1", "turret 0.25"});
-  });
+EXECUTIVE_CASE("an actuator carries out all commands in their order", "[hw][server][actuators]") {
+  Nomad base(executive);
+  for (const double angle : {0.5, 1.0, 0.25}) REQUIRE(base.client.turret.send(pointing(angle)).ok());
+  REQUIRE(base.robot.notes("turret 0.25"));
+  CHECK(told(base) == std::vector<std::string>{"turret 0.5", "turret 1", "turret 0.25"});
 }
 
-TEST_CASE("an emergency stop halts an actuator where it is, and it refuses commands until that ends",
-          "[hw][server][actuators]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Nomad base(executive);
-    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
-    REQUIRE(base.robot.notes("turret 1.5"));
-    base.seat.hold("emergency stop");
-    CHECK(base.robot.notes("halt turret"));
-    const hw::HardwareSeat::Actuator turret = base.seat.actuators().at(0);
-    const Status refused = base.seat.command(turret, sealed(pointing(0.5)));
-    REQUIRE_FALSE(refused.ok());
-    CHECK(refused.error().code == Code::unavailable);
-    CHECK_THAT(refused.error().text(), Catch::Contains("emergency stop"));
-    CHECK(base.seat.let_go());
-    CHECK(base.seat.command(turret, sealed(pointing(0.75))).ok());
-    CHECK(base.robot.notes("turret 0.75"));
-    CHECK_FALSE(base.robot.diary.has("turret 0.5"));
-  });
+EXECUTIVE_CASE("an emergency stop halts an actuator where it is, and it refuses commands until that ends",
+               "[hw][server][actuators]") {
+  Nomad base(executive);
+  REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+  REQUIRE(base.robot.notes("turret 1.5"));
+  base.seat.hold("emergency stop");
+  CHECK(base.robot.notes("halt turret"));
+  const hw::HardwareSeat::Actuator turret = base.seat.actuators().at(0);
+  const Status refused = base.seat.command(turret, sealed(pointing(0.5)));
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::unavailable);
+  CHECK_THAT(refused.error().text(), Catch::Contains("emergency stop"));
+  CHECK(base.seat.let_go());
+  CHECK(base.seat.command(turret, sealed(pointing(0.75))).ok());
+  CHECK(base.robot.notes("turret 0.75"));
+  CHECK_FALSE(base.robot.diary.has("turret 0.5"));
 }
 
-TEST_CASE("an actuator refuses what no device can carry out", "[hw][server][actuators]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Nomad base(executive);
-    const ObjectRef nowhere = sealed(pointing(std::numeric_limits<double>::quiet_NaN()));
-    const Status refused = base.seat.command(base.seat.actuators().at(0), nowhere);
-    REQUIRE_FALSE(refused.ok());
-    CHECK(refused.error().code == Code::invalid_argument);
-  });
+EXECUTIVE_CASE("an actuator refuses what no device can carry out", "[hw][server][actuators]") {
+  Nomad base(executive);
+  const ObjectRef nowhere = sealed(pointing(std::numeric_limits<double>::quiet_NaN()));
+  const Status refused = base.seat.command(base.seat.actuators().at(0), nowhere);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == Code::invalid_argument);
 }
 
-TEST_CASE("an actuator that does not do what it is told is a fault of the device",
-          "[hw][server][actuators]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Nomad base(executive,
-               {{"turret", [] { return Status(fail(Code::unavailable, "the turret is stuck")); }}});
-    REQUIRE(base.client.turret.send(pointing(1.5)).ok());
-    CHECK(base.gets(HardwareState::fault));
-    CHECK_THAT(base.seat.fault(), Catch::Contains("the turret is stuck"));
-  });
+EXECUTIVE_CASE("an actuator that does not do what it is told is a fault of the device",
+               "[hw][server][actuators]") {
+  Nomad base(executive, {{"turret", [] { return Status(fail(Code::unavailable, "the turret is stuck")); }}});
+  REQUIRE(base.client.turret.send(pointing(1.5)).ok());
+  CHECK(base.gets(HardwareState::fault));
+  CHECK_THAT(base.seat.fault(), Catch::Contains("the turret is stuck"));
 }

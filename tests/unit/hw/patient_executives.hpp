@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
+#include <functional>
 
 #include "executives.hpp"
 #include "slow_run.hpp"
 
 namespace orca::test {
 
-/// Returns the executives for cases that wait half a second or more: those with a virtual clock, and all of them in the slow
+/// Runs `body` on the executives for cases that wait half a second or more: those with a virtual clock, and all of them in the slow
 /// tests.
-inline std::vector<ExecutiveOptions> patient_executives() {
-  return is_slow_run() ? all_executives() : virtual_executives();
+inline void on_patient_executives(const std::function<void(Executive&)>& body) {
+  run_on_each(is_slow_run() ? all_executives() : virtual_executives(), body);
 }
 
 }  // namespace orca::test

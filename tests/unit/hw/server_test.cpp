@@ -63,121 +63,110 @@ TEST_CASE("without hardware a server has no ports, and cannot be configured", "[
   });
 }
 
-TEST_CASE("subscribing starts the hardware, readings come with the server's header, and leaving stops it",
-          "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive);
-    base.run();
-    REQUIRE(base.gets(HardwareState::ready));
-    base.client.sonar.subscribe();
-    base.client.odometry.subscribe();
-    CHECK(base.gets(HardwareState::active));
-    const auto sonar = base.client.sonar.get_update_wait_max(5s);
-    const auto odometry = base.client.odometry.get_update_wait_max(5s);
-    REQUIRE(sonar);
-    REQUIRE(odometry);
-    CHECK(sonar->ranges().size() == 16);
-    CHECK(odometry->origin() == "base");
-    CHECK(odometry->seq() == 1);
-    base.client.sonar.unsubscribe();
-    sleep(executive, 20ms);
-    CHECK(base.robot.scout.state() == HardwareState::active);
-    base.client.odometry.unsubscribe();
-    CHECK(base.gets(HardwareState::ready));
-  });
+EXECUTIVE_CASE(
+    "subscribing starts the hardware, readings come with the server's header, and leaving stops it",
+    "[hw][server]") {
+  ScoutBase base(executive);
+  base.run();
+  REQUIRE(base.gets(HardwareState::ready));
+  base.client.sonar.subscribe();
+  base.client.odometry.subscribe();
+  CHECK(base.gets(HardwareState::active));
+  const auto sonar = base.client.sonar.get_update_wait_max(5s);
+  const auto odometry = base.client.odometry.get_update_wait_max(5s);
+  REQUIRE(sonar);
+  REQUIRE(odometry);
+  CHECK(sonar->ranges().size() == 16);
+  CHECK(odometry->origin() == "base");
+  CHECK(odometry->seq() == 1);
+  base.client.sonar.unsubscribe();
+  sleep(executive, 20ms);
+  CHECK(base.robot.scout.state() == HardwareState::active);
+  base.client.odometry.unsubscribe();
+  CHECK(base.gets(HardwareState::ready));
 }
 
-TEST_CASE("a query to idle hardware starts it, waits for its first reading, and releases it again",
-          "[hw][server]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    ScoutBase base(executive);
-    base.run();
-    const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
-    REQUIRE(odometry.has_value());
-    CHECK((*odometry)->x() >= 1.0);
-    CHECK(base.gets(HardwareState::ready));
-    CHECK(base.robot.diary.has("stop"));
-  });
+PATIENT_CASE("a query to idle hardware starts it, waits for its first reading, and releases it again",
+             "[hw][server]") {
+  ScoutBase base(executive);
+  base.run();
+  const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
+  REQUIRE(odometry.has_value());
+  CHECK((*odometry)->x() >= 1.0);
+  CHECK(base.gets(HardwareState::ready));
+  CHECK(base.robot.diary.has("stop"));
 }
 
-TEST_CASE("a query to running hardware is answered with its latest reading", "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive);
-    base.run();
-    base.client.sonar.subscribe();
-    REQUIRE(base.client.sonar.get_update_wait_max(5s));
-    REQUIRE(base.client.sonar.get_update_wait_max(5s));
-    const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
-    const auto sonar = base.client.ask_sonar.query(make_object<idl::AskReading>(), 5s);
-    REQUIRE(odometry.has_value());
-    REQUIRE(sonar.has_value());
-    CHECK((*odometry)->x() >= 2.0);
-    CHECK((*sonar)->ranges().size() == 16);
-    CHECK((*sonar)->cause().origin() == "client");
-  });
+EXECUTIVE_CASE("a query to running hardware is answered with its latest reading", "[hw][server]") {
+  ScoutBase base(executive);
+  base.run();
+  base.client.sonar.subscribe();
+  REQUIRE(base.client.sonar.get_update_wait_max(5s));
+  REQUIRE(base.client.sonar.get_update_wait_max(5s));
+  const auto odometry = base.client.ask_odometry.query(make_object<idl::AskReading>(), 5s);
+  const auto sonar = base.client.ask_sonar.query(make_object<idl::AskReading>(), 5s);
+  REQUIRE(odometry.has_value());
+  REQUIRE(sonar.has_value());
+  CHECK((*odometry)->x() >= 2.0);
+  CHECK((*sonar)->ranges().size() == 16);
+  CHECK((*sonar)->cause().origin() == "client");
 }
 
-TEST_CASE("a query for a reading since some time gets the latest one, or learns that there is none yet",
-          "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive);
-    base.run();
-    base.client.odometry.subscribe();
-    const auto first = base.client.odometry.get_update_wait_max(5s);
-    REQUIRE(first);
-    const auto ask_since = [&](TimePoint since) {
-      auto ask = make_object<idl::AskReading>();
-      ask->since(to_time_value(since));
-      return base.client.ask_odometry.query(std::move(ask), 5s);
-    };
-    const TimePoint sensed = to_time_point(first->stamp());
-    const auto same_or_later = ask_since(sensed);
-    REQUIRE(same_or_later.has_value());
-    CHECK(to_time_point((*same_or_later)->stamp()) >= sensed);
+EXECUTIVE_CASE("a query for a reading since some time gets the latest one, or learns that there is none yet",
+               "[hw][server]") {
+  ScoutBase base(executive);
+  base.run();
+  base.client.odometry.subscribe();
+  const auto first = base.client.odometry.get_update_wait_max(5s);
+  REQUIRE(first);
+  const auto ask_since = [&](TimePoint since) {
+    auto ask = make_object<idl::AskReading>();
+    ask->since(to_time_value(since));
+    return base.client.ask_odometry.query(std::move(ask), 5s);
+  };
+  const TimePoint sensed = to_time_point(first->stamp());
+  const auto same_or_later = ask_since(sensed);
+  REQUIRE(same_or_later.has_value());
+  CHECK(to_time_point((*same_or_later)->stamp()) >= sensed);
 
-    const TimePoint before = executive.now();
-    const auto too_early = ask_since(before + 10s);
-    REQUIRE_FALSE(too_early.has_value());
-    CHECK(too_early.error().code == Code::unavailable);
-    CHECK_THAT(too_early.error().text(),
-               Contains("before the time that is asked for") && Contains("every 0.05 s"));
-    if (executive.is_virtual()) CHECK(executive.now() == before);  // it holds up nothing
-    CHECK(eventually(executive, [&] { return ask_since(before).has_value(); }));
-  });
+  const TimePoint before = executive.now();
+  const auto too_early = ask_since(before + 10s);
+  REQUIRE_FALSE(too_early.has_value());
+  CHECK(too_early.error().code == Code::unavailable);
+  CHECK_THAT(too_early.error().text(),
+             Contains("before the time that is asked for") && Contains("every 0.05 s"));
+  if (executive.is_virtual()) CHECK(executive.now() == before);  // it holds up nothing
+  CHECK(eventually(executive, [&] { return ask_since(before).has_value(); }));
 }
 
-TEST_CASE("when the hardware fails, the server fails with its reason, and a query returns it",
-          "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    std::atomic<bool> cable_on{true};
-    ScoutBase base(
-        executive,
-        {{"poll", [&] { return cable_on ? ok() : Status(fail(Code::unavailable, "the cable is off")); }}});
-    base.run();
-    base.client.odometry.subscribe();
-    REQUIRE(base.client.odometry.get_update_wait_max(5s));
-    cable_on = false;
-    CHECK(eventually(executive, [&] {
-      return base.bench.diary().has("failed in work: the hardware failed: the cable is off");
-    }));
-    const TimePoint before = executive.now();
-    const auto answer = base.client.ask_odometry.query(make_object<idl::AskReading>(), 10s);
-    REQUIRE_FALSE(answer.has_value());
-    CHECK(answer.error().code == Code::unavailable);
-    CHECK_THAT(answer.error().text(), Contains("the cable is off"));
-    if (executive.is_virtual()) CHECK(executive.now() - before < 100ms);
-  });
+EXECUTIVE_CASE("when the hardware fails, the server fails with its reason, and a query returns it",
+               "[hw][server]") {
+  std::atomic<bool> cable_on{true};
+  ScoutBase base(
+      executive,
+      {{"poll", [&] { return cable_on ? ok() : Status(fail(Code::unavailable, "the cable is off")); }}});
+  base.run();
+  base.client.odometry.subscribe();
+  REQUIRE(base.client.odometry.get_update_wait_max(5s));
+  cable_on = false;
+  CHECK(eventually(executive, [&] {
+    return base.bench.diary().has("failed in work: the hardware failed: the cable is off");
+  }));
+  const TimePoint before = executive.now();
+  const auto answer = base.client.ask_odometry.query(make_object<idl::AskReading>(), 10s);
+  REQUIRE_FALSE(answer.has_value());
+  CHECK(answer.error().code == Code::unavailable);
+  CHECK_THAT(answer.error().text(), Contains("the cable is off"));
+  if (executive.is_virtual()) CHECK(executive.now() - before < 100ms);
 }
 
-TEST_CASE("hardware that does not start fails the server with the driver's reason", "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    ScoutBase base(executive, {{"start", [] { return Status(fail(Code::unavailable, "no answer")); }}});
-    base.run();
-    base.client.odometry.subscribe();
-    CHECK(eventually(executive, [&] {
-      return base.bench.diary().has("failed in start: the hardware does not start: no answer");
-    }));
-  });
+EXECUTIVE_CASE("hardware that does not start fails the server with the driver's reason", "[hw][server]") {
+  ScoutBase base(executive, {{"start", [] { return Status(fail(Code::unavailable, "no answer")); }}});
+  base.run();
+  base.client.odometry.subscribe();
+  CHECK(eventually(executive, [&] {
+    return base.bench.diary().has("failed in start: the hardware does not start: no answer");
+  }));
 }
 
 TEST_CASE("a server of one type offers the sensors that deliver it, and no others", "[hw][server]") {
@@ -192,28 +181,26 @@ TEST_CASE("a server of one type offers the sensors that deliver it, and no other
   });
 }
 
-TEST_CASE("two servers around one sensor hand out the same readings, each an object of its own",
-          "[hw][server]") {
-  run_on_each(patient_executives(), [](Executive& executive) {
-    RunningScout robot(executive);
-    hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
-    const int first = 1;
-    const int second = 2;
-    std::vector<ObjectRef> one;
-    std::vector<ObjectRef> other;
-    const auto into = [](std::vector<ObjectRef>& list) {
-      return [&list](ObjectLoan reading) { return list.emplace_back(std::move(reading).seal()); };
-    };
-    odometry.set_sink(&first, into(one));
-    odometry.set_sink(&second, into(other));
-    robot.scout.acquire();
-    CHECK(robot.gets(HardwareState::active));
-    sleep(executive, 300ms);
-    odometry.set_sink(&first, nullptr);
-    odometry.set_sink(&second, nullptr);
-    REQUIRE(one.size() >= 2);
-    REQUIRE(other.size() == one.size());
-    CHECK(one.back().get() != other.back().get());
-    CHECK(object_cast<idl::Odometry>(one.back())->x() == object_cast<idl::Odometry>(other.back())->x());
-  });
+PATIENT_CASE("two servers around one sensor hand out the same readings, each an object of its own",
+             "[hw][server]") {
+  RunningScout robot(executive);
+  hw::SensorEndpoint& odometry = *robot.scout.sensors().at(1);
+  const int first = 1;
+  const int second = 2;
+  std::vector<ObjectRef> one;
+  std::vector<ObjectRef> other;
+  const auto into = [](std::vector<ObjectRef>& list) {
+    return [&list](ObjectLoan reading) { return list.emplace_back(std::move(reading).seal()); };
+  };
+  odometry.set_sink(&first, into(one));
+  odometry.set_sink(&second, into(other));
+  robot.scout.acquire();
+  CHECK(robot.gets(HardwareState::active));
+  sleep(executive, 300ms);
+  odometry.set_sink(&first, nullptr);
+  odometry.set_sink(&second, nullptr);
+  REQUIRE(one.size() >= 2);
+  REQUIRE(other.size() == one.size());
+  CHECK(one.back().get() != other.back().get());
+  CHECK(object_cast<idl::Odometry>(one.back())->x() == object_cast<idl::Odometry>(other.back())->x());
 }

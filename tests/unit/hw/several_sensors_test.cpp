@@ -106,41 +106,37 @@ TEST_CASE("where two devices deliver one type, the names of their ports begin wi
   });
 }
 
-TEST_CASE("each port brings the readings of its own device", "[hw][server]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Lasers robot(executive);
-    robot.client.front.subscribe();
-    robot.client.rear.subscribe();
-    const auto front = robot.client.front.get_update_wait_max(5s);
-    const auto rear = robot.client.rear.get_update_wait_max(5s);
-    REQUIRE(front);
-    REQUIRE(rear);
-    CHECK(front->ranges().at(0) == kFront);
-    CHECK(rear->ranges().at(0) == kRear);
-    const auto asked = robot.client.ask_rear.query(make_object<idl::AskReading>(), 5s);
-    REQUIRE(asked.has_value());
-    CHECK((*asked)->ranges().at(0) == kRear);
-  });
+EXECUTIVE_CASE("each port brings the readings of its own device", "[hw][server]") {
+  Lasers robot(executive);
+  robot.client.front.subscribe();
+  robot.client.rear.subscribe();
+  const auto front = robot.client.front.get_update_wait_max(5s);
+  const auto rear = robot.client.rear.get_update_wait_max(5s);
+  REQUIRE(front);
+  REQUIRE(rear);
+  CHECK(front->ranges().at(0) == kFront);
+  CHECK(rear->ranges().at(0) == kRear);
+  const auto asked = robot.client.ask_rear.query(make_object<idl::AskReading>(), 5s);
+  REQUIRE(asked.has_value());
+  CHECK((*asked)->ranges().at(0) == kRear);
 }
 
-TEST_CASE(
+EXECUTIVE_CASE(
     "a driver that takes the place of another one connects each of its devices with the ports of that name",
     "[hw][seat]") {
-  run_on_each(all_executives(), [](Executive& executive) {
-    Lasers robot(executive);
-    robot.client.rear.subscribe();
-    REQUIRE(robot.client.rear.get_update_wait_max(5s));
-    robot.seat.pause("a test");
-    robot.lasers.shut_down();
-    REQUIRE(robot.lasers.join_until(executive.now() + 5s));
+  Lasers robot(executive);
+  robot.client.rear.subscribe();
+  REQUIRE(robot.client.rear.get_update_wait_max(5s));
+  robot.seat.pause("a test");
+  robot.lasers.shut_down();
+  REQUIRE(robot.lasers.join_until(executive.now() + 5s));
 
-    TwoLasers others(robot.host, 10.0 * kFront, 10.0 * kRear);
-    others.run();
-    robot.seat.resume(others, {});
-    CHECK(eventually(executive, [&] { return robot.client.rear.latest()->ranges().at(0) == 10.0 * kRear; }));
-    robot.seat.pause("the end of the test");
-    others.shut_down();
-    CHECK(others.join_until(executive.now() + 5s));
-    robot.seat.resume(robot.lasers, {});
-  });
+  TwoLasers others(robot.host, 10.0 * kFront, 10.0 * kRear);
+  others.run();
+  robot.seat.resume(others, {});
+  CHECK(eventually(executive, [&] { return robot.client.rear.latest()->ranges().at(0) == 10.0 * kRear; }));
+  robot.seat.pause("the end of the test");
+  others.shut_down();
+  CHECK(others.join_until(executive.now() + 5s));
+  robot.seat.resume(robot.lasers, {});
 }
