@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "orca/emulators/command_diary.hpp"
+#include "orca/emulators/firmware.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/hw/framing/checksums.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "orca/emulators/command_diary.hpp"
+#include "orca/emulators/firmware.hpp"
 #include "orca/hw/framing/checksums.hpp"
 
 namespace orca::emulators {

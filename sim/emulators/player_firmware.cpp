@@ -30,6 +30,10 @@ PlayerAddress read_address(std::span<const std::uint8_t> payload) {
   return {player_word(payload, 8), player_word(payload, 12)};
 }
 
+const std::string& driver_of(const PlayerSettings& settings, std::uint32_t device) {
+  return device == kPlayerLaser ? settings.laser_driver : settings.base_driver;
+}
+
 }  // namespace
 
 PlayerFirmware::PlayerFirmware(Body& body, PlayerSettings settings, const Mirror* mirror)
@@ -129,10 +133,6 @@ bool PlayerFirmware::is_starting(std::uint32_t device) const {
   return takes != settings_.starting.end() && now_ - opened_at_.at(device) < takes->second;
 }
 
-void PlayerFirmware::obey_waiting() {
-  for (const std::vector<std::uint8_t>& message : std::exchange(waiting_, {})) obey(message);
-}
-
 void PlayerFirmware::ask(std::uint32_t device, const PlayerHeader& header, Bytes payload) {
   const auto reply = robot_->request(device, header.subtype, payload);
   answer(header, reply ? kPlayerAck : kPlayerNack, reply.value_or(std::vector<std::uint8_t>{}));
@@ -167,7 +167,7 @@ void PlayerFirmware::tell_driver(const PlayerHeader& header, Bytes payload) {
   const std::optional<std::uint32_t> device = robot_->device_at(read_address(payload));
   if (!device) return answer(header, kPlayerNack, {});
   PlayerWriter out = written_address(settings_.port, read_address(payload));
-  answer(header, kPlayerAck, out.text(driver_of(*device)).bytes());
+  answer(header, kPlayerAck, out.text(driver_of(settings_, *device)).bytes());
 }
 
 void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
@@ -186,7 +186,7 @@ void PlayerFirmware::subscribe(const PlayerHeader& header, Bytes payload) {
     if (*device == kPlayerLaser) scans_ = robot_->scans();
   }
   PlayerWriter out = written_address(settings_.port, read_address(payload));
-  answer(header, kPlayerAck, out.word(access).text(driver_of(*device)).bytes());
+  answer(header, kPlayerAck, out.word(access).text(driver_of(settings_, *device)).bytes());
 }
 
 void PlayerFirmware::close(std::uint32_t device) {
@@ -217,14 +217,10 @@ void PlayerFirmware::end_round() {
   send({.interface = kPlayerServer, .type = kPlayerSynch, .subtype = 1}, {});
 }
 
-const std::string& PlayerFirmware::driver_of(std::uint32_t device) const {
-  return device == kPlayerLaser ? settings_.laser_driver : settings_.base_driver;
-}
-
 std::vector<std::uint8_t> PlayerFirmware::advance(TimePoint now) {
   now_ = now;
   if (greet_at_ && now >= *greet_at_) greet();
-  if (!waiting_.empty()) obey_waiting();
+  for (const std::vector<std::uint8_t>& message : std::exchange(waiting_, {})) obey(message);
   for (; !open_.empty() && now >= next_cycle_; next_cycle_ += settings_.cycle)
     for (const std::uint32_t device : open_)
       if (device != kPlayerLaser && !is_starting(device)) publish(device, robot_->data(device));

@@ -50,6 +50,20 @@ Pose2 sonar_at(int x_mm, int y_mm, int degrees) {
   return {0.001 * x_mm, 0.001 * y_mm, degrees * std::numbers::pi / 180.0};
 }
 
+// [rad] from the first beam to the last, and between two.
+struct Sector {
+  double from = 0.0;
+  double to = 0.0;
+  double step = 0.0;
+};
+
+// What one turn of a mirror sees, counter-clockwise.
+Sector sector_of(const MirrorTurn& turn) {
+  const double steps = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1) - 1);
+  const double last = turn.first_angle + turn.step * steps;
+  return {std::min(turn.first_angle, last), std::max(turn.first_angle, last), std::abs(turn.step)};
+}
+
 }  // namespace
 
 std::vector<Pose2> pioneer_sonars() {
@@ -175,13 +189,6 @@ std::optional<MirrorTurn> PlayerRobot::last_turn() const {
   return turn;
 }
 
-// What one turn of a mirror sees, counter-clockwise.
-PlayerRobot::Sector PlayerRobot::sector_of(const MirrorTurn& turn) {
-  const double steps = static_cast<double>(std::max<std::size_t>(turn.ranges.size(), 1) - 1);
-  const double last = turn.first_angle + turn.step * steps;
-  return {std::min(turn.first_angle, last), std::max(turn.first_angle, last), std::abs(turn.step)};
-}
-
 PlayerRobot::Bytes PlayerRobot::laser_configuration() const {
   const Sector seen = sector_of(last_turn().value_or(MirrorTurn{}));
   PlayerWriter out;
@@ -268,10 +275,11 @@ void PlayerRobot::look(TimePoint now) {
   for (const double range : turn->ranges) ranges.push_back(std::min(range, settings_.laser_range));
   if (turn->step < 0.0) std::ranges::reverse(ranges);
   ++scans_;
-  scan_ = settings_.shows_rangers ? ranger_scan(ranges) : laser_scan(sector_of(*turn), ranges);
+  scan_ = settings_.shows_rangers ? ranger_scan(ranges) : laser_scan(*turn, ranges);
 }
 
-PlayerRobot::Bytes PlayerRobot::laser_scan(const Sector& seen, const std::vector<double>& ranges) const {
+PlayerRobot::Bytes PlayerRobot::laser_scan(const MirrorTurn& turn, const std::vector<double>& ranges) const {
+  const Sector seen = sector_of(turn);
   PlayerWriter out;
   out.single(seen.from).single(seen.to).single(seen.step).single(settings_.laser_range).count(ranges.size());
   for (const double range : ranges) out.single(range);

@@ -65,15 +65,7 @@ class PlayerRobot {
   [[nodiscard]] bool has_power() const { return power_; }
 
  private:
-  // [rad] from the first beam to the last, and between two.
-  struct Sector {
-    double from = 0.0;
-    double to = 0.0;
-    double step = 0.0;
-  };
-
   [[nodiscard]] std::optional<MirrorTurn> last_turn() const;
-  [[nodiscard]] static Sector sector_of(const MirrorTurn& turn);
   [[nodiscard]] std::optional<Bytes> request_of_base(std::uint32_t subtype,
                                                      std::span<const std::uint8_t> payload);
   [[nodiscard]] Bytes sonar_geometry() const;
@@ -81,7 +73,7 @@ class PlayerRobot {
   [[nodiscard]] Bytes laser_configuration() const;
   [[nodiscard]] Bytes ranger_geometry(std::uint32_t device) const;
   [[nodiscard]] Bytes ranger_configuration(std::uint32_t device) const;
-  [[nodiscard]] Bytes laser_scan(const Sector& seen, const std::vector<double>& ranges) const;
+  [[nodiscard]] Bytes laser_scan(const MirrorTurn& turn, const std::vector<double>& ranges) const;
   [[nodiscard]] Bytes state() const;
   [[nodiscard]] Bytes sonar_ranges() const;
   [[nodiscard]] Bytes pressed() const;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "orca/emulators/command_diary.hpp"
+#include "orca/emulators/firmware.hpp"
 
 namespace orca::emulators {
 namespace {
@@ -73,6 +73,32 @@ Finding find_request(std::span<const std::uint8_t> bytes) {
 
 std::uint8_t low(unsigned value) { return static_cast<std::uint8_t>(value & 0xFF); }
 std::uint8_t high(unsigned value) { return static_cast<std::uint8_t>(value >> 8 & 0xFF); }
+
+// Firmware before 1.24 does not know the request.
+bool knows_configuration(const RplidarSettings& settings) {
+  const std::pair version{settings.firmware_major, settings.firmware_minor};
+  return settings.has_express && version >= std::pair<std::uint8_t, std::uint8_t>{1, 24};
+}
+
+// Returns nothing for what it does not know.
+std::vector<std::uint8_t> configuration(const RplidarSettings& settings, std::uint32_t entry,
+                                        std::size_t number) {
+  if (entry == kModeCount) return little_endian(kModes.size(), 2);
+  if (entry == kTypicalMode) return little_endian(kModes.size() - 1, 2);
+  if (number >= kModes.size()) return {};
+  const ScanMode& mode = kModes[number];
+  switch (entry) {
+    case kModeSampleTime:
+      return little_endian(static_cast<std::uint32_t>(settings.sample / mode.faster / 1us) * 256U, 4);
+    case kModeMaxDistance: return little_endian(static_cast<std::uint32_t>(256.0 * settings.max_range), 4);
+    case kModeAnswerType: return {mode.answer};
+    case kModeName: {
+      const std::string name = mode.name;
+      return {name.c_str(), name.c_str() + name.size() + 1};
+    }
+    default: return {};
+  }
+}
 
 }  // namespace
 
@@ -176,39 +202,14 @@ void RplidarFirmware::answer_sample_times(TimePoint now) {
   answer(0x15, std::array<std::uint8_t, 4>{low(time), high(time), low(time / 2), high(time / 2)}, now);
 }
 
-// Firmware before 1.24 does not know the request.
-bool RplidarFirmware::knows_configuration() const {
-  const std::pair version{settings_.firmware_major, settings_.firmware_minor};
-  return settings_.has_express && version >= std::pair<std::uint8_t, std::uint8_t>{1, 24};
-}
-
 // The answer repeats what was asked for. @param asked  the entry, and the number of a mode if the entry is of modes.
 void RplidarFirmware::answer_configuration(std::span<const std::uint8_t> asked, TimePoint now) {
   const std::uint32_t entry = number_at(asked, 0, 4);
-  const std::vector<std::uint8_t> value = configuration(entry, number_at(asked, 4, 2));
-  if (!knows_configuration() || value.empty()) return;
+  const std::vector<std::uint8_t> value = configuration(settings_, entry, number_at(asked, 4, 2));
+  if (!knows_configuration(settings_) || value.empty()) return;
   std::vector<std::uint8_t> data = little_endian(entry, 4);
   data.insert(data.end(), value.begin(), value.end());
   answer(0x20, data, now);
-}
-
-// Returns nothing for what it does not know.
-std::vector<std::uint8_t> RplidarFirmware::configuration(std::uint32_t entry, std::size_t number) const {
-  if (entry == kModeCount) return little_endian(kModes.size(), 2);
-  if (entry == kTypicalMode) return little_endian(kModes.size() - 1, 2);
-  if (number >= kModes.size()) return {};
-  const ScanMode& mode = kModes[number];
-  switch (entry) {
-    case kModeSampleTime:
-      return little_endian(static_cast<std::uint32_t>(settings_.sample / mode.faster / 1us) * 256U, 4);
-    case kModeMaxDistance: return little_endian(static_cast<std::uint32_t>(256.0 * settings_.max_range), 4);
-    case kModeAnswerType: return {mode.answer};
-    case kModeName: {
-      const std::string name = mode.name;
-      return {name.c_str(), name.c_str() + name.size() + 1};
-    }
-    default: return {};
-  }
 }
 
 // A5 5A, the size of what follows, and its type.

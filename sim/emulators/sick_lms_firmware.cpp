@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "orca/emulators/command_diary.hpp"
+#include "orca/emulators/firmware.hpp"
 #include "orca/hw/framing/checksums.hpp"
 #include "sick_lms_scan.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Create 2: a stream gives the same frames however it is cut, and each frame is read without an error; data of any size give
+// Create 2: a stream gives the same frames however it is cut, and each frame is read without an error; a body of any bytes gives
 // readings or an error. The first byte chooses.
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "orca/hw/create2/sensors.hpp"
-#include "orca/hw/create2/stream.hpp"
 
 namespace {
 
@@ -20,11 +19,7 @@ std::vector<std::uint8_t> frames_of(Input stream, std::size_t piece) {
   framing::Scanner scanner(create2::kProtocol);
   std::vector<std::uint8_t> frames;
   const auto sink = [&](const framing::Frame& frame) {
-    const auto body = create2::body_of(frame.bytes);
-    create2::Sensors sensors;
-    if (!sensors.apply_body(body).ok()) std::abort();
-    const auto again = create2::make_frame(body);
-    if (!std::ranges::equal(again.view(), frame.bytes)) std::abort();
+    if (!create2::parse_body(create2::body_of(frame.bytes))) std::abort();
     frames.insert(frames.end(), frame.bytes.begin(), frame.bytes.end());
   };
   for (std::size_t at = 0; at < stream.size(); at += piece)
@@ -33,22 +28,13 @@ std::vector<std::uint8_t> frames_of(Input stream, std::size_t piece) {
   return frames;
 }
 
-void try_answer(std::uint8_t packet, Input data) {
-  create2::Sensors sensors;
-  const auto applied = sensors.apply(packet, data);
-  if (!applied.ok() && (applied.error().message.empty() || sensors != create2::Sensors{})) std::abort();
-  if (applied.ok() != (create2::data_size(packet) == data.size())) std::abort();
-  create2::Sensors others;
-  if (!others.apply_body(data).ok() && others != create2::Sensors{}) std::abort();
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
   const Input rest(data + 1, size - 1);
   if (data[0] < 128)
-    try_answer(data[0], rest);
+    (void)create2::parse_body(rest);
   else if (frames_of(rest, rest.size()) != frames_of(rest, data[0] - 127U))
     std::abort();
   return 0;

@@ -4,12 +4,10 @@
 #include <algorithm>
 
 #include "frame_stream.hpp"
-#include "orca/hw/p2os/command.hpp"
 #include "orca/hw/p2os/config.hpp"
 #include "orca/hw/p2os/gripper.hpp"
-#include "orca/hw/p2os/reports.hpp"
+#include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/p2os/sip.hpp"
-#include "orca/hw/p2os/sync.hpp"
 
 namespace {
 
@@ -20,10 +18,6 @@ using fuzz::require;
 void read_reports(Bytes body) {
   (void)p2os::parse_identity(body);
   (void)p2os::parse_config(body);
-  (void)p2os::parse_encoder(body);
-  (void)p2os::parse_gyro(body);
-  (void)p2os::parse_io(body);
-  (void)p2os::parse_aux(body, p2os::PacketType::aux1);
 }
 
 void read_sip(Bytes body) {
@@ -35,20 +29,9 @@ void read_sip(Bytes body) {
   }
 }
 
-// What is read of an integer is written again with the same meaning.
-void read_command(Bytes body) {
-  const auto command = p2os::decode_command(body);
-  require(command.has_value() == !body.empty());
-  if (!command || command->argument != p2os::ReceivedCommand::Argument::integer || command->value < -32768)
-    return;
-  const p2os::Packet packet = p2os::encode(static_cast<p2os::Command>(command->number), command->value);
-  require(p2os::decode_command(p2os::body_of(packet.view()))->value == command->value);
-}
-
 void read_body(Bytes body) {
   read_reports(body);
   read_sip(body);
-  read_command(body);
 }
 
 }  // namespace

@@ -9,15 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "orca/hw/player/bumper.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/message_reader.hpp"
 #include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/position2d.hpp"
-#include "orca/hw/player/power.hpp"
-#include "orca/hw/player/ranger.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/hw/player/session.hpp"
-#include "orca/hw/player/sonar.hpp"
 
 namespace {
 
@@ -38,14 +34,12 @@ void try_payload(Input bytes) {
 }
 
 constexpr std::array kPayloads = {
-    try_payload<DeviceList>,      try_payload<DriverInfo>,      try_payload<Subscription>,
-    try_payload<DataMode>,        try_payload<ReplaceRule>,     try_payload<Capability>,
-    try_payload<Overflow>,        try_payload<Planar>,          try_payload<Geometry>,
-    try_payload<Switch>,          try_payload<Position2dState>, try_payload<VelocityCommand>,
-    try_payload<PositionCommand>, try_payload<SteeringCommand>, try_payload<ControlMode>,
-    try_payload<LaserScan>,       try_payload<LaserScanPose>,   try_payload<LaserConfig>,
-    try_payload<SonarRanges>,     try_payload<SonarGeometry>,   try_payload<RangerValues>,
-    try_payload<RangerGeometry>,  try_payload<RangerConfig>,    try_payload<RangerStamped>,
+    try_payload<DeviceList>,      try_payload<DriverInfo>,    try_payload<Subscription>,
+    try_payload<DataMode>,        try_payload<Capability>,    try_payload<Planar>,
+    try_payload<Geometry>,        try_payload<Switch>,        try_payload<Position2dState>,
+    try_payload<VelocityCommand>, try_payload<LaserScan>,     try_payload<LaserConfig>,
+    try_payload<SonarRanges>,     try_payload<SonarGeometry>, try_payload<RangerValues>,
+    try_payload<RangerGeometry>,  try_payload<RangerConfig>,  try_payload<RangerStamped>,
     try_payload<BumperState>,     try_payload<PowerState>};
 
 struct Heard {

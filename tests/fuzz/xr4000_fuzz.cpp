@@ -6,7 +6,7 @@
 
 #include "frame_stream.hpp"
 #include "orca/hw/xr4000/answers.hpp"
-#include "orca/hw/xr4000/odometry.hpp"
+#include "orca/hw/xr4000/base.hpp"
 
 namespace {
 

@@ -24,7 +24,7 @@
 #include "orca/emulators/rplidar_firmware.hpp"
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
-#include "orca/hw/create2/stream.hpp"
+#include "orca/hw/create2/sensors.hpp"
 #include "orca/hw/nomad_scout/packet.hpp"
 #include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/rplidar/capsule.hpp"

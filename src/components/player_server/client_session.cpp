@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "orca/hw/player/banner.hpp"
+#include "orca/hw/player/message.hpp"
 #include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/session.hpp"
 

@@ -6,12 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "orca/hw/player/geometry.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/message.hpp"
+#include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/position2d.hpp"
-#include "orca/hw/player/ranger.hpp"
-#include "orca/hw/player/sonar.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"

@@ -6,6 +6,19 @@
 
 namespace orca::hw {
 
+int CountedPose::step(int from, int to) const {
+  const int forward = (to - from) & (turn_ - 1);
+  return forward < turn_ / 2 ? forward : forward - turn_;
+}
+
+void CountedPose::take(int x, int y, double unit, double heading) {
+  if (!last_) offset_ = wrapped(pose_.yaw - heading);
+  const Counts before = last_.value_or(Counts{x, y});
+  last_ = {x, y};
+  const Vec2 way = rotated(Vec2{unit * step(before.x, x), unit * step(before.y, y)}, offset_);
+  pose_ = {pose_.x + way.x, pose_.y + way.y, wrapped(heading + offset_)};
+}
+
 void BaseOdometry::publish(const Pose2& pose, const Twist2& velocity, TimePoint stamp) {
   const Pose2 here = calibration_ == Calibration{} ? pose : calibrated(pose);
   const Twist2 real = calibration_.to_base(velocity);

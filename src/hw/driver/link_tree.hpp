@@ -4,8 +4,10 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 
+#include "orca/geometry/vec2.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/reporter.hpp"
 
@@ -35,5 +37,10 @@ class LinkTree {
   xml::Reporter& reporter_;
   std::map<std::string, Joint> joints_;  // by the link below
 };
+
+/// Returns the size of the rectangle around the origin that holds the plan of all collision geometry [m], as the simulator tells
+/// it: 0 and 0 if a round part in the middle holds all others. Nothing if the file has none, or meshes, which it does not read.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::optional<Vec2> plan_size(const xml::Element& robot, const LinkTree& tree);
 
 }  // namespace orca::hw

@@ -9,7 +9,6 @@
 #include "orca/robot_file/codes.hpp"
 #include "orca/robot_file/reader.hpp"
 #include "orca/xml/extras.hpp"
-#include "robot_plan.hpp"
 
 namespace orca::hw {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "orca/base/result.hpp"
-#include "orca/hw/link/line.hpp"
+#include "orca/hw/link/byte_link.hpp"
 
 namespace orca::hw::link {
 

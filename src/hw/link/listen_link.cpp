@@ -10,7 +10,6 @@
 #include <optional>
 #include <utility>
 
-#include "address_lookup.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "tcp_socket.hpp"
 

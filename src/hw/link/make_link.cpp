@@ -19,7 +19,7 @@
 #include "orca/hw/link/replay_link.hpp"
 #include "orca/hw/link/serial_link.hpp"
 #include "orca/hw/link/tcp_link.hpp"
-#include "serial_places.hpp"
+#include "serial_trouble.hpp"
 
 namespace orca::hw::link {
 namespace {

@@ -15,7 +15,6 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/files/open_output.hpp"
 #include "orca/base/steady_clock.hpp"
-#include "serial_places.hpp"
 #include "serial_trouble.hpp"
 
 namespace orca::hw::link {

@@ -5,7 +5,7 @@
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -124,6 +124,42 @@ Error explain_permission(const std::string& path, const std::string& name) {
               who + "; the group " + group + " may: sudo usermod -aG " + group + " " + user +
                   ", then log out and in again",
               name);
+}
+
+namespace fs = std::filesystem;
+
+std::string resolved(const std::string& path) {
+  std::error_code none;
+  const fs::path real = fs::canonical(path, none);
+  return none ? std::string() : real.string();
+}
+
+std::string SerialPlaces::path_of(const std::string& device) const {
+  if (device.find('/') != std::string::npos) return device;
+  for (const char* kind : {"/by-id/", "/by-path/"}) {
+    std::string path = folder_ + kind + device;
+    if (!resolved(path).empty()) return path;
+  }
+  return "/dev/" + device;
+}
+
+std::string SerialPlaces::identity_of(const std::string& path) const {
+  const std::string real = resolved(path);
+  if (real.empty()) return {};
+  const std::vector<std::string> all = adapters();
+  const auto same =
+      std::ranges::find_if(all, [&](const std::string& link) { return resolved(link) == real; });
+  return same == all.end() ? std::string() : *same;
+}
+
+std::vector<std::string> SerialPlaces::adapters() const {
+  std::vector<std::string> found;
+  std::error_code none;
+  for (fs::directory_iterator entry(folder_ + "/by-id", none), end; !none && entry != end;
+       entry.increment(none))
+    found.push_back(entry->path().string());
+  std::ranges::sort(found);
+  return found;
 }
 
 }  // namespace orca::hw::link

@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-#include "address_lookup.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/steady_clock.hpp"

@@ -107,7 +107,6 @@ constexpr Model shaped(Model model, double width, double length, double radius) 
 }
 
 constexpr Model sensing(Model model, std::span<const Pose2> poses) {
-  model.sonars = static_cast<int>(poses.size());
   model.sonar_poses = poses;
   return model;
 }
@@ -115,11 +114,6 @@ constexpr Model sensing(Model model, std::span<const Pose2> poses) {
 constexpr Model limited(Model model, double max_speed, double max_turn_rate) {
   model.max_speed = max_speed * kMillimetre;
   model.max_turn_rate = max_turn_rate * kDegree;
-  return model;
-}
-
-constexpr Model with_laser(Model model, double x, double y = 0.0) {
-  model.laser = Vec2{x * kMillimetre, y * kMillimetre};
   return model;
 }
 
@@ -140,13 +134,13 @@ constexpr Model people(const Model& model, double radius, std::span<const Pose2>
 }
 
 constexpr Model patrol(const Model& model) {
-  return with_laser(with_bumpers(sensing(shaped(model, 425, 510, 250), kPatrolRing), 6, 6), 37);
+  return with_bumpers(sensing(shaped(model, 425, 510, 250), kPatrolRing), 6, 6);
 }
 
 constexpr Model power(const Model& model, std::span<const Pose2> ring = kPowerRing) {
   Model all = with_bumpers(sensing(limited(shaped(model, 680, 911, 550), 2000, 360), ring), 7, 5);
   for (std::size_t i = 7; i < ring.size(); i += 8) all.absent_sonars |= 1U << i;
-  return with_laser(all, 251);
+  return all;
 }
 
 constexpr Model amigo_shaped(const Model& model, std::span<const Pose2> ring) {
@@ -166,85 +160,79 @@ constexpr Model pioneer1(std::string_view subclass, std::string_view name, doubl
   model = sensing(limited(shaped(model, 0, 0, radius), max_speed, 100), kPioneer1Ring);
   model.velocity_unit = 2.5332 * kMillimetre;
   model.angle_unit = 2.0 * std::numbers::pi / 1024.0;
-  model.wheel_step = 0.004;
   return model;
 }
 
 // Its sonars are at a board of their own, and not in the packets.
 constexpr Model pioneer_lx(std::string_view subclass, std::string_view name) {
   const Model model = limited(shaped(in_millimetres(subclass, name, 0.0056), 500, 696, 348), 2500, 180);
-  return with_laser(with_bumpers(model, 3, 3), 267);
+  return with_bumpers(model, 3, 3);
 }
 
 constexpr Model seekur() {
   const Model model = in_millimetres("seekur", "Seekur", 0.0056);
-  return with_laser(with_bumpers(limited(shaped(model, 1270, 1410, 833), 2200, 190), 5, 3), 690);
+  return with_bumpers(limited(shaped(model, 1270, 1410, 833), 2200, 190), 5, 3);
 }
 
 constexpr Model seekur_jr() {
   const Model model = in_millimetres("seekurjr", "Seekur Jr", 0.0056);
-  return with_laser(with_bumpers(limited(shaped(model, 830, 1200, 600), 1200, 80), 4, 4), 527);
+  return with_bumpers(limited(shaped(model, 830, 1200, 600), 1200, 80), 4, 4);
 }
 
 constexpr Model wheelchair() {
   const Model model = in_millimetres("wheelchair-sh", "wheelchair", 0.00373);
-  return with_laser(with_bumpers(limited(shaped(model, 680, 1340, 550), 2000, 360), 4, 3), -418);
+  return with_bumpers(limited(shaped(model, 680, 1340, 550), 2000, 360), 4, 3);
 }
 
 // It is pushed: it has no motors, and so no limits.
 constexpr Model mapper() {
   Model model = limited(shaped(in_millimetres("mappr", "MapperBot", 0.011), 0, 0, 180), 0, 0);
   model.velocity_unit = 0.6154 * kMillimetre;
-  return with_laser(model, 312);
+  return model;
 }
 
-constexpr Model p3dx_sh(std::string_view subclass, double laser) {
-  return with_laser(dx(in_millimetres(subclass, "Pioneer 3-DX (SH)", 0.0056)), laser);
+constexpr Model p3dx_sh(std::string_view subclass) {
+  return dx(in_millimetres(subclass, "Pioneer 3-DX (SH)", 0.0056));
 }
 
-constexpr Model p3at_sh(std::string_view subclass, double laser) {
-  return with_laser(at(in_millimetres(subclass, "Pioneer 3-AT (SH)", 0.0034)), laser);
+constexpr Model p3at_sh(std::string_view subclass) {
+  return at(in_millimetres(subclass, "Pioneer 3-AT (SH)", 0.0034));
 }
 
-constexpr Model peoplebot_sh(std::string_view subclass, double laser) {
-  return with_laser(people(in_millimetres(subclass, "PeopleBot (SH)", 0.0060), 340, kPeopleBotShRing), laser);
+constexpr Model peoplebot_sh(std::string_view subclass) {
+  return people(in_millimetres(subclass, "PeopleBot (SH)", 0.0060), 340, kPeopleBotShRing);
 }
 
 constexpr std::array kModels = {
-    with_laser(dx(scales("p2dx", "Pioneer 2-DX", 0.84, 0.268, 0.0056)), 17, 8),
+    dx(scales("p2dx", "Pioneer 2-DX", 0.84, 0.268, 0.0056)),
     dx(scales("p2ce", "Pioneer 2-CE", 0.826, 0.268, 0.0057)),
-    with_laser(dx(scales("p2de", "Pioneer 2-DXe", 0.969, 0.268, 0.0056)), 17, 8),
-    with_laser(dx(scales("p2df", "Pioneer 2-DXf", 0.485, 0.268, 0.0060)), 17, 8),
-    with_laser(dx(scales("p2d8", "Pioneer 2-DX8", 0.485, 1.0, 0.0056)), 18),
-    with_laser(dx(scales("p2d8+", "Pioneer 2-DX8 Plus", 0.485, 1.0, 0.0056)), 18),
-    with_laser(at(scales("p2at", "Pioneer 2-AT", 1.32, 0.268, 0.0034)), 160, 7),
-    with_laser(at(scales("p2at8", "Pioneer 2-AT8", 1.32, 1.0, 0.0034)), 160, 7),
-    with_laser(at(scales("p2at8+", "Pioneer 2-AT8 Plus", 0.465, 1.0, 0.0034)), 160, 7),
-    with_laser(at(scales("p2it", "Pioneer 2-IT", 1.136, 0.268, 0.0032)), 160, 7),
-    with_laser(people(scales("p2pb", "PeopleBot", 0.424, 0.268, 0.0056), 300, kPeopleBotRing), 17, 8),
-    with_laser(
-        people(scales("p2pp", "Performance PeopleBot (P2)", 0.485, 0.268, 0.0060), 300, kPeopleBotRing), 16,
-        1),
-    with_laser(people(scales("perfpb", "Performance PeopleBot", 0.485, 1.0, 0.0060), 340, kPerformanceRing),
-               21),
-    with_laser(people(scales("perfpb+", "Performance PeopleBot Plus", 0.485, 1.0, 0.0060), 340,
-                      kPerformanceRing, 511),
-               21),
-    peoplebot_sh("peoplebot-sh", 21),
-    peoplebot_sh("peoplebot-sh-lms1xx", 55),
-    peoplebot_sh("peoplebot-sh-lms500", 21),
-    with_laser(dx(scales("p3dx", "Pioneer 3-DX", 0.485, 1.0, 0.0056)), 18),
-    p3dx_sh("p3dx-sh", 21),
-    p3dx_sh("p3dx-sh-lms1xx", 55),
-    p3dx_sh("p3dx-sh-lms500", 21),
-    with_laser(at(scales("p3at", "Pioneer 3-AT", 0.465, 1.0, 0.0034)), 160),
-    p3at_sh("p3at-sh", 125),
-    p3at_sh("p3at-sh-lms1xx", 197),
-    p3at_sh("p3at-sh-lms500", 125),
-    with_laser(at(in_millimetres("p3atiw-sh", "Pioneer 3-AT (SH, indoor wheels)", 0.0034), 490), 125),
+    dx(scales("p2de", "Pioneer 2-DXe", 0.969, 0.268, 0.0056)),
+    dx(scales("p2df", "Pioneer 2-DXf", 0.485, 0.268, 0.0060)),
+    dx(scales("p2d8", "Pioneer 2-DX8", 0.485, 1.0, 0.0056)),
+    dx(scales("p2d8+", "Pioneer 2-DX8 Plus", 0.485, 1.0, 0.0056)),
+    at(scales("p2at", "Pioneer 2-AT", 1.32, 0.268, 0.0034)),
+    at(scales("p2at8", "Pioneer 2-AT8", 1.32, 1.0, 0.0034)),
+    at(scales("p2at8+", "Pioneer 2-AT8 Plus", 0.465, 1.0, 0.0034)),
+    at(scales("p2it", "Pioneer 2-IT", 1.136, 0.268, 0.0032)),
+    people(scales("p2pb", "PeopleBot", 0.424, 0.268, 0.0056), 300, kPeopleBotRing),
+    people(scales("p2pp", "Performance PeopleBot (P2)", 0.485, 0.268, 0.0060), 300, kPeopleBotRing),
+    people(scales("perfpb", "Performance PeopleBot", 0.485, 1.0, 0.0060), 340, kPerformanceRing),
+    people(scales("perfpb+", "Performance PeopleBot Plus", 0.485, 1.0, 0.0060), 340, kPerformanceRing, 511),
+    peoplebot_sh("peoplebot-sh"),
+    peoplebot_sh("peoplebot-sh-lms1xx"),
+    peoplebot_sh("peoplebot-sh-lms500"),
+    dx(scales("p3dx", "Pioneer 3-DX", 0.485, 1.0, 0.0056)),
+    p3dx_sh("p3dx-sh"),
+    p3dx_sh("p3dx-sh-lms1xx"),
+    p3dx_sh("p3dx-sh-lms500"),
+    at(scales("p3at", "Pioneer 3-AT", 0.465, 1.0, 0.0034)),
+    p3at_sh("p3at-sh"),
+    p3at_sh("p3at-sh-lms1xx"),
+    p3at_sh("p3at-sh-lms500"),
+    at(in_millimetres("p3atiw-sh", "Pioneer 3-AT (SH, indoor wheels)", 0.0034), 490),
     amigo(),
     amigo_shaped(in_millimetres("amigo-sh", "AmigoBot (SH)", 0.011), kAmigoShRing),
-    with_laser(amigo_shaped(in_millimetres("amigo-sh-tim3xx", "AmigoBot (SH)", 0.011), kAmigoShRing), 110),
+    amigo_shaped(in_millimetres("amigo-sh-tim3xx", "AmigoBot (SH)", 0.011), kAmigoShRing),
     patrol(in_millimetres("patrolbot-sh", "PatrolBot", 0.0056)),
     patrol(in_millimetres("mt400", "MT400", 0.0056)),
     patrol(in_millimetres("researchPB", "Research PatrolBot", 0.0056)),

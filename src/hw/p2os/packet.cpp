@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/p2os/packet.hpp"
 
+#include "orca/hw/framing/byte_reader.hpp"
 #include "orca/hw/framing/checksums.hpp"
 
 namespace orca::hw::p2os {
@@ -39,6 +40,21 @@ Packet make_packet(std::span<const std::uint8_t> body) {
 
 std::span<const std::uint8_t> body_of(std::span<const std::uint8_t> packet) {
   return packet.first(packet.size() - kChecksumSize).subspan(kBodyBegin);
+}
+
+std::optional<int> sync_step(std::span<const std::uint8_t> body) {
+  if (body.empty() || body[0] > 2) return std::nullopt;
+  return body[0];
+}
+
+std::optional<Identity> parse_identity(std::span<const std::uint8_t> body) {
+  if (sync_step(body) != 2) return std::nullopt;
+  framing::ByteReader reader(body.subspan(1));
+  Identity identity;
+  identity.name = reader.text_to_zero();
+  identity.robot_class = reader.text_to_zero();
+  identity.subclass = reader.text_to_zero();
+  return identity;
 }
 
 }  // namespace orca::hw::p2os

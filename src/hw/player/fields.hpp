@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include "orca/hw/player/bumper.hpp"
-#include "orca/hw/player/geometry.hpp"
-#include "orca/hw/player/laser.hpp"
+#include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/position2d.hpp"
-#include "orca/hw/player/power.hpp"
-#include "orca/hw/player/ranger.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/hw/player/session.hpp"
-#include "orca/hw/player/sonar.hpp"
 #include "xdr.hpp"
 
 namespace orca::hw::player {
@@ -27,7 +23,6 @@ constexpr bool is_known(Access access) { return access >= Access::open && access
 constexpr bool is_known(DataMode::Mode mode) {
   return mode == DataMode::Mode::push || mode == DataMode::Mode::pull;
 }
-constexpr bool is_known(ReplaceRule::Action action) { return action <= ReplaceRule::Action::ignore; }
 
 template <class Xdr>
 void fields(Xdr& xdr, typename Xdr::template Of<Address> v) {
@@ -70,16 +65,8 @@ void fields(Xdr& xdr, typename Xdr::template Of<DataMode> v) {
   xdr.all(v.mode);
 }
 template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<ReplaceRule> v) {
-  xdr.all(v.interface, v.index, v.type, v.subtype, v.action);
-}
-template <class Xdr>
 void fields(Xdr& xdr, typename Xdr::template Of<Capability> v) {
   xdr.all(v.type, v.subtype);
-}
-template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<Overflow> v) {
-  xdr.all(v.dropped);
 }
 template <class Xdr>
 void fields(Xdr& xdr, typename Xdr::template Of<Position2dState> v) {
@@ -90,24 +77,8 @@ void fields(Xdr& xdr, typename Xdr::template Of<VelocityCommand> v) {
   xdr.all(v.velocity, v.motors_on);
 }
 template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<PositionCommand> v) {
-  xdr.all(v.pose, v.velocity, v.motors_on);
-}
-template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<SteeringCommand> v) {
-  xdr.all(v.velocity, v.angle);
-}
-template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<ControlMode> v) {
-  xdr.all(v.mode);
-}
-template <class Xdr>
 void fields(Xdr& xdr, typename Xdr::template Of<LaserScan> v) {
   xdr.all(v.min_angle, v.max_angle, v.resolution, v.max_range, v.ranges, v.intensities, v.id);
-}
-template <class Xdr>
-void fields(Xdr& xdr, typename Xdr::template Of<LaserScanPose> v) {
-  xdr.all(v.scan, v.pose);
 }
 template <class Xdr>
 void fields(Xdr& xdr, typename Xdr::template Of<LaserConfig> v) {

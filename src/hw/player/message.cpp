@@ -5,9 +5,9 @@
 #include <string>
 
 #include "fields.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::hw::player {
-
 namespace {
 
 // Kept as a number while it is read, so that the error can name it.
@@ -21,6 +21,8 @@ void fields_of_header(Xdr& xdr, Raw& raw) {
   auto& header = raw.header;
   xdr.all(header.address, raw.type, header.subtype, header.time, header.sequence, header.size);
 }
+
+constexpr std::string_view kBannerStart = "Player v.";
 
 }  // namespace
 
@@ -65,6 +67,25 @@ Result<std::vector<std::uint8_t>> make_message(Header header, std::span<const st
   std::vector<std::uint8_t> message(encoded.begin(), encoded.end());
   message.insert(message.end(), payload.begin(), payload.end());
   return message;
+}
+
+std::array<std::uint8_t, kBannerSize> make_banner(std::string_view version) {
+  std::array<std::uint8_t, kBannerSize> banner{};
+  const auto end = std::ranges::copy(kBannerStart, banner.begin()).out;
+  std::ranges::copy(version.substr(0, kBannerSize - kBannerStart.size() - 1), end);
+  return banner;
+}
+
+Result<std::string> parse_banner(std::span<const std::uint8_t> banner) {
+  if (banner.size() < kBannerSize)
+    return fail(Code::data_loss, "the banner of a Player server has 32 bytes, but only " +
+                                     std::to_string(banner.size()) + " have arrived");
+  const auto characters = banner.first(kBannerSize);
+  const std::string text(characters.begin(), std::ranges::find(characters, std::uint8_t{0}));
+  if (!text.starts_with(kBannerStart))
+    return fail(Code::invalid_argument, "the server begins with " + in_quotes(printable(text)) +
+                                            " and not with \"Player v.\"; check host and port");
+  return text.substr(kBannerStart.size());
 }
 
 }  // namespace orca::hw::player

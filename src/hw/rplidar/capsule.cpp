@@ -24,10 +24,6 @@ Capsule::Sample sample(unsigned low, unsigned high, unsigned correction) {
           static_cast<std::uint8_t>((low & 3U) << 4 | correction)};
 }
 
-std::uint16_t word_of(const Capsule::Sample& sample) {
-  return static_cast<std::uint16_t>(4U * (sample.distance & 0x3FFFU) + (sample.correction >> 4 & 3U));
-}
-
 }  // namespace
 
 framing::Finding look_at_capsule(std::span<const std::uint8_t> bytes) {
@@ -49,27 +45,6 @@ Capsule parse_capsule(std::span<const std::uint8_t> frame) {
     capsule.samples[2 * i + 1] = sample(cabin[2], cabin[3], cabin[4] >> 4U);
   }
   return capsule;
-}
-
-std::array<std::uint8_t, kCapsuleSize> encode_capsule(const Capsule& capsule) {
-  std::array<std::uint8_t, kCapsuleSize> bytes{};
-  const auto put = [&](std::size_t at, unsigned word) {
-    bytes[at] = static_cast<std::uint8_t>(word & 0xFF);
-    bytes[at + 1] = static_cast<std::uint8_t>(word >> 8 & 0xFF);
-  };
-  put(2, (capsule.start & 0x7FFFU) | (capsule.is_first ? 0x8000U : 0U));
-  for (std::size_t i = 0; i < kCapsulePoints / 2; ++i) {
-    const Capsule::Sample& first = capsule.samples[2 * i];
-    const Capsule::Sample& second = capsule.samples[2 * i + 1];
-    const std::size_t at = kHeaderSize + i * kCabinSize;
-    put(at, word_of(first));
-    put(at + 2, word_of(second));
-    bytes[at + 4] = static_cast<std::uint8_t>((first.correction & 0xFU) | (second.correction & 0xFU) << 4);
-  }
-  const std::uint8_t sum = checksum(bytes);
-  bytes[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
-  bytes[1] = static_cast<std::uint8_t>(0x50U | sum >> 4U);
-  return bytes;
 }
 
 std::optional<CapsulePoints::Points> CapsulePoints::add(const Capsule& capsule) {

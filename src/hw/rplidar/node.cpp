@@ -28,13 +28,6 @@ std::optional<Node> parse_node(std::span<const std::uint8_t> bytes) {
               .distance = static_cast<std::uint16_t>(bytes[3] + 256 * bytes[4])};
 }
 
-std::array<std::uint8_t, kNodeSize> encode_node(const Node& node) {
-  const unsigned angle = 2U * node.angle + 1U;
-  const auto byte = [](unsigned value) { return static_cast<std::uint8_t>(value & 0xFF); };
-  return {byte(4U * node.quality + (node.begins_scan ? 1U : 2U)), byte(angle), byte(angle >> 8),
-          byte(node.distance), byte(node.distance >> 8U)};
-}
-
 Point point_of(const Node& node) {
   Point point{.begins_scan = node.begins_scan,
               .angle = counter_clockwise(node.angle / 64.0),

@@ -10,18 +10,13 @@ namespace {
 
 using framing::ByteReader;
 
-// Offsets of the status report, from its code on.
-constexpr std::size_t kFirmwareSize = 7;
-constexpr std::size_t kStatusVariantEnd = 111;
+// Of the configuration.
+constexpr std::size_t kMeasuringMode = 5;
+constexpr std::size_t kUnit = 6;
 
 std::string trimmed(std::string_view text) {
   const auto end = text.find_last_not_of(std::string_view(" \0", 2));
   return std::string(text.substr(0, end == std::string_view::npos ? 0 : end + 1));
-}
-
-// A reader of the status report at an offset that counts from the code on.
-ByteReader at(const Reply& reply, std::size_t offset) {
-  return ByteReader(reply.data.subspan(std::min(offset - 1, reply.data.size())));
 }
 
 Variant read_variant(ByteReader& reader) {
@@ -30,6 +25,39 @@ Variant read_variant(ByteReader& reader) {
 }
 
 }  // namespace
+
+Result<Configuration> Configuration::of(std::span<const std::uint8_t> block) {
+  if (block.size() > kMostBytes)
+    return fail(Code::data_loss, "a configuration of " + std::to_string(block.size()) +
+                                     " bytes; a telegram holds at most " + std::to_string(kMostBytes));
+  Configuration configuration;
+  for (const std::uint8_t byte : block) configuration.block_.push_back(byte);
+  return configuration;
+}
+
+std::optional<std::uint8_t> Configuration::byte_at(std::size_t offset) const {
+  return offset < block_.size() ? std::optional(block_[offset]) : std::nullopt;
+}
+
+std::optional<std::uint8_t> Configuration::measuring_mode() const { return byte_at(kMeasuringMode); }
+
+std::optional<Unit> Configuration::unit() const {
+  const auto byte = byte_at(kUnit);
+  if (!byte) return std::nullopt;
+  return static_cast<Unit>(*byte);
+}
+
+Status Configuration::set(std::size_t offset, std::uint8_t byte) {
+  if (offset >= block_.size())
+    return fail(Code::failed_precondition, "the laser's configuration has " + std::to_string(block_.size()) +
+                                               " bytes and no byte " + std::to_string(offset) +
+                                               "; this laser does not have the setting");
+  block_[offset] = byte;
+  return ok();
+}
+
+Status Configuration::set_measuring_mode(std::uint8_t mode) { return set(kMeasuringMode, mode); }
+Status Configuration::set_unit(Unit unit) { return set(kUnit, static_cast<std::uint8_t>(unit)); }
 
 std::optional<Reply> parse_reply(std::span<const std::uint8_t> payload) {
   if (payload.size() < 2) return std::nullopt;
@@ -49,35 +77,6 @@ std::optional<VariantAnswer> parse_variant(const Reply& reply) {
   return VariantAnswer{is_accepted, read_variant(reader)};
 }
 
-std::optional<StatusReport> parse_status(const Reply& reply) {
-  if (reply.code != ReplyCode::status || reply.data.size() + 1 < kStatusVariantEnd) return std::nullopt;
-  StatusReport report;
-  report.firmware = trimmed(at(reply, 1).text(kFirmwareSize));
-  report.operating_mode = at(reply, 8).u8();
-  report.is_defective = at(reply, 9).u8() != 0;
-  report.variant_type = at(reply, 18).u8();
-  report.motor_turns = at(reply, 67).u16();
-  report.measuring_mode = at(reply, 102).u8();
-  ByteReader variant = at(reply, 107);
-  report.variant = read_variant(variant);
-  ByteReader restart = at(reply, 111);
-  report.restart_mode = restart.u8();
-  report.restart_time = restart.u16();
-  report.address = at(reply, 120).u8();
-  report.unit = static_cast<Unit>(at(reply, 122).u8());
-  report.is_laser_on = at(reply, 123).u8() != 0;
-  report.boot_firmware = trimmed(at(reply, 124).text(kFirmwareSize));
-  return report;
-}
-
-std::optional<std::vector<LaserError>> parse_errors(const Reply& reply) {
-  if (reply.code != ReplyCode::errors) return std::nullopt;
-  std::vector<LaserError> errors;
-  for (std::size_t i = 0; i + 1 < reply.data.size(); i += 2)
-    errors.push_back({reply.data[i], reply.data[i + 1]});
-  return errors;
-}
-
 std::optional<Configuration> parse_configuration(const Reply& reply) {
   if (reply.code != ReplyCode::configuration) return std::nullopt;
   const auto configuration = Configuration::of(reply.data);
@@ -93,7 +92,7 @@ std::optional<WriteAnswer> parse_written(const Reply& reply) {
 }
 
 std::optional<std::string> parse_type(const Reply& reply) {
-  if (reply.code != ReplyCode::type && reply.code != ReplyCode::power_on) return std::nullopt;
+  if (reply.code != ReplyCode::type) return std::nullopt;
   return trimmed(ByteReader(reply.data).text(reply.data.size()));
 }
 

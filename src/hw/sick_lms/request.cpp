@@ -10,11 +10,7 @@ using Payload = framing::FrameBytes<kLongestPayload>;
 
 constexpr unsigned kChooseMode = 0x20;
 constexpr unsigned kInstallation = 0x00;
-constexpr unsigned kMeans = 0x26;
-constexpr unsigned kMeansOfRange = 0x28;
-constexpr unsigned kReflectivity = 0x2B;
 constexpr unsigned kWriteConfiguration = 0x77;
-constexpr std::size_t kMostParts = 200;
 
 Telegram command(unsigned code) { return make_request(Payload().u8(code).view()); }
 
@@ -22,10 +18,7 @@ Payload mode_payload(unsigned mode) { return Payload().u8(kChooseMode).u8(mode);
 
 }  // namespace
 
-Telegram request_reset() { return command(0x10); }
-Telegram request_scan() { return make_request(Payload().u8(0x30).u8(0x01).view()); }
 Telegram request_status() { return command(0x31); }
-Telegram request_errors() { return command(0x32); }
 Telegram request_type() { return command(0x3A); }
 Telegram request_configuration() { return command(0x74); }
 
@@ -35,30 +28,9 @@ Telegram request_variant(const Variant& variant) {
 
 Telegram request_mode(Mode mode) { return make_request(mode_payload(static_cast<unsigned>(mode)).view()); }
 
-Telegram request_installation(const Family& family) {
+Telegram request_installation(std::string_view password) {
   Payload payload = mode_payload(kInstallation);
-  for (const char c : family.password) payload.u8(static_cast<unsigned char>(c));
-  return make_request(payload.view());
-}
-
-Telegram request_range(RangeMode mode, PointRange points) {
-  return make_request(mode_payload(static_cast<unsigned>(mode)).u16(points.first).u16(points.last).view());
-}
-
-Telegram request_means(std::uint8_t count) { return make_request(mode_payload(kMeans).u8(count).view()); }
-
-Telegram request_means(std::uint8_t count, PointRange points) {
-  return make_request(mode_payload(kMeansOfRange).u8(count).u16(points.first).u16(points.last).view());
-}
-
-Result<Telegram> request_reflectivity(std::span<const PointRange> parts) {
-  if (parts.size() > kMostParts)
-    return fail(Code::invalid_argument, std::to_string(parts.size()) + " parts of the beams; at most " +
-                                            std::to_string(kMostParts) +
-                                            " fit into a telegram; ask for fewer");
-  Payload payload = mode_payload(kReflectivity);
-  payload.u16(static_cast<unsigned>(parts.size()));
-  for (const PointRange& part : parts) payload.u16(part.first).u16(part.last);
+  for (const char c : password) payload.u8(static_cast<unsigned char>(c));
   return make_request(payload.view());
 }
 

@@ -63,4 +63,10 @@ double door_direction(std::size_t door) {
   return wrapped(2.0 * std::numbers::pi / 3.0 * static_cast<double>(door));
 }
 
+void IntegratorOdometry::add(const Axes& integrator) {
+  const Pose2 counted = pose_of(integrator);
+  if (!origin_) origin_ = pose_ * inverse(counted);
+  pose_ = *origin_ * counted;
+}
+
 }  // namespace orca::hw::xr4000

@@ -18,7 +18,7 @@
 #include "orca/emulators/sick_lms_firmware.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
 #include "orca/geometry/arc.hpp"
-#include "orca/hw/create2/stream.hpp"
+#include "orca/hw/create2/sensors.hpp"
 #include "orca/hw/nomad_scout/packet.hpp"
 #include "orca/hw/p2os/packet.hpp"
 #include "orca/hw/sick_lms/telegram.hpp"
@@ -91,7 +91,7 @@ Device make_device(int which, RestlessBody& body) {
               "01 02 00 07 0A 5C"};
     case 2:
       return {"Create", std::make_unique<Create2Firmware>(body), hw::create2::kProtocol,
-              115200,   {"80", "94 07 07 13 14 15 16 2B 2C"},    ""};
+              115200,   {"80", "94 07 07 09 0E 15 16 2B 2C"},    ""};
     case 3:
       return {"XR4000",
               std::make_unique<Xr4000Firmware>(body),

@@ -117,11 +117,14 @@ class Create2Base final : public BaseDriver {
     const std::vector<Obstruction::Pressed> pressed = senses_->pressed();
     if (!pressed.empty()) last_cliff_ = host().now();
     motion()->press(pressed);
-    if (senses_->is_stalled()) motion()->obstruct("its motors draw too much current");
-    if (senses_->wheel_hangs()) hold("a wheel hangs; put it down on the floor");
-    if (powered_ && senses_->is_at_charger()) hold("it is connected to its charger; take it off");
-    if (senses_->mode() == Mode::safe) was_safe_ = powered_;
-    if (!was_safe_ || senses_->mode() == Mode::safe) return;
+    const Sensors& sensors = senses_->sensors();
+    const bool is_safe = sensors.mode == Mode::safe;
+    if (sensors.is_stalled) motion()->obstruct("its motors draw too much current");
+    if (sensors.bumps_and_drops.drop_left || sensors.bumps_and_drops.drop_right)
+      hold("a wheel hangs; put it down on the floor");
+    if (powered_ && sensors.is_at_charger) hold("it is connected to its charger; take it off");
+    if (is_safe) was_safe_ = powered_;
+    if (!was_safe_ || is_safe) return;
     was_safe_ = false;  // at a cliff; the next command to move takes it into safe mode again
     if (host().now() - last_cliff_ > kCliffTime)
       hold("it has left safe mode; was one of its buttons pressed?");
@@ -143,7 +146,7 @@ class Create2Base final : public BaseDriver {
   // Safe mode is asked for again until it is there, but not to stand.
   Status say(const DriveSetpoint& setpoint) {
     say_again_ = host().now() + kSayAgain;
-    if (!setpoint.stands() && senses_->mode() != Mode::safe)
+    if (!setpoint.stands() && senses_->sensors().mode != Mode::safe)
       if (Status safe = session_->send(encode(Order::safe)); !safe.ok()) return safe;
     return session_->send(
         drive_wheels(wheel_speeds(figures().calibration().to_controller(setpoint.velocity))));

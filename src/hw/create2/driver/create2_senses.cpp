@@ -41,9 +41,8 @@ void Create2Senses::take(const Sensors& sensors, TimePoint stamp) {
   sensors_ = sensors;
   stamp_ = stamp;
   if (!since_) since_ = stamp;
-  const BumpsAndDrops touched = sensors.bumps_and_drops.value_or(BumpsAndDrops{});
-  bumpers_.take(0, touched.bump_left);
-  bumpers_.take(1, touched.bump_right);
+  bumpers_.take(0, sensors.bumps_and_drops.bump_left);
+  bumpers_.take(1, sensors.bumps_and_drops.bump_right);
   if (!sensors.left_counts || !sensors.right_counts) return;
   const Travel2 step = wheels_.add(*sensors.left_counts, *sensors.right_counts);
   pose_ = along_arc(pose_, step);
@@ -80,23 +79,8 @@ void Create2Senses::publish_battery() {
 std::vector<Obstruction::Pressed> Create2Senses::pressed() const {
   std::vector<Obstruction::Pressed> all = bumpers_.pressed();
   for (std::size_t i = 0; i < kCliffs.size(); ++i)
-    if (sensors_.cliffs[i].value_or(false)) all.push_back({direction(kCliffs[i].direction), kCliffs[i].name});
+    if (sensors_.cliffs[i]) all.push_back({direction(kCliffs[i].direction), kCliffs[i].name});
   return all;
-}
-
-bool Create2Senses::wheel_hangs() const {
-  const BumpsAndDrops hanging = sensors_.bumps_and_drops.value_or(BumpsAndDrops{});
-  return hanging.drop_left || hanging.drop_right;
-}
-
-bool Create2Senses::is_stalled() const {
-  const Overcurrents currents = sensors_.overcurrents.value_or(Overcurrents{});
-  return currents.left_wheel || currents.right_wheel;
-}
-
-bool Create2Senses::is_at_charger() const {
-  const ChargingSources sources = sensors_.charging_sources.value_or(ChargingSources{});
-  return sources.internal || sources.home_base;
 }
 
 }  // namespace orca::hw::create2

@@ -10,7 +10,6 @@
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/base_senses.hpp"
-#include "orca/hw/create2/odometry.hpp"
 #include "orca/hw/create2/sensors.hpp"
 
 namespace orca::hw::create2 {
@@ -41,10 +40,8 @@ class Create2Senses {
 
   /// Returns the bumpers and cliffs, for MotionHW::press(): where the robot must not go.
   [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
-  [[nodiscard]] bool wheel_hangs() const;
-  [[nodiscard]] bool is_stalled() const;
-  [[nodiscard]] bool is_at_charger() const;
-  [[nodiscard]] Mode mode() const { return sensors_.mode.value_or(Mode::off); }
+  /// Returns the last frame.
+  [[nodiscard]] const Sensors& sensors() const { return sensors_; }
 
  private:
   void publish_odometry();

@@ -10,31 +10,27 @@ constexpr Duration kFrameTime = 250ms;  // until the first frame of a stream; it
 constexpr int kFirstFrames = 4;         // until what is reported is surely of after the start command
 constexpr double kSlowByte = 0.0002;    // [s] a line with slower bytes does not carry all packets
 
-// Bumps, cliffs, currents, mode, counts and voltage fit into 15 ms at 19200 baud.
-constexpr std::array<std::uint8_t, 10> kFewPackets{
-    kPacketBumpsAndDrops, 9, 10, 11, 12, 14, kPacketMode, kPacketLeftCounts, kPacketRightCounts,
-    kPacketVoltage};
-constexpr std::array<std::uint8_t, 14> kPackets{kPacketBumpsAndDrops,
-                                                9,
-                                                10,
-                                                11,
-                                                12,
-                                                14,
-                                                kPacketMode,
-                                                kPacketLeftCounts,
-                                                kPacketRightCounts,
-                                                kPacketVoltage,
-                                                kPacketChargingState,
-                                                kPacketCharge,
-                                                kPacketCapacity,
-                                                34};
+constexpr std::array kPackets{Packet::bumps_and_drops,
+                              Packet::cliff_left,
+                              Packet::cliff_front_left,
+                              Packet::cliff_front_right,
+                              Packet::cliff_right,
+                              Packet::overcurrents,
+                              Packet::mode,
+                              Packet::left_counts,
+                              Packet::right_counts,
+                              Packet::voltage,
+                              Packet::charging_state,
+                              Packet::charge,
+                              Packet::capacity,
+                              Packet::charging_sources};
+constexpr std::size_t kFewPackets = 10;  // of these, which fit into 15 ms at 19200 baud
 
 // The start command leads to passive mode. Firmware of some Roombas 600 reports the number of each mode plus 1.
 constexpr auto kPassivePlusOne = static_cast<Mode>(static_cast<int>(Mode::passive) + 1);
 
-std::span<const std::uint8_t> packets_for(const link::ByteLink& link) {
-  if (link.byte_time() > kSlowByte) return kFewPackets;
-  return kPackets;
+std::span<const Packet> packets_for(const link::ByteLink& link) {
+  return std::span(kPackets).first(link.byte_time() > kSlowByte ? kFewPackets : kPackets.size());
 }
 
 }  // namespace
@@ -56,8 +52,7 @@ Status Create2Session::call(TimePoint now) {
     for (int i = 0; i < 4; ++i)
       if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
   if (Status sent = send(encode(Order::start)); !sent.ok()) return sent;
-  const Result<Command> wanted = stream(packets_for(link_));
-  return wanted ? send(*wanted) : wanted.error();
+  return send(stream(packets_for(link_)));
 }
 
 Result<bool> Create2Session::advance(TimePoint now) {
@@ -85,12 +80,11 @@ Error Create2Session::nobody() const {
 
 Status Create2Session::receive(TimePoint now, const Take& take) {
   return frames_.read(link_, now, [&](const framing::Frame& frame, TimePoint stamp) {
-    Sensors sensors;
-    // The scanner has looked whether it fits.
-    if (!sensors.apply_body(body_of(frame.bytes)).ok()) return;
-    if (found_ && sensors.mode)
-      sensors.mode = static_cast<Mode>(static_cast<int>(*sensors.mode) - mode_offset_);
-    take(sensors, stamp);
+    std::optional<Sensors> sensors = parse_body(body_of(frame.bytes));
+    if (!sensors) return;
+    if (found_ && sensors->mode)
+      sensors->mode = static_cast<Mode>(static_cast<int>(*sensors->mode) - mode_offset_);
+    take(*sensors, stamp);
   });
 }
 

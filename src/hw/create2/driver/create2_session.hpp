@@ -9,7 +9,6 @@
 #include "orca/base/time.hpp"
 #include "orca/hw/create2/command.hpp"
 #include "orca/hw/create2/sensors.hpp"
-#include "orca/hw/create2/stream.hpp"
 #include "orca/hw/line_frames.hpp"
 #include "orca/hw/line_session.hpp"
 

@@ -48,8 +48,7 @@ idl::SonarRing ScoutSenses::describe_sonars() const {
 }
 
 void ScoutSenses::connect() {
-  wheels_.forget();
-  heading_offset_.reset();
+  counted_.forget();
   sonars_.forget();
   bumpers_.forget();
   state_ = {};
@@ -61,9 +60,7 @@ bool ScoutSenses::has_restarted(const State& next) const {
 
 void ScoutSenses::take(const State& state, TimePoint stamp, double forward) {
   stamp_ = stamp;
-  if (!heading_offset_) heading_offset_ = wrapped(pose_.yaw - state.heading);
-  const Vec2 step = rotated(wheels_.add(state.position), *heading_offset_);
-  pose_ = {pose_.x + step.x, pose_.y + step.y, wrapped(state.heading + *heading_offset_)};
+  counted_.take(state.position.x, state.position.y, kLengthUnit, state.heading);
   const double measured = twist_of(state.speeds, track_).forward;
   for (std::size_t i = 0; i < kBits; ++i)
     bumpers_.take(i, ((state.bumpers >> i) & 1U) != 0, {forward != 0.0 ? forward : measured, 0.0});
@@ -73,7 +70,7 @@ void ScoutSenses::take(const State& state, TimePoint stamp, double forward) {
 }
 
 void ScoutSenses::publish() {
-  odometry_.publish(pose_, twist_of(state_.speeds, track_), stamp_);
+  odometry_.publish(counted_.pose(), twist_of(state_.speeds, track_), stamp_);
   publish_battery(battery_, {.voltage = state_.motor_voltage}, stamp_);
   sonars_.publish_round(stamp_);
   bumpers_.publish(stamp_, kSwitches);

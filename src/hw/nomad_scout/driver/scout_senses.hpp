@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "orca/geometry/pose2.hpp"
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/base_senses.hpp"
-#include "orca/hw/nomad_scout/odometry.hpp"
 #include "orca/hw/nomad_scout/state.hpp"
 
 namespace orca::hw::nomad_scout {
@@ -58,11 +55,8 @@ class ScoutSenses {
   BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
 
-  ScoutOdometry wheels_;
-  std::optional<double>
-      heading_offset_;  // [rad] from the controller's heading to that of the pose; none: not heard yet
-  Pose2 pose_;          // in the frame of the odometry
-  State state_;         // the last one
+  CountedPose counted_{kCoordinates};
+  State state_;  // the last one
   TimePoint stamp_{};
 };
 

@@ -29,6 +29,20 @@ constexpr Duration kPowerTime = 500ms;      // from the command for power until 
 constexpr std::ptrdiff_t kMostBumpers = 7;  // on a side: a packet has bits for so many
 const std::vector<std::uint32_t> kRates{9600, 38400, 19200, 115200, 57600};
 
+bool fits_packet(const std::vector<double>& bumpers) {
+  const std::ptrdiff_t front = std::ranges::count_if(
+      bumpers, [](double direction) { return std::abs(direction) < 0.5 * std::numbers::pi; });
+  return front <= kMostBumpers && std::ssize(bumpers) - front <= kMostBumpers;
+}
+
+double within(double wish, double limit) { return limit > 0.0 ? std::min(wish, limit) : wish; }
+
+std::string all_models() {
+  std::string names;
+  for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
+  return names;
+}
+
 /// The base of a Pioneer 2, PeopleBot or later robot that speaks P2OS or ARCOS.
 ///
 /// Its motors get power with the first command to move, not before, and lose it when nobody uses the base. After a fault they stay
@@ -180,12 +194,6 @@ class P2osBase final : public BaseDriver {
     return figures().figures() != nullptr ? figures().figures()->bumper_radius : model_->radius;
   }
 
-  [[nodiscard]] static bool fits_packet(const std::vector<double>& bumpers) {
-    const std::ptrdiff_t front = std::ranges::count_if(
-        bumpers, [](double direction) { return std::abs(direction) < 0.5 * std::numbers::pi; });
-    return front <= kMostBumpers && std::ssize(bumpers) - front <= kMostBumpers;
-  }
-
   [[nodiscard]] bool has_gripper() const {
     return figures().figures() != nullptr && figures().figures()->gripper.has_value();
   }
@@ -206,16 +214,6 @@ class P2osBase final : public BaseDriver {
     if (command.lift() == idl::LIFT_STAY) return ok();
     const bool up = command.lift() == idl::LIFT_UP;
     return send({encode_gripper(up ? GripperAction::up : GripperAction::down)});
-  }
-
-  [[nodiscard]] static double within(double wish, double limit) {
-    return limit > 0.0 ? std::min(wish, limit) : wish;
-  }
-
-  [[nodiscard]] static std::string all_models() {
-    std::string names;
-    for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
-    return names;
   }
 
   [[nodiscard]] bool may_drive() const { return is_known_ || *drive_unknown_; }

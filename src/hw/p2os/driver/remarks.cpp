@@ -33,8 +33,8 @@ std::vector<std::string> Remarks::take(const Config& config, const DriveLimits& 
       all.push_back("its controller " + does + " at most " + number(there) + " " + unit +
                     ", and this graph says " + number(here) + " " + unit);
   };
-  compare(limits.max_speed, config.speed.top_rate, "drives", "m/s");
-  compare(limits.max_turn_rate, config.turn_rate.top_rate, "turns", "rad/s");
+  compare(limits.max_speed, config.top_speed, "drives", "m/s");
+  compare(limits.max_turn_rate, config.top_turn_rate, "turns", "rad/s");
   return all;
 }
 

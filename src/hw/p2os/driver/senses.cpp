@@ -46,8 +46,7 @@ Senses::Senses(const Model& model, const Extras& extras, const SenseTraits& trai
               kPeriod),
       bumpers_(kPeriod, extras.bumper_radius),
       battery_(kPeriod),
-      gripper_(kPeriod),
-      wheels_(model.distance_unit) {
+      gripper_(kPeriod) {
   find_sonars();
   add_bumpers(extras.bumpers);
 }
@@ -77,17 +76,14 @@ std::optional<idl::SonarRing> Senses::describe_sonars() const {
 
 void Senses::connect(const Model& units) {
   units_ = &units;
-  wheels_ = WheelOdometry(units.distance_unit);
-  heading_offset_.reset();
+  counted_.forget();
   sonars_.forget();
 }
 
 void Senses::take(const Sip& sip, TimePoint stamp) {
   sip_ = sip;
   stamp_ = stamp;
-  if (!heading_offset_) heading_offset_ = wrapped(pose_.yaw - sip.heading);
-  const Vec2 step = rotated(wheels_.add(sip.x, sip.y), *heading_offset_);
-  pose_ = {pose_.x + step.x, pose_.y + step.y, wrapped(sip.heading + *heading_offset_)};
+  counted_.take(sip.x, sip.y, units_->distance_unit, sip.heading);
   for (const SonarEcho& echo : sip.echoes) {
     const std::size_t place = echo.index < places_.size() ? places_[echo.index] : kNowhere;
     if (place != kNowhere) sonars_.take(place, echo.range, stamp);
@@ -108,7 +104,7 @@ void Senses::publish() {
 void Senses::publish_odometry() {
   const Twist2 velocity{0.5 * (sip_.left_speed + sip_.right_speed), 0.0,
                         0.5 * (sip_.right_speed - sip_.left_speed) / units_->half_track};
-  odometry_.publish(pose_, velocity, stamp_);
+  odometry_.publish(counted_.pose(), velocity, stamp_);
 }
 
 void Senses::publish_battery() {

@@ -9,7 +9,6 @@
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/base_senses.hpp"
 #include "orca/hw/p2os/model.hpp"
-#include "orca/hw/p2os/odometry.hpp"
 #include "orca/hw/p2os/sip.hpp"
 
 namespace orca::hw::p2os {
@@ -74,10 +73,8 @@ class Senses {
   SensorHW<idl::Battery> battery_;
   SensorHW<idl::GripperState> gripper_;
 
-  WheelOdometry wheels_;
-  std::optional<double> heading_offset_;  // [rad] from the controller's heading to that of the pose
-  Pose2 pose_;                            // in the frame of the odometry
-  Sip sip_;                               // the last one
+  CountedPose counted_{Sip::kCoordinates};
+  Sip sip_;  // the last one
   TimePoint stamp_{};
 };
 

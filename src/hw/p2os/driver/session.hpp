@@ -14,7 +14,7 @@
 #include "orca/hw/line_session.hpp"
 #include "orca/hw/p2os/command.hpp"
 #include "orca/hw/p2os/config.hpp"
-#include "orca/hw/p2os/sync.hpp"
+#include "orca/hw/p2os/packet.hpp"
 
 namespace orca::hw::p2os {
 

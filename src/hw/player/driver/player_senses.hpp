@@ -7,12 +7,9 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/base_senses.hpp"
-#include "orca/hw/player/bumper.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/message.hpp"
 #include "orca/hw/player/position2d.hpp"
-#include "orca/hw/player/power.hpp"
-#include "orca/hw/player/sonar.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "player_session.hpp"
 
 namespace orca::hw::player {

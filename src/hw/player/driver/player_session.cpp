@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/payload.hpp"
 #include "orca/hw/player/position2d.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "ranger_view.hpp"
 
 namespace orca::hw::player {

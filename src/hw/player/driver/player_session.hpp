@@ -12,11 +12,10 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/line_session.hpp"
-#include "orca/hw/player/geometry.hpp"
 #include "orca/hw/player/message_reader.hpp"
-#include "orca/hw/player/ranger.hpp"
+#include "orca/hw/player/payload.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/hw/player/session.hpp"
-#include "orca/hw/player/sonar.hpp"
 #include "player_uses.hpp"
 
 namespace orca::hw::player {

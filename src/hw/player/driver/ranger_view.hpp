@@ -4,11 +4,9 @@
 #include <optional>
 
 #include "orca/base/result.hpp"
-#include "orca/hw/player/geometry.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/message.hpp"
-#include "orca/hw/player/ranger.hpp"
-#include "orca/hw/player/sonar.hpp"
+#include "orca/hw/player/payload.hpp"
+#include "orca/hw/player/sensors.hpp"
 
 namespace orca::hw::player {
 

@@ -7,7 +7,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
-#include "orca/hw/arrivals.hpp"
+#include "orca/hw/line_frames.hpp"
 #include "orca/hw/line_session.hpp"
 #include "orca/hw/rplidar/receiver.hpp"
 #include "orca/hw/rplidar/request.hpp"

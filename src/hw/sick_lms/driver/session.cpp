@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
-#include "orca/hw/sick_lms/timing.hpp"
+#include "orca/hw/sick_lms/scan.hpp"
 
 namespace orca::hw::sick_lms {
 namespace {
@@ -22,9 +22,7 @@ constexpr Duration kSettleTime = 500ms;  // after a change of the rate
 constexpr int kTries = 3;
 
 bool has_bits_of(std::uint8_t mode, std::uint8_t wished) {
-  const auto found = layout_of(mode);
-  const auto layout = layout_of(wished);
-  return found && layout && found->distance_mask == layout->distance_mask;
+  return distance_mask(mode) && distance_mask(mode) == distance_mask(wished);
 }
 
 std::string at_rate(std::uint32_t baud) { return std::to_string(baud) + " baud"; }
@@ -81,7 +79,7 @@ Result<Telegram> Session::request() const {
   switch (step_) {
     case Step::type: return request_type();
     case Step::read: return request_configuration();
-    case Step::install: return request_installation(type_.starts_with("PLS") ? kPls : kLms);
+    case Step::install: return request_installation(type_.starts_with("PLS") ? kPlsPassword : kLmsPassword);
     case Step::write: return write_configuration(configuration_.bytes());
     case Step::rate: return request_rate(wanted_);
     case Step::confirm: return request_status();
@@ -119,26 +117,23 @@ Status Session::take(const Reply& reply, TimePoint now) {
   return answers(reply) ? take_answer(reply, now) : ok();
 }
 
-// Returns the code of an answer to a step, beside that of a refusal; nothing: none comes.
-std::optional<ReplyCode> Session::answer_to(Step step) {
-  switch (step) {
-    case Step::type: return ReplyCode::type;
-    case Step::read: return ReplyCode::configuration;
-    case Step::write: return ReplyCode::written;
-    case Step::confirm: return ReplyCode::status;
-    case Step::variant: return ReplyCode::variant;
-    case Step::install:
-    case Step::leave:
-    case Step::rate: return ReplyCode::mode;
-    default: return std::nullopt;
-  }
-}
-
 // Returns whether it is an answer to the present step, and no scan that was on its way.
 bool Session::answers(const Reply& reply) const {
-  if (step_ == Step::find) return parse_mode_answer(reply) == ModeAnswer::success;
-  const std::optional<ReplyCode> answer = answer_to(step_);
-  return answer && (reply.code == *answer || reply.code == ReplyCode::not_accepted);
+  const auto is_one_of = [&](ReplyCode answer) {
+    return reply.code == answer || reply.code == ReplyCode::not_accepted;
+  };
+  switch (step_) {
+    case Step::find: return parse_mode_answer(reply) == ModeAnswer::success;
+    case Step::type: return is_one_of(ReplyCode::type);
+    case Step::read: return is_one_of(ReplyCode::configuration);
+    case Step::write: return is_one_of(ReplyCode::written);
+    case Step::confirm: return is_one_of(ReplyCode::status);
+    case Step::variant: return is_one_of(ReplyCode::variant);
+    case Step::install:
+    case Step::leave:
+    case Step::rate: return is_one_of(ReplyCode::mode);
+    default: return false;  // none comes
+  }
 }
 
 Status Session::take_answer(const Reply& reply, TimePoint now) {

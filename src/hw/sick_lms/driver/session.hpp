@@ -75,7 +75,6 @@ class Session final : public hw::LineSession {
   [[nodiscard]] Result<Telegram> request() const;
   [[nodiscard]] Duration patience() const;
   Status take(const Reply& reply, TimePoint now);
-  [[nodiscard]] static std::optional<ReplyCode> answer_to(Step step);
   [[nodiscard]] bool answers(const Reply& reply) const;
   Status take_answer(const Reply& reply, TimePoint now);
   Status take_written(const Reply& reply, TimePoint now);

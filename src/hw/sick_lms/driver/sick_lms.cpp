@@ -11,7 +11,6 @@
 #include "orca/hardware.hpp"
 #include "orca/hw/laser_driver.hpp"
 #include "orca/hw/sick_lms/scan.hpp"
-#include "orca/hw/sick_lms/timing.hpp"
 #include "session.hpp"
 
 namespace {
@@ -80,9 +79,7 @@ class SickLms final : public LaserDriver {
   }
 
   Status meet() override {
-    const Configuration& configuration = session_->configuration();
-    format_ = {.measuring_mode = configuration.measuring_mode().value_or(0),
-               .has_real_time_index = (configuration.availability().value_or(0) & 2U) != 0};
+    measuring_mode_ = session_->configuration().measuring_mode().value_or(0);
     status_ = {};
     scanning_ = false;
     log_connected(in_quotes(session_->type()), session_->rate());
@@ -138,11 +135,11 @@ class SickLms final : public LaserDriver {
       return fail(Code::failed_precondition, "the laser refuses to send scans");
     if (reply.code != ReplyCode::scan) return ok();
     // A scan whose check word is good and whose content is not fits no setting of ours; the next one may.
-    if (!parse_scan(reply, format_, scan_).ok() || scan_.ranges.size() != beams(variant_)) return ok();
+    if (!parse_scan(reply, measuring_mode_, ranges_).ok() || ranges_.size() != beams(variant_)) return ok();
     heard(received.stamp);
     // Beams of several turns are not measured in their order.
     const bool in_order = variant_.resolution == 100;
-    publish(scan_.ranges, received.stamp - mirror_time(variant_),
+    publish(ranges_, received.stamp - mirror_time(variant_),
             in_order ? to_seconds(mirror_time(variant_)) / 360.0 : 0.0);
     return ok();
   }
@@ -206,8 +203,8 @@ class SickLms final : public LaserDriver {
   Variant variant_{};
   Scale scale_ = kMillimetres;
   std::optional<Session> session_;
-  ScanFormat format_{};
-  Scan scan_;
+  std::uint8_t measuring_mode_ = 0;  // of the laser
+  std::vector<double> ranges_;       // of the last scan
   StatusByte status_{};
   bool scanning_ = false;
 };

@@ -9,7 +9,7 @@
 #include "orca/hw/base_odometry.hpp"
 #include "orca/hw/base_senses.hpp"
 #include "orca/hw/xr4000/answers.hpp"
-#include "orca/hw/xr4000/odometry.hpp"
+#include "orca/hw/xr4000/base.hpp"
 
 namespace orca::hw::xr4000 {
 

@@ -1,87 +1,44 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orca/hw/create2/sensors.hpp"
-
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "hex_bytes.hpp"
+#include "orca/base/random.hpp"
+#include "orca/hw/create2/sensors.hpp"
+#include "orca/hw/framing/checksums.hpp"
 
 using namespace orca::hw::create2;
+using namespace orca::hw;
 using SensorBytes = std::vector<std::uint8_t>;
+using orca::hw::test::FrameList;
+using orca::hw::test::frames_in;
+using orca::hw::test::joined;
+using StreamBytes = std::vector<std::uint8_t>;
 
 namespace {
 
-Sensors after(std::uint8_t packet, const SensorBytes& data) {
-  Sensors sensors;
-  REQUIRE(sensors.apply(packet, data).ok());
-  return sensors;
-}
+Sensors after(const SensorBytes& body) { return parse_body(body).value(); }
 
-// Number 1 for the first byte, 2 for the second, and so on.
-SensorBytes counting(std::size_t size) {
-  SensorBytes bytes(size);
-  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i + 1);
-  return bytes;
+// Voltage 537 mV and bumper 0; all bytes have the sum 0.
+const StreamBytes kExample{19, 5, 22, 2, 25, 7, 0, 176};
+const std::string kExampleText = "13 05 16 02 19 07 00 B0";
+
+StreamBytes frame_of(const StreamBytes& body) {
+  StreamBytes frame{19, static_cast<std::uint8_t>(body.size())};
+  frame.insert(frame.end(), body.begin(), body.end());
+  frame.push_back(static_cast<std::uint8_t>(256 - framing::sum_of_bytes(frame)));
+  return frame;
 }
 
 }  // namespace
 
-TEST_CASE("groups have the sizes of the manual", "[hw][create2]") {
-  CHECK(data_size(kGroup0) == 26);
-  CHECK(data_size(kGroup1) == 10);
-  CHECK(data_size(kGroup2) == 6);
-  CHECK(data_size(kGroup3) == 10);
-  CHECK(data_size(kGroup4) == 14);
-  CHECK(data_size(kGroup5) == 12);
-  CHECK(data_size(kGroup6) == 52);
-  CHECK(data_size(kGroupAll) == 80);
-  CHECK(data_size(kGroupNew) == 28);
-  CHECK(data_size(kGroupLight) == 12);
-  CHECK(data_size(kGroupCurrents) == 9);
-}
-
-TEST_CASE("packets are 7 to 58", "[hw][create2]") {
-  CHECK(data_size(7) == 1);
-  CHECK(data_size(19) == 2);
-  CHECK(data_size(24) == 1);
-  CHECK(data_size(32) == 1);
-  CHECK(data_size(33) == 2);
-  CHECK(data_size(45) == 1);
-  CHECK(data_size(58) == 1);
-  for (const int none : {59, 60, 99, 102, 105, 108, 255})
-    CHECK_FALSE(data_size(static_cast<std::uint8_t>(none)).has_value());
-}
-
 TEST_CASE("bumps and wheel drops are bits", "[hw][create2]") {
-  CHECK(after(7, {0x01}).bumps_and_drops == BumpsAndDrops{.bump_right = true});
-  CHECK(after(7, {0x02}).bumps_and_drops == BumpsAndDrops{.bump_left = true});
-  CHECK(after(7, {0x04}).bumps_and_drops == BumpsAndDrops{.drop_right = true});
-  CHECK(after(7, {0x08}).bumps_and_drops == BumpsAndDrops{.drop_left = true});
-}
-
-TEST_CASE("overcurrents are bits", "[hw][create2]") {
-  CHECK(after(14, {0x01}).overcurrents == Overcurrents{.side_brush = true});
-  CHECK(after(14, {0x04}).overcurrents == Overcurrents{.main_brush = true});
-  CHECK(after(14, {0x08}).overcurrents == Overcurrents{.right_wheel = true});
-  CHECK(after(14, {0x10}).overcurrents == Overcurrents{.left_wheel = true});
-}
-
-TEST_CASE("cliffs are counted from the left", "[hw][create2]") {
-  const Sensors sensors = after(kGroup1, {0, 1, 1, 0, 0, 1, 0, 0, 0, 0});
-  CHECK(sensors.wall == true);
-  CHECK(sensors.cliffs == std::array<std::optional<bool>, 4>{true, false, false, true});
-  CHECK(sensors.virtual_wall == false);
-}
-
-TEST_CASE("the battery is reported in SI units", "[hw][create2]") {
-  const Sensors sensors = after(kGroup3, {2, 0x3D, 0x86, 0xFF, 0x06, 0xFB, 0x05, 0xDC, 0x0B, 0xB8});
-  CHECK(sensors.charging_state == ChargingState::full);
-  CHECK(*sensors.voltage == Approx(15.75));
-  CHECK(*sensors.current == Approx(-0.25));
-  CHECK(*sensors.temperature == -5.0);
-  CHECK(*sensors.charge == Approx(5400.0));  // 1500 mAh
-  CHECK(*sensors.capacity == Approx(10800.0));
-  CHECK(*state_of_charge(sensors) == Approx(0.5));
+  CHECK(after({7, 0x01}).bumps_and_drops == BumpsAndDrops{.bump_right = true});
+  CHECK(after({7, 0x02}).bumps_and_drops == BumpsAndDrops{.bump_left = true});
+  CHECK(after({7, 0x04}).bumps_and_drops == BumpsAndDrops{.drop_right = true});
+  CHECK(after({7, 0x08}).bumps_and_drops == BumpsAndDrops{.drop_left = true});
 }
 
 TEST_CASE("the state of charge is not known without a capacity, and at most 1", "[hw][create2]") {
@@ -91,97 +48,151 @@ TEST_CASE("the state of charge is not known without a capacity, and at most 1", 
   CHECK(state_of_charge(Sensors{.charge = 2.0, .capacity = 1.0}) == 1.0);
 }
 
-TEST_CASE("chargers and the mode", "[hw][create2]") {
-  CHECK(after(34, {1}).charging_sources == ChargingSources{.internal = true});
-  CHECK(after(34, {2}).charging_sources == ChargingSources{.home_base = true});
-  CHECK(after(35, {3}).mode == Mode::full);
+TEST_CASE("a stall is a wheel's motor that draws too much, not a brush's", "[hw][create2]") {
+  CHECK_FALSE(after({14, 0x01}).is_stalled);
+  CHECK_FALSE(after({14, 0x04}).is_stalled);
+  CHECK(after({14, 0x08}).is_stalled);
+  CHECK(after({14, 0x10}).is_stalled);
 }
 
-TEST_CASE("distance and angle are signed", "[hw][create2]") {
-  const Sensors sensors = after(kGroup2, {0xA1, 0x05, 0xFF, 0x38, 0xFF, 0xA6});
-  CHECK(sensors.infrared_omni == 0xA1);
-  CHECK(sensors.buttons == 0x05);
-  CHECK(*sensors.distance == Approx(-0.2));
-  CHECK(*sensors.angle == Approx(-std::numbers::pi / 2.0));
+TEST_CASE("cliffs are counted from the left", "[hw][create2]") {
+  CHECK(after({9, 1, 10, 0, 11, 0, 12, 1}).cliffs == std::array{true, false, false, true});
 }
 
-TEST_CASE("what was requested of the motors", "[hw][create2]") {
-  const Sensors sensors = after(kGroup5, {2, 3, 1, 4, 0xFF, 0x38, 0x01, 0xF4, 0x00, 0x64, 0xFF, 0x9C});
-  CHECK(sensors.mode == Mode::safe);
-  CHECK(sensors.song == 3);
-  CHECK(sensors.song_playing == true);
-  CHECK(sensors.stream_packets == 4);
-  CHECK(*sensors.requested_speed == Approx(-0.2));
-  CHECK(*sensors.requested_radius == Approx(0.5));
-  CHECK(*sensors.requested_right == Approx(0.1));
-  CHECK(*sensors.requested_left == Approx(-0.1));
-  CHECK(std::isinf(*after(40, {0x80, 0x00}).requested_radius));
-  CHECK(std::isinf(*after(40, {0x7F, 0xFF}).requested_radius));
+TEST_CASE("the battery is reported in SI units", "[hw][create2]") {
+  const Sensors sensors = after({21, 2, 22, 0x3D, 0x86, 25, 0x05, 0xDC, 26, 0x0B, 0xB8});
+  CHECK(sensors.charging_state == ChargingState::full);
+  CHECK(*sensors.voltage == Approx(15.75));
+  CHECK(*sensors.charge == Approx(5400.0));  // 1500 mAh
+  CHECK(*sensors.capacity == Approx(10800.0));
+  CHECK(*state_of_charge(sensors) == Approx(0.5));
 }
 
-TEST_CASE("all packets are read from the largest group, each from its place", "[hw][create2]") {
-  const Sensors sensors = after(kGroupAll, counting(80));
-  CHECK(sensors.bumps_and_drops == BumpsAndDrops{.bump_right = true});
-  CHECK(sensors.dirt == 9);
-  CHECK(sensors.infrared_omni == 11);
-  CHECK(*sensors.capacity == Approx(3.6 * (256 * 25 + 26)));
-  CHECK(sensors.wall_signal == 256 * 27 + 28);
-  CHECK(sensors.cliff_signals[0] == 256 * 29 + 30);
-  CHECK(sensors.cliff_signals[3] == 256 * 35 + 36);
-  CHECK(sensors.charging_sources == ChargingSources{});  // byte 40
-  CHECK(*sensors.requested_left == Approx(0.001 * (256 * 51 + 52)));
-  CHECK(sensors.left_counts == 256 * 53 + 54);
-  CHECK(sensors.right_counts == 256 * 55 + 56);
-  CHECK(sensors.light_bumper == 57);
-  CHECK(sensors.light_signals[0] == 256 * 58 + 59);
-  CHECK(sensors.light_signals[5] == 256 * 68 + 69);
-  CHECK(sensors.infrared_left == 70);
-  CHECK(sensors.infrared_right == 71);
-  CHECK(*sensors.left_motor_current == Approx(0.001 * (256 * 72 + 73)));
-  CHECK(*sensors.right_motor_current == Approx(0.001 * (256 * 74 + 75)));
-  CHECK(*sensors.main_brush_current == Approx(0.001 * (256 * 76 + 77)));
-  CHECK(*sensors.side_brush_current == Approx(0.001 * (256 * 78 + 79)));
-  CHECK(sensors.stasis == Stasis{});  // byte 80: 0101 0000
+TEST_CASE("chargers, the mode and the encoders", "[hw][create2]") {
+  CHECK_FALSE(after({34, 0}).is_at_charger);
+  CHECK(after({34, 1}).is_at_charger);
+  CHECK(after({34, 2}).is_at_charger);
+  CHECK(after({35, 3}).mode == Mode::full);
+  CHECK(after({43, 0x12, 0x34}).left_counts == 0x1234);
+  CHECK(after({44, 0x12, 0x34}).right_counts == 0x1234);
 }
 
-TEST_CASE("a group is read as its packets are", "[hw][create2]") {
-  const SensorBytes all = counting(80);
-  Sensors one_by_one;
-  std::size_t at = 0;
-  for (std::uint8_t packet = 7; packet <= 58; ++packet) {
-    const std::size_t size = data_size(packet).value();
-    REQUIRE(one_by_one.apply(packet, std::span(all).subspan(at, size)).ok());
-    at += size;
+TEST_CASE("packets that nobody asked for, or that are cut short, give no readings", "[hw][create2]") {
+  CHECK_FALSE(data_size(13).has_value());
+  CHECK_FALSE(parse_body(SensorBytes{22, 1, 2, 13, 0}).has_value());
+  CHECK_FALSE(parse_body(SensorBytes{7, 0, 22, 1}).has_value());
+  CHECK(after({}) == Sensors{});
+}
+
+TEST_CASE("a frame is found and read", "[hw][create2]") {
+  CHECK(frames_in(create2::kProtocol, kExample) == std::vector<std::string>{kExampleText});
+  const Sensors sensors = parse_body(body_of(kExample)).value();
+  CHECK(*sensors.voltage == Approx(0.537));
+  CHECK_FALSE(sensors.mode.has_value());
+}
+
+TEST_CASE("the manual's checksum counts the header", "[hw][create2]") {
+  CHECK(framing::sum_of_bytes(StreamBytes{19, 5, 29, 2, 25, 13, 0, 163}) == 0);
+  CHECK(frame_of({29, 2, 25, 13, 0}).back() == 163);
+}
+
+TEST_CASE("a frame is found when it comes byte by byte, and behind the text of a reset", "[hw][create2]") {
+  FrameList list(create2::kProtocol);
+  const std::string text = "bl-start\r\nr3_robot/tags/release-3.5.x\r\n";
+  list.hear(StreamBytes(text.begin(), text.end()));
+  for (const std::uint8_t byte : joined({kExample, kExample})) list.hear({byte});
+  CHECK(list.frames() == std::vector<std::string>{kExampleText, kExampleText});
+  CHECK(list.statistics().skipped_bytes == text.size());
+}
+
+TEST_CASE("a wrong checksum is no frame", "[hw][create2]") {
+  StreamBytes wrong = kExample;
+  wrong.back() = 195;  // that of the first Create, without the header
+  FrameList list(create2::kProtocol);
+  list.hear(joined({wrong, kExample}));
+  CHECK(list.frames() == std::vector<std::string>{kExampleText});
+  CHECK(list.statistics().bad_checksums == 1);
+}
+
+TEST_CASE("a beginning whose packets do not fit is not waited for", "[hw][create2]") {
+  using Kind = framing::Finding::Kind;
+  CHECK(look(StreamBytes{18}).kind == Kind::nothing);
+  CHECK(look(StreamBytes{19}).kind == Kind::need_more);
+  CHECK(look(StreamBytes{19, 0}).kind == Kind::nothing);
+  CHECK(look(StreamBytes{19, 200, 13}).kind == Kind::nothing);        // nobody asks for packet 13
+  CHECK(look(StreamBytes{19, 200, 7, 0, 13}).kind == Kind::nothing);  // nor after another
+  CHECK(look(StreamBytes{19, 2, 22}).kind == Kind::nothing);          // packet 22 needs 3 bytes
+  CHECK(look(StreamBytes{19, 3, 22}).kind == Kind::need_more);
+  CHECK(look(StreamBytes{19, 4, 7, 0, 22, 1, 0, 0}).kind == Kind::nothing);
+}
+
+TEST_CASE("a header inside a frame does not hide the frame", "[hw][create2]") {
+  const StreamBytes bytes = frame_of({22, 19, 5, 43, 19, 19});
+  FrameList list(create2::kProtocol);
+  list.hear(joined({bytes, bytes}));
+  CHECK(list.frames().size() == 2);
+  CHECK(list.statistics().skipped_bytes == 0);
+}
+
+TEST_CASE("no frame of any numbers is lost, and it is read without an error", "[hw][create2]") {
+  orca::RandomStream random(1, "test", "create2");
+  FrameList list(create2::kProtocol);
+  for (int round = 0; round < 2000; ++round) {
+    StreamBytes body;
+    for (const int packet : {7, 43, 44, 21, 22, 25, 26}) {
+      body.push_back(static_cast<std::uint8_t>(packet));
+      for (std::size_t i = 0; i < *data_size(static_cast<std::uint8_t>(packet)); ++i)
+        body.push_back(static_cast<std::uint8_t>(random()));
+    }
+    const StreamBytes frame = frame_of(body);
+    list.hear(frame);
+    const Sensors sensors = parse_body(body_of(frame)).value();
+    CHECK(sensors.left_counts == 256 * body[3] + body[4]);
+    CHECK(sensors.right_counts == 256 * body[6] + body[7]);
   }
-  CHECK(one_by_one == after(kGroupAll, all));
+  CHECK(list.frames().size() == 2000);
+  CHECK(list.statistics().skipped_bytes == 0);
 }
 
-TEST_CASE("motor currents are signed, and stasis has two bits", "[hw][create2]") {
-  const Sensors sensors = after(kGroupCurrents, {0xFF, 0x9C, 0, 0, 0, 0, 0, 0, 0x02});
-  CHECK(*sensors.left_motor_current == Approx(-0.1));
-  CHECK(sensors.stasis == Stasis{.disabled = true});
-  CHECK(after(58, {1}).stasis == Stasis{.toggling = true});
+TEST_CASE("123 counts are 123 * (pi * 72 mm / 508.8) = 54.7 mm", "[hw][create2]") {
+  CHECK(wheel_way(123) == Approx(0.0547).margin(0.00005));
+  CHECK(wheel_way(-123) == -wheel_way(123));
 }
 
-TEST_CASE("the answer to a list is the data alone", "[hw][create2]") {
-  Sensors sensors;
-  CHECK(sensors.apply_list(SensorBytes{29, 13}, SensorBytes{2, 25, 1}).ok());
-  CHECK(sensors.cliff_signals[1] == 537);
-  CHECK(sensors.virtual_wall == true);
+TEST_CASE("counts wrap at 16 bits in both directions", "[hw][create2]") {
+  CHECK(step_of(65535, 0) == 1);
+  CHECK(step_of(0, 65535) == -1);
+  CHECK(step_of(65000, 100) == 636);
+  CHECK(step_of(0, 32767) == 32767);
+  CHECK(step_of(0, 32768) == -32768);
+  CHECK(step_of(1234, 1234) == 0);
 }
 
-TEST_CASE("data of a wrong size change nothing", "[hw][create2]") {
-  Sensors sensors;
-  const auto short_data = sensors.apply(22, SensorBytes{1});
-  REQUIRE_FALSE(short_data.ok());
-  CHECK(short_data.error().text() == "sensor packet 22: 2 bytes expected, 1 found; ask again");
-  CHECK_FALSE(sensors.apply(kGroupAll, SensorBytes(81)).ok());
-  CHECK_FALSE(sensors.apply(59, SensorBytes{}).ok());
-  const auto short_list = sensors.apply_list(SensorBytes{29, 13}, SensorBytes{2, 25});
-  REQUIRE_FALSE(short_list.ok());
-  CHECK(short_list.error().text() == "answer to a list of packets: 3 bytes expected, 2 found; ask again");
-  CHECK_FALSE(sensors.apply_list(SensorBytes{59}, SensorBytes{2}).ok());
-  CHECK_FALSE(sensors.apply_body(SensorBytes{29, 2, 25, 13}).ok());
-  CHECK_FALSE(sensors.apply_body(SensorBytes{29, 2, 25, 59, 0}).ok());
-  CHECK(sensors == Sensors{});
+TEST_CASE("the first counts are a reference alone", "[hw][create2]") {
+  EncoderOdometry odometry;
+  CHECK(odometry.add(1000, 2000) == orca::Travel2{});
+  CHECK(odometry.add(1123, 2123).forward == Approx(0.0547).margin(0.00005));
+  odometry.forget();
+  CHECK(odometry.add(0, 0) == orca::Travel2{});
+}
+
+TEST_CASE("equal counts are a straight way, opposite ones a turn", "[hw][create2]") {
+  EncoderOdometry odometry;
+  odometry.add(65500, 100);
+  const auto straight = odometry.add(65500 + 509 - 65536, 609);
+  CHECK(straight.forward == Approx(std::numbers::pi * 0.072).epsilon(0.001));
+  CHECK(straight.turn == Approx(0.0).margin(1e-12));
+  const auto left = odometry.add(static_cast<std::uint16_t>(473 - 415), 609 + 415);
+  CHECK(left.forward == Approx(0.0).margin(1e-12));
+  CHECK(left.turn ==
+        Approx(std::numbers::pi / 2.0).epsilon(0.001));  // a quarter turn: pi * 0.235 / 4 per wheel
+  CHECK(left.left == 0.0);
+}
+
+TEST_CASE("the way is the same in one step or in many, over many wraps", "[hw][create2]") {
+  EncoderOdometry odometry;
+  double way = 0.0;
+  for (unsigned counts = 0; counts <= 1'000'000; counts += 1000)
+    way += odometry.add(static_cast<std::uint16_t>(counts), static_cast<std::uint16_t>(counts)).forward;
+  CHECK(way == Approx(1'000'000 / 508.8 * std::numbers::pi * 0.072));
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/random.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/plane.hpp"
 
@@ -89,4 +90,53 @@ TEST_CASE("odometry whose errors are guessed tells how uncertain it is, and othe
   const auto guessed = covariance_after({.odometry = OdometryUncertainty(idl::DIFFERENTIAL, 0.4, slip)});
   CHECK(guessed[0] == Approx(0.5 * 1e-4 * 2.0).epsilon(1e-6));  // two wheels over 2 m
   CHECK(guessed[4] > guessed[0]);                               // a wrong heading counts more aside
+}
+
+TEST_CASE("the first counts of a base are only a reference, and so are those of a new connection", "[hw]") {
+  CountedPose counted(32768);
+  counted.take(1190, 32649, 0.00084, 0.5);
+  CHECK(counted.pose() == Pose2{});
+  counted.take(1190 + 500, 32649, 0.00084, 1.0);
+  CHECK(counted.pose().x == Approx(0.42 * std::cos(0.5)));
+  CHECK(counted.pose().y ==
+        Approx(-0.42 * std::sin(0.5)));  // the controller's x axis is 0.5 rad to the right
+  CHECK(counted.pose().yaw == Approx(0.5));
+  const Pose2 before = counted.pose();
+  counted.forget();
+  counted.take(5000, 0, 0.00084, -2.0);
+  CHECK(counted.pose().x == before.x);
+  CHECK(counted.pose().y == before.y);
+  CHECK(counted.pose().yaw == Approx(before.yaw));
+}
+
+TEST_CASE("a step over the end of the counts is a small one", "[hw]") {
+  const auto [turn, from, to, step] = GENERATE(table<int, int, int, int>({{32768, 32700, 68, 136},
+                                                                          {32768, 68, 32700, -136},
+                                                                          {32768, 32767, 0, 1},
+                                                                          {32768, 0, 16383, 16383},
+                                                                          {32768, 0, 16384, -16384},
+                                                                          {65536, 32760, -32766, 10},
+                                                                          {65536, -32766, 32760, -10},
+                                                                          {65536, 32767, 32767, 0},
+                                                                          {65536, -16000, 16000, 32000}}));
+  INFO(turn << " " << from << " " << to);
+  CountedPose counted(turn);
+  counted.take(from, 0, 1.0, 0.0);
+  counted.take(to, 0, 1.0, 0.0);
+  CHECK(counted.pose().x == step);
+}
+
+TEST_CASE("a long way in small steps is the sum of its steps, however often the counts wrap", "[hw]") {
+  RandomStream random(1, "test", "counted pose");
+  CountedPose counted(32768);
+  long x = 7;
+  long y = -3;
+  counted.take(7, -3 & 0x7FFF, 1.0, 0.0);
+  for (int i = 0; i < 10'000; ++i) {
+    x += std::lround(random.uniform(-2000, 16000));
+    y += std::lround(random.uniform(-16000, 2000));
+    counted.take(static_cast<int>(x & 0x7FFF), static_cast<int>(y & 0x7FFF), 1.0, 0.0);
+  }
+  CHECK(counted.pose() == Pose2{static_cast<double>(x - 7), static_cast<double>(y + 3), 0.0});
+  CHECK(x > 50'000'000);
 }

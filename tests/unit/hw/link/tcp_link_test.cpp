@@ -6,10 +6,10 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
-#include "address_lookup.hpp"
 #include "link_talk.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/hw/link/tcp_link.hpp"
+#include "tcp_socket.hpp"
 
 using namespace orca;
 using namespace orca::test;

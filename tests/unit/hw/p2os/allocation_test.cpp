@@ -15,12 +15,11 @@ TEST_CASE("what a Pioneer's driver does in each cycle takes no memory", "[hw][p2
   const p2os::Model& model = p2os::choose_model("p2dx").model;
   const long before = orca::test::allocations();
   const auto sip = p2os::parse_sip(body, model);
-  const p2os::Packet wheels = p2os::encode_wheels(p2os::wheel_steps({.forward = 0.2}, model));
   const p2os::Packet speed = p2os::encode_speed(0.2);
   const p2os::Packet grip = p2os::encode_gripper(p2os::GripperAction::close);
   const p2os::GripperState gripper = p2os::gripper_of({.gripper = 1});
   CHECK(orca::test::allocations() == before);
   CHECK(sip->echoes.size() == 4);
-  CHECK(wheels.size() + speed.size() + grip.size() == 27);
+  CHECK(speed.size() + grip.size() == 18);
   CHECK(gripper.open);
 }

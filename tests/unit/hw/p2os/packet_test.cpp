@@ -12,6 +12,7 @@ using namespace orca::hw;
 using test::Bytes;
 using test::hex;
 using Frames = std::vector<std::string>;
+using p2os::Identity;
 
 namespace {
 
@@ -107,4 +108,27 @@ TEST_CASE("any body comes out of its packet as it went in", "[hw][p2os]") {
     REQUIRE(found.size == packet.size());
     CHECK(test::text_of(p2os::body_of(packet.view())) == test::text_of(body));
   }
+}
+
+TEST_CASE("the answer to SYNC2 gives name, class and subclass", "[hw][p2os]") {
+  const auto packet =
+      hex("FA FB 19 02 50 69 6F 6E 65 65 72 32 00 50 69 6F 6E 65 65 72 00 70 32 64 78 00 DD 7C");
+  REQUIRE(p2os::look(packet).kind == framing::Finding::Kind::frame);
+  CHECK(p2os::sync_step(p2os::body_of(packet)) == 2);
+  CHECK(p2os::parse_identity(p2os::body_of(packet)) == Identity{"Pioneer2", "Pioneer", "p2dx"});
+}
+
+TEST_CASE("echoes of the handshake give their step, and nothing else does", "[hw][p2os]") {
+  CHECK(p2os::sync_step(hex("00")) == 0);
+  CHECK(p2os::sync_step(hex("01")) == 1);
+  CHECK_FALSE(p2os::sync_step(hex("FF")).has_value());
+  CHECK_FALSE(p2os::sync_step(hex("32 00")).has_value());
+  CHECK_FALSE(p2os::sync_step({}).has_value());
+  CHECK_FALSE(p2os::parse_identity(hex("01 41 00")).has_value());
+}
+
+TEST_CASE("names that are missing or not ended are read as far as they go", "[hw][p2os]") {
+  CHECK(p2os::parse_identity(hex("02")) == Identity{"", "", ""});
+  CHECK(p2os::parse_identity(hex("02 41 00 42 43")) == Identity{"A", "BC", ""});
+  CHECK(p2os::parse_identity(hex("02 00 00 44 00 45")) == Identity{"", "", "D"});
 }

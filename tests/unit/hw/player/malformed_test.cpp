@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include "orca/hw/player/bumper.hpp"
-#include "orca/hw/player/laser.hpp"
 #include "orca/hw/player/position2d.hpp"
-#include "orca/hw/player/ranger.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/hw/player/session.hpp"
-#include "orca/hw/player/sonar.hpp"
 #include "player_bytes.hpp"
 
 using namespace orca::hw::player;
@@ -54,7 +51,6 @@ TEST_CASE("an enumeration with an unknown value is an error", "[hw][player]") {
   const std::string device = "00000000 00000000 00000004 00000000 ";
   CHECK_FALSE(decode<Subscription>(words(device + "00000000 00000000 00000000")).has_value());
   CHECK_FALSE(decode<Subscription>(words(device + "00000004 00000000 00000000")).has_value());
-  CHECK_FALSE(decode<ReplaceRule>(words("00000000 00000000 00000000 00000000 00000003")).has_value());
 }
 
 TEST_CASE("a scan is an error when it is cut after any byte", "[hw][player]") {

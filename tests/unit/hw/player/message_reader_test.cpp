@@ -8,8 +8,8 @@
 #include <algorithm>
 
 #include "orca/hw/player/position2d.hpp"
+#include "orca/hw/player/sensors.hpp"
 #include "orca/hw/player/session.hpp"
-#include "orca/hw/player/sonar.hpp"
 #include "player_bytes.hpp"
 
 using namespace orca::hw::player;
@@ -145,7 +145,7 @@ TEST_CASE("a session of a client and a server, each with its reader", "[hw][play
   CHECK(
       client.hear(make_message(header_for(kPosition2dState), encode(Position2dState{.stall = true})).value())
           .ok());
-  REQUIRE(client.ids == std::vector<MessageId>{ack_of(kSubscribe), kPosition2dState});
+  REQUIRE(client.ids == std::vector<MessageId>{{Interface::player, MessageType::ack, 3}, kPosition2dState});
   CHECK(decode<Subscription>(client.payloads[0]).value() == granted);
   CHECK(decode<Position2dState>(client.payloads[1]).value().stall);
 }

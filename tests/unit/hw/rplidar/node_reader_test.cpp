@@ -6,6 +6,7 @@
 
 #include "orca/base/random.hpp"
 #include "orca/hw/rplidar/node.hpp"
+#include "rplidar_bytes.hpp"
 
 using namespace orca::hw::rplidar;
 using orca::RandomStream;

@@ -7,6 +7,7 @@
 
 #include "hex_bytes.hpp"
 #include "orca/base/random.hpp"
+#include "rplidar_bytes.hpp"
 
 using namespace orca::hw::rplidar;
 using orca::hw::test::hex;

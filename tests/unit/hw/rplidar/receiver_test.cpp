@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hex_bytes.hpp"
+#include "rplidar_bytes.hpp"
 
 using namespace orca::hw::rplidar;
 using orca::hw::test::hex;

@@ -3,14 +3,24 @@
 
 #include <string>
 
+#include "hex_bytes.hpp"
 #include "laser_bytes.hpp"
 #include "orca/hw/sick_lms/reply.hpp"
 
 using namespace orca::hw;
 using namespace orca::hw::sick_lms;
+using sick_lms::Configuration;
+using sick_lms::Unit;
 using test::Bytes;
 using test::HeldReply;
 using test::hex;
+
+namespace {
+
+// As one program was seen to write it: 70 cm blanking, no thresholds, dazzling, mode 1, millimetres.
+Bytes block() { return hex("46 00 07 02 05 01 01 00 02 02 00 AA"); }
+
+}  // namespace
 
 TEST_CASE("the answer to a mode says whether it was chosen", "[hw][sick]") {
   CHECK(parse_mode_answer(HeldReply(hex("02 80 03 00 A0 00 10 16 0A")).reply) == ModeAnswer::success);
@@ -28,7 +38,6 @@ TEST_CASE("the status byte is the last of each payload", "[hw][sick]") {
   const StatusByte bad{0xE3};
   CHECK(bad.severity() == 3);
   CHECK_FALSE(bad.is_good());
-  CHECK(bad.was_restarted());
   CHECK(bad.has_implausible_values());
   CHECK(bad.is_polluted());
 }
@@ -50,26 +59,12 @@ TEST_CASE("a request that is not accepted has an answer of its own", "[hw][sick]
   CHECK_FALSE(parse_mode_answer(held.reply).has_value());
 }
 
-TEST_CASE("errors are pairs of type and number", "[hw][sick]") {
-  CHECK(parse_errors(HeldReply(hex("02 80 02 00 B2 10 3F 13")).reply).value().empty());
-  const HeldReply two(test::from_laser(hex("B2 03 08 01 17 10")));
-  CHECK(parse_errors(two.reply).value() == std::vector<LaserError>{{3, 8}, {1, 0x17}});
-  CHECK_FALSE(parse_errors(HeldReply(test::from_laser(hex("A0 00 10"))).reply).has_value());
-}
-
 TEST_CASE("the type is a text without the blank at its end", "[hw][sick]") {
   const HeldReply type(
       hex("02 80 16 00 BA 4C 4D 53 32 30 30 3B 33 30 31 30 36 3B 56 30 32 2E 33 30 20 10 89 A3"));
   CHECK(type.reply.code == ReplyCode::type);
   CHECK(parse_type(type.reply) == "LMS200;30106;V02.30");
   CHECK(parse_type(HeldReply(test::from_laser(hex("BA 20 00 20 10"))).reply) == "");
-}
-
-TEST_CASE("a laser that was switched on gives its type unasked", "[hw][sick]") {
-  const HeldReply power_on(
-      hex("02 80 16 00 90 4C 4D 53 32 30 30 3B 33 30 31 30 36 3B 56 30 32 2E 33 30 20 10 2B 7C"));
-  CHECK(power_on.reply.code == ReplyCode::power_on);
-  CHECK(parse_type(power_on.reply) == "LMS200;30106;V02.30");
   CHECK_FALSE(parse_type(HeldReply(test::from_laser(hex("91 10"))).reply).has_value());
 }
 
@@ -102,50 +97,6 @@ TEST_CASE("the answer to writing has a byte before the configuration", "[hw][sic
   CHECK_FALSE(parse_configuration(held.reply).has_value());
 }
 
-TEST_CASE("the status report has its fields at fixed places", "[hw][sick]") {
-  Bytes payload(152);
-  const auto write = [&](std::size_t at, const Bytes& bytes) {
-    std::ranges::copy(bytes, payload.begin() + static_cast<std::ptrdiff_t>(at));
-  };
-  write(0, hex("B1 56 30 32 2E 33 30 20 25"));  // code, "V02.30 ", mode
-  write(9, hex("01"));
-  write(18, hex("02"));
-  write(67, hex("94 11"));
-  write(102, hex("06"));
-  write(107, hex("B4 00 32 00 03 04 01"));
-  write(120, hex("00 00 01 01 56 30 31 2E 30 31 20"));
-  payload.back() = 0x10;
-  const HeldReply held(test::from_laser(payload));
-  const StatusReport report = parse_status(held.reply).value();
-  CHECK(report.firmware == "V02.30");
-  CHECK(report.operating_mode == 0x25);
-  CHECK(report.is_defective);
-  CHECK(report.variant_type == 2);
-  CHECK(report.motor_turns == 4500);
-  CHECK(report.measuring_mode == 6);
-  CHECK(report.variant == Variant{180, 50});
-  CHECK(report.restart_mode == 3);
-  CHECK(report.restart_time == 0x0104);
-  CHECK(report.unit == Unit::millimetre);
-  CHECK(report.is_laser_on);
-  CHECK(report.boot_firmware == "V01.01");
-}
-
-TEST_CASE("a status report needs to reach the variant; what lies behind may be missing", "[hw][sick]") {
-  Bytes payload(112);  // code to resolution, and the status byte
-  payload[0] = 0xB1;
-  payload[107] = 100;
-  payload[109] = 25;
-  payload[111] = 0x10;
-  const HeldReply enough(test::from_laser(payload));
-  CHECK(parse_status(enough.reply).value().variant == Variant{100, 25});
-  CHECK(parse_status(enough.reply).value().boot_firmware.empty());
-  CHECK(parse_status(enough.reply).value().restart_mode == 0);
-  payload.pop_back();
-  const HeldReply too_short(test::from_laser(payload));
-  CHECK_FALSE(parse_status(too_short.reply).has_value());
-}
-
 TEST_CASE("scans that come before an awaited answer are told apart by their code", "[hw][sick]") {
   test::FrameList list(kFromLaser);
   list.hear(hex("02 80 0E 00 B0 05 40 E8 03 D0 07 B8 0B A0 0F 88 13 10 F6 F2 06 02 80 03 00 A0 00 10 16 0A"));
@@ -157,4 +108,38 @@ TEST_CASE("scans that come before an awaited answer are told apart by their code
 TEST_CASE("a payload without code and status is no reply", "[hw][sick]") {
   CHECK_FALSE(parse_reply({}).has_value());
   CHECK_FALSE(parse_reply(hex("A0")).has_value());
+}
+
+TEST_CASE("the settings of a laser are read from its configuration", "[hw][sick]") {
+  const Configuration configuration = Configuration::of(block()).value();
+  CHECK(configuration.measuring_mode() == 1);
+  CHECK(configuration.unit() == Unit::millimetre);
+}
+
+TEST_CASE("setting one thing leaves all other bytes as they were read", "[hw][sick]") {
+  Configuration configuration = Configuration::of(block()).value();
+  CHECK(configuration.set_measuring_mode(6).ok());
+  CHECK(test::text_of(configuration.bytes()) == "46 00 07 02 05 06 01 00 02 02 00 AA");
+  CHECK(configuration.set_unit(Unit::centimetre).ok());
+  CHECK(test::text_of(configuration.bytes()) == "46 00 07 02 05 06 00 00 02 02 00 AA");
+}
+
+TEST_CASE("a configuration keeps its length, whatever it is", "[hw][sick]") {
+  for (std::size_t size = 0; size <= Configuration::kMostBytes; ++size) {
+    const Bytes bytes(size, 0x5A);
+    REQUIRE(Configuration::of(bytes).value().bytes().size() == size);
+  }
+  CHECK(Configuration::of(Bytes(Configuration::kMostBytes + 1)).error().code == orca::Code::data_loss);
+}
+
+TEST_CASE("a setting that the block does not reach is absent and cannot be set", "[hw][sick]") {
+  Configuration configuration = Configuration::of(hex("01")).value();
+  CHECK_FALSE(configuration.measuring_mode().has_value());
+  CHECK_FALSE(configuration.unit().has_value());
+  const orca::Status refused = configuration.set_measuring_mode(6);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == orca::Code::failed_precondition);
+  CHECK(refused.error().message ==
+        "the laser's configuration has 1 bytes and no byte 5; this laser does not have the setting");
+  CHECK(test::text_of(configuration.bytes()) == "01");
 }

@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 
 #include <string>
-#include <vector>
 
 #include "hex_bytes.hpp"
 #include "orca/hw/sick_lms/request.hpp"
@@ -26,18 +25,13 @@ std::string payload_text(const Telegram& telegram) {
 
 TEST_CASE("requests for information are single bytes", "[hw][sick]") {
   CHECK(wire(request_status()) == "02 00 01 00 31 15 12");
-  CHECK(wire(request_errors()) == "02 00 01 00 32 16 12");
   CHECK(wire(request_type()) == "02 00 01 00 3A 1E 12");
   CHECK(wire(request_configuration()) == "02 00 01 00 74 50 12");
-  CHECK(wire(request_reset()) == "02 00 01 00 10 34 12");
-  CHECK(wire(request_scan()) == "02 00 02 00 30 01 31 18");
 }
 
 TEST_CASE("scans are started and stopped by modes", "[hw][sick]") {
   CHECK(wire(request_mode(Mode::all_scans)) == "02 00 02 00 20 24 34 08");
   CHECK(wire(request_mode(Mode::on_request)) == "02 00 02 00 20 25 35 08");
-  CHECK(payload_text(request_mode(Mode::diagnosis)) == "20 10");
-  CHECK(payload_text(request_mode(Mode::partial_scans)) == "20 2A");
 }
 
 TEST_CASE("rates of the line are modes", "[hw][sick]") {
@@ -55,10 +49,8 @@ TEST_CASE("a rate that lasers do not have is refused with those they have", "[hw
 }
 
 TEST_CASE("the installation mode needs the password of the family", "[hw][sick]") {
-  CHECK(wire(request_installation()) == "02 00 0A 00 20 00 53 49 43 4B 5F 4C 4D 53 BE C5");
-  CHECK(payload_text(request_installation(kPls)) == "20 00 53 49 43 4B 5F 50 4C 53");
-  CHECK(kPls.has_even_parity);
-  CHECK_FALSE(kLms.has_even_parity);
+  CHECK(wire(request_installation(kLmsPassword)) == "02 00 0A 00 20 00 53 49 43 4B 5F 4C 4D 53 BE C5");
+  CHECK(payload_text(request_installation(kPlsPassword)) == "20 00 53 49 43 4B 5F 50 4C 53");
 }
 
 TEST_CASE("variants are an angle in degrees and a resolution in hundredths", "[hw][sick]") {
@@ -67,28 +59,6 @@ TEST_CASE("variants are an angle in degrees and a resolution in hundredths", "[h
   CHECK(wire(request_variant({100, 25})) == "02 00 05 00 3B 64 00 19 00 E7 72");
   CHECK(wire(request_variant({100, 50})) == "02 00 05 00 3B 64 00 32 00 B1 59");
   CHECK(wire(request_variant({100, 100})) == "02 00 05 00 3B 64 00 64 00 1D 0F");
-}
-
-TEST_CASE("parts of the beams are counted from 1", "[hw][sick]") {
-  CHECK(wire(request_range(RangeMode::scans, {1, 181})) == "02 00 06 00 20 27 01 00 B5 00 12 09");
-  CHECK(payload_text(request_range(RangeMode::flagged_scans, {2, 300})) == "20 29 02 00 2C 01");
-  CHECK(payload_text(request_range(RangeMode::with_reflectivity, {1, 181})) == "20 50 01 00 B5 00");
-}
-
-TEST_CASE("means are asked for with their number", "[hw][sick]") {
-  CHECK(payload_text(request_means(5)) == "20 26 05");
-  CHECK(payload_text(request_means(5, {10, 20})) == "20 28 05 0A 00 14 00");
-}
-
-TEST_CASE("reflectivity is asked for by parts of the beams", "[hw][sick]") {
-  const std::vector<PointRange> one{{1, 181}};
-  CHECK(payload_text(request_reflectivity(one).value()) == "20 2B 01 00 01 00 B5 00");
-  const std::vector<PointRange> two{{1, 10}, {300, 301}};
-  CHECK(payload_text(request_reflectivity(two).value()) == "20 2B 02 00 01 00 0A 00 2C 01 2D 01");
-  const std::vector<PointRange> many(201);
-  CHECK(request_reflectivity(many).error().message ==
-        "201 parts of the beams; at most 200 fit into a telegram; ask for fewer");
-  CHECK(request_reflectivity(std::span(many).first(200)).has_value());
 }
 
 TEST_CASE("a configuration of any length is written as it is", "[hw][sick]") {

@@ -11,7 +11,6 @@
 #include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
-#include "orca/emulators/outgoing_line.hpp"
 #include "orca/geometry/pose2.hpp"
 
 namespace orca::emulators {

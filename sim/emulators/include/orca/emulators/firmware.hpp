@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,5 +40,35 @@ class Firmware {
   /// Switches the device off and on.
   virtual void reset(TimePoint now) = 0;
 };
+
+/// The bytes that a device has given to its line: each leaves when those before it have, after its own time at the line's rate.
+///
+/// Thread contract: not synchronised.
+class OutgoingLine {
+ public:
+  /// @param byte_time  [s] that one byte takes; 0: none, as over TCP.
+  void send(std::span<const std::uint8_t> bytes, double byte_time, TimePoint now);
+  /// Returns the bytes that have left by now, for a host that hears at the device's rate or, as other bytes, at another one.
+  [[nodiscard]] std::vector<std::uint8_t> leave(TimePoint now, bool at_hosts_rate);
+  /// Returns when the last byte will have left; long ago if none waits.
+  [[nodiscard]] TimePoint idle_at() const { return waiting_.empty() ? TimePoint{} : waiting_.back().leaves; }
+  void clear() { waiting_.clear(); }
+
+ private:
+  struct Waiting {
+    std::uint8_t byte;
+    TimePoint leaves;
+  };
+  std::deque<Waiting> waiting_;
+};
+
+/// Adds the number of a command to those that a device has got, for whoever watches it. Of very many the older half is forgotten,
+/// because an emulation may run for weeks.
+inline void note_command(std::vector<int>& commands, int command) {
+  constexpr std::size_t kMostKept = 10'000;
+  if (commands.size() >= kMostKept)
+    commands.erase(commands.begin(), commands.begin() + static_cast<std::ptrdiff_t>(kMostKept / 2));
+  commands.push_back(command);
+}
 
 }  // namespace orca::emulators

@@ -10,7 +10,6 @@
 #include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
-#include "orca/emulators/outgoing_line.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/hw/framing/scanner.hpp"
 

@@ -12,7 +12,6 @@
 #include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
-#include "orca/emulators/outgoing_line.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/framing/scanner.hpp"
 

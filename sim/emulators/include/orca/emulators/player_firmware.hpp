@@ -101,7 +101,6 @@ class PlayerFirmware final : public Firmware {
   void disconnect();
   void greet();
   void obey(Bytes message);
-  void obey_waiting();
   void ask(std::uint32_t device, const PlayerHeader& header, Bytes payload);
   [[nodiscard]] bool is_starting(std::uint32_t device) const;
   void serve(const PlayerHeader& header, Bytes payload);
@@ -112,7 +111,6 @@ class PlayerFirmware final : public Firmware {
   void set_data_mode(const PlayerHeader& header, Bytes payload);
   void give_data(const PlayerHeader& header);
   void end_round();
-  [[nodiscard]] const std::string& driver_of(std::uint32_t device) const;
   void publish(std::uint32_t device, Bytes payload);
   void send_data(std::uint32_t device, Bytes payload);
   void answer(const PlayerHeader& header, std::uint32_t type, Bytes payload);

@@ -10,7 +10,6 @@
 #include "orca/base/time.hpp"
 #include "orca/emulators/body.hpp"
 #include "orca/emulators/firmware.hpp"
-#include "orca/emulators/outgoing_line.hpp"
 #include "orca/hw/framing/scanner.hpp"
 
 namespace orca::emulators {
@@ -73,8 +72,6 @@ class RplidarFirmware final : public Firmware {
   void answer_health(TimePoint now);
   void answer_sample_times(TimePoint now);
   void answer_configuration(std::span<const std::uint8_t> asked, TimePoint now);
-  [[nodiscard]] bool knows_configuration() const;
-  [[nodiscard]] std::vector<std::uint8_t> configuration(std::uint32_t entry, std::size_t number) const;
   void answer(std::uint8_t type, std::span<const std::uint8_t> data, TimePoint now);
   void begin_scan(Scan scan, bool waits_for_motor, TimePoint now);
   void measure(TimePoint now);

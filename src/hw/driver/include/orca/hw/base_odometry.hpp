@@ -36,6 +36,37 @@ struct SenseTraits {
   RangeErrorGuess sonars{};
 };
 
+/// The pose of a base whose controller counts its coordinates and says its heading. It begins at 0. Counts wrap, and both begin anew
+/// when the controller does, so only their differences count.
+///
+/// Thread contract: not synchronised.
+class CountedPose {
+ public:
+  /// @param turn  counts after which a coordinate begins anew, a power of 2. A step of half of it or more is one back.
+  explicit CountedPose(int turn) : turn_(turn) {}
+
+  /// Takes a reading. The first one, and the first after forget(), moves nothing.
+  /// @param x, y     counts, in the controller's frame. @param unit [m]  of a count.
+  /// @param heading  [rad] in the controller's frame.
+  void take(int x, int y, double unit, double heading);
+  /// Makes the next reading a new reference: after the connection was opened again. The pose goes on from where it was.
+  void forget() { last_.reset(); }
+  /// Returns the pose in the frame of the odometry.
+  [[nodiscard]] const Pose2& pose() const { return pose_; }
+
+ private:
+  struct Counts {
+    int x = 0;
+    int y = 0;
+  };
+  [[nodiscard]] int step(int from, int to) const;
+
+  const int turn_;
+  std::optional<Counts> last_;
+  double offset_ = 0.0;  // [rad] from the controller's heading to that of the pose
+  Pose2 pose_;
+};
+
 /// The odometry of a base, as its clients get it from what its controller counts.
 ///
 /// Thread contract: not synchronised; the container's strand.

@@ -7,37 +7,33 @@
 #include <optional>
 #include <span>
 
-#include "orca/base/result.hpp"
+#include "orca/geometry/twist2.hpp"
+#include "orca/hw/framing/scanner.hpp"
 
 namespace orca::hw::create2 {
 
-/// Numbers of packets that drivers ask for, out of 7 to 58.
-inline constexpr std::uint8_t kPacketBumpsAndDrops = 7;
-inline constexpr std::uint8_t kPacketChargingState = 21;
-inline constexpr std::uint8_t kPacketVoltage = 22;
-inline constexpr std::uint8_t kPacketCharge = 25;
-inline constexpr std::uint8_t kPacketCapacity = 26;
-inline constexpr std::uint8_t kPacketMode = 35;
-inline constexpr std::uint8_t kPacketLeftCounts = 43;
-inline constexpr std::uint8_t kPacketRightCounts = 44;
+/// Number of a packet of sensors, of those that a driver asks for, out of 7 to 58.
+enum class Packet : std::uint8_t {
+  bumps_and_drops = 7,
+  cliff_left = 9,
+  cliff_front_left = 10,
+  cliff_front_right = 11,
+  cliff_right = 12,
+  overcurrents = 14,
+  charging_state = 21,
+  voltage = 22,
+  charge = 25,
+  capacity = 26,
+  charging_sources = 34,
+  mode = 35,
+  left_counts = 43,
+  right_counts = 44,
+};
 
-/// Groups of packets, which are sent one after the other.
-inline constexpr std::uint8_t kGroup0 = 0;           ///< 7 to 26
-inline constexpr std::uint8_t kGroup1 = 1;           ///< 7 to 16
-inline constexpr std::uint8_t kGroup2 = 2;           ///< 17 to 20
-inline constexpr std::uint8_t kGroup3 = 3;           ///< 21 to 26
-inline constexpr std::uint8_t kGroup4 = 4;           ///< 27 to 34
-inline constexpr std::uint8_t kGroup5 = 5;           ///< 35 to 42
-inline constexpr std::uint8_t kGroup6 = 6;           ///< 7 to 42
-inline constexpr std::uint8_t kGroupAll = 100;       ///< 7 to 58
-inline constexpr std::uint8_t kGroupNew = 101;       ///< 43 to 58
-inline constexpr std::uint8_t kGroupLight = 106;     ///< 46 to 51
-inline constexpr std::uint8_t kGroupCurrents = 107;  ///< 54 to 58
-
-/// Returns the number of data bytes of a packet or a group; nothing if there is none with this number.
+/// Returns the number of data bytes of a packet; nothing if it is none of Packet.
 [[nodiscard]] std::optional<std::size_t> data_size(std::uint8_t packet);
 
-/// Packet 7.
+/// Packet::bumps_and_drops.
 struct BumpsAndDrops {
   bool bump_left = false;   ///< The bumper touches something.
   bool bump_right = false;  ///< Both: in front.
@@ -46,16 +42,7 @@ struct BumpsAndDrops {
   friend bool operator==(const BumpsAndDrops&, const BumpsAndDrops&) = default;
 };
 
-/// Packet 14: motors that draw too much current.
-struct Overcurrents {
-  bool left_wheel = false;
-  bool right_wheel = false;
-  bool main_brush = false;
-  bool side_brush = false;
-  friend bool operator==(const Overcurrents&, const Overcurrents&) = default;
-};
-
-/// Packet 21.
+/// Packet::charging_state.
 enum class ChargingState : std::uint8_t {
   not_charging = 0,
   reconditioning = 1,
@@ -65,85 +52,82 @@ enum class ChargingState : std::uint8_t {
   fault = 5,
 };
 
-/// Packet 34: chargers that are connected and have power.
-struct ChargingSources {
-  bool internal = false;   ///< The plug at the robot.
-  bool home_base = false;  ///< The dock.
-  friend bool operator==(const ChargingSources&, const ChargingSources&) = default;
-};
-
-/// Packet 35.
+/// Packet::mode.
 enum class Mode : std::uint8_t { off = 0, passive = 1, safe = 2, full = 3 };
 
-/// Packet 58: the front wheel, which turns when the robot moves forward.
-struct Stasis {
-  bool toggling = false;  ///< It turns.
-  bool disabled = false;  ///< Its sensor is dirty.
-  friend bool operator==(const Stasis&, const Stasis&) = default;
-};
-
-/// The latest readings of a robot; what was never sent is nothing. Packets 16, 32 and 33 have no meaning.
+/// The readings of a robot in one frame; what is not in it is nothing.
 ///
 /// A plain value in SI units.
 struct Sensors {
-  std::optional<BumpsAndDrops> bumps_and_drops{};
-  std::optional<bool> wall{};                    ///< Of the sensor on the right side.
-  std::array<std::optional<bool>, 4> cliffs{};   ///< No floor at the left, front left, front right, right.
-  std::optional<bool> virtual_wall{};            ///< The beam of a virtual wall is seen.
-  std::optional<Overcurrents> overcurrents{};    ///< Motors that draw too much current.
-  std::optional<std::uint8_t> dirt{};            ///< 0 to 255.
-  std::optional<std::uint8_t> infrared_omni{};   ///< Character that the receiver on top sees; 0: none.
-  std::optional<std::uint8_t> infrared_left{};   ///< Of the left receiver.
-  std::optional<std::uint8_t> infrared_right{};  ///< Of the right receiver.
-  /// Bits 0 clean, 1 spot, 2 dock, 3 minute, 4 hour, 5 day, 6 schedule, 7 clock.
-  std::optional<std::uint8_t> buttons{};
-  std::optional<double> distance{};  ///< [m] since it was last sent. Wrong before firmware 3.3.0.
-  std::optional<double> angle{};  ///< [rad] since it was last sent, positive to the left, in whole degrees.
+  BumpsAndDrops bumps_and_drops{};
+  std::array<bool, 4> cliffs{};                   ///< No floor at the left, front left, front right, right.
+  bool is_stalled = false;                        ///< The motor of a wheel draws too much current.
+  bool is_at_charger = false;                     ///< A charger with power is connected.
   std::optional<ChargingState> charging_state{};  ///< Values that have no name occur.
   std::optional<double> voltage{};                ///< [V] of the battery.
-  std::optional<double> current{};             ///< [A] into the battery; negative while the robot runs on it.
-  std::optional<double> temperature{};         ///< [degrees Celsius] of the battery.
-  std::optional<double> charge{};              ///< [C] in the battery: 3.6 times the mAh that are sent.
-  std::optional<double> capacity{};            ///< [C] of the full battery, as the robot guesses.
-  std::optional<std::uint16_t> wall_signal{};  ///< 0 to 1023.
-  std::array<std::optional<std::uint16_t>, 4> cliff_signals{};  ///< 0 to 4095; the order is that of `cliffs`.
-  std::optional<ChargingSources> charging_sources{};            ///< Chargers with power.
-  std::optional<Mode> mode{};                                   ///< Values that have no name occur.
-  std::optional<std::uint8_t> song{};                           ///< The song that is chosen.
-  std::optional<bool> song_playing{};                           ///< It is heard.
-  std::optional<std::uint8_t> stream_packets{};                 ///< Number of packets in the stream.
-  std::optional<double> requested_speed{};                      ///< [m/s] that drive() has asked for.
-  std::optional<double> requested_radius{};     ///< [m] that drive() has asked for; infinite: straight on.
-  std::optional<double> requested_right{};      ///< [m/s] that drive_wheels() has asked for.
-  std::optional<double> requested_left{};       ///< [m/s] that drive_wheels() has asked for.
-  std::optional<std::uint16_t> left_counts{};   ///< Encoder of the wheel, for EncoderOdometry.
-  std::optional<std::uint16_t> right_counts{};  ///< Encoder of the wheel, for EncoderOdometry.
-  std::optional<std::uint8_t> light_bumper{};   ///< Obstacles close by: bits 0 to 5, as `light_signals`.
-  /// 0 to 4095; left, front left, centre left, centre right, front right, right.
-  std::array<std::optional<std::uint16_t>, 6> light_signals{};
-  std::optional<double> left_motor_current{};   ///< [A]
-  std::optional<double> right_motor_current{};  ///< [A]
-  std::optional<double> main_brush_current{};   ///< [A]
-  std::optional<double> side_brush_current{};   ///< [A]
-  std::optional<Stasis> stasis{};               ///< State of the front wheel.
+  std::optional<double> charge{};                 ///< [C] in the battery: 3.6 times the mAh that are sent.
+  std::optional<double> capacity{};               ///< [C] of the full battery, as the robot guesses.
+  std::optional<Mode> mode{};                     ///< Values that have no name occur.
+  std::optional<std::uint16_t> left_counts{};     ///< Encoder of the wheel, for EncoderOdometry.
+  std::optional<std::uint16_t> right_counts{};    ///< Encoder of the wheel, for EncoderOdometry.
   friend bool operator==(const Sensors&, const Sensors&) = default;
-
-  /// Takes the answer to ask_packet().
-  /// @errors  invalid_argument if there is no such packet; data_loss if the data have another size. Nothing is changed
-  ///          then.
-  Status apply(std::uint8_t packet, std::span<const std::uint8_t> data);
-
-  /// Takes the answer to ask_list().
-  /// @errors  as those of apply().
-  Status apply_list(std::span<const std::uint8_t> packets, std::span<const std::uint8_t> data);
-
-  /// Takes the packets of a frame of a stream.
-  /// @param body  body_of() the frame.
-  /// @errors  as those of apply(); of a frame that a scanner with kProtocol has found there are none.
-  Status apply_body(std::span<const std::uint8_t> body);
 };
+
+/// Reads the packets of a frame of a stream.
+/// @param body  body_of() the frame.
+/// @return  nothing if they do not fit into it; those of a frame that a scanner with kProtocol has found do.
+[[nodiscard]] std::optional<Sensors> parse_body(std::span<const std::uint8_t> body);
 
 /// Returns how full the battery is, 0 to 1; nothing if charge or capacity are not known, or the capacity is 0.
 [[nodiscard]] std::optional<double> state_of_charge(const Sensors& sensors);
+
+inline constexpr std::size_t kLongestFrame =
+    258;  ///< [bytes] header, length, body of at most 255 bytes and checksum.
+
+/// Recognises a frame at the first of these bytes: 19, length, packets each after its number, checksum. All bytes
+/// together have the sum 0, the header included; in the manual of the first Create it was not. Because the checksum
+/// has 8 bits only, the packets must also fit exactly into the length.
+[[nodiscard]] framing::Finding look(std::span<const std::uint8_t> bytes);
+
+/// The framing of streams, for a framing::Scanner. Lines of text that the robot prints are passed over.
+inline constexpr framing::Protocol kProtocol{.look = look, .longest = kLongestFrame};
+
+/// Returns the packets of a frame, each after its number: parse_body().
+/// @pre  `frame` is one that a scanner with kProtocol has found.
+[[nodiscard]] std::span<const std::uint8_t> body_of(std::span<const std::uint8_t> frame);
+
+/// Encoder counts of a wheel's turn. This and the diameter are the figures in wide use, but not in every edition of the
+/// specification: calibrate a robot by a measured way.
+inline constexpr double kCountsPerTurn = 508.8;
+inline constexpr double kWheelDiameter = 0.072;  ///< [m]
+
+/// Returns the step from one encoder count to the next, in [-32768, 32767]. Counts have 16 bits and wrap.
+[[nodiscard]] int step_of(std::uint16_t previous, std::uint16_t next);
+
+/// Returns the way of a wheel [m] in so many counts.
+[[nodiscard]] double wheel_way(int counts);
+
+/// The way of a robot, out of its encoder counts. These wrap after 14.5 m, so only their differences count, and two
+/// readings must be less than 7 m apart.
+///
+/// The encoders cannot sense the direction: the robot takes it from the commands of its motors. So counts are wrong if
+/// it is pushed, or coasts while it changes direction (from reports of users alone).
+///
+/// Thread contract: not synchronised.
+class EncoderOdometry {
+ public:
+  /// Returns how far the robot has come since the last call; nothing at all after the first one.
+  Travel2 add(std::uint16_t left, std::uint16_t right);
+
+  /// Makes the next counts a new reference: after the robot was reset, or was not heard for long.
+  void forget() { previous_.reset(); }
+
+ private:
+  struct Counts {
+    std::uint16_t left = 0;
+    std::uint16_t right = 0;
+  };
+  std::optional<Counts> previous_;
+};
 
 }  // namespace orca::hw::create2

@@ -20,31 +20,16 @@ inline constexpr std::size_t kLongestPacket = kLongestPayload + 6;  ///< [bytes]
 /// A whole packet, ready to be sent.
 using Packet = framing::FrameBytes<kLongestPacket>;
 
-/// The type of a packet. An answer has the type of its command, or is nak.
+/// The type of a packet, of those that a driver needs. An answer has the type of its command, or is nak.
 enum class Type : std::uint8_t {
-  accelerations = 1,       ///< AC
-  speeds = 2,              ///< SP
-  move = 3,                ///< PR
-  drive = 5,               ///< VM
-  get_state = 7,           ///< GS
-  nak = 8,                 ///< From the robot: not understood.
-  stop = 9,                ///< ST
-  limp = 10,               ///< LP
-  define_position = 12,    ///< DP
-  zero = 13,               ///< ZR
-  configure_sonars = 15,   ///< CONF_SN
-  set_watchdog = 18,       ///< CONF_TM
-  get_infrared = 19,       ///< GET_IR, for robots that have such sensors.
-  get_sonars = 20,         ///< GET_SN
-  get_position = 21,       ///< GET_RC
-  get_velocities = 22,     ///< GET_RV
-  get_accelerations = 23,  ///< GET_RA
-  get_bumpers = 27,        ///< GET_BP
-  define_angles = 30,      ///< DA
-  wait = 31,               ///< WS
-  configure_port = 35,     ///< CONF_SER
-  axes = 43,               ///< MV
-  special = 128,           ///< Bytes for a program of the user on the controller.
+  accelerations = 1,      ///< AC
+  drive = 5,              ///< VM
+  get_state = 7,          ///< GS
+  nak = 8,                ///< From the robot: not understood.
+  stop = 9,               ///< ST
+  limp = 10,              ///< LP
+  configure_sonars = 15,  ///< CONF_SN
+  set_watchdog = 18,      ///< CONF_TM
 };
 
 /// A packet taken apart. It refers to the bytes of the packet.

@@ -11,16 +11,19 @@
 
 namespace orca::hw::nomad_scout {
 
-/// Coordinates as the robot counts them, for ScoutOdometry: they do not reach further than 83 m.
+/// Counts after which a coordinate begins anew, if it does: whether a Scout's wrap or stay at the end of 16 bits is not documented.
+inline constexpr int kCoordinates = 65536;
+
+/// Coordinates as the robot counts them: they do not reach further than 83 m, so only their differences count.
 struct RawPosition {
-  int x = 0;  ///< [0.00254 m]
-  int y = 0;  ///< [0.00254 m]
+  int x = 0;  ///< [kLengthUnit]
+  int y = 0;  ///< [kLengthUnit]
   friend bool operator==(const RawPosition&, const RawPosition&) = default;
 };
 
 using SonarRanges = std::array<double, kSonars>;  ///< [m] by number; infinite: no echo.
 
-/// The answer to most commands.
+/// The answer to each command, as far as a driver needs it.
 ///
 /// A plain value in SI units.
 struct State {
@@ -28,15 +31,9 @@ struct State {
   std::uint32_t bumpers = 0;  ///< A bit per switch; which switch has which bit is not documented.
   RawPosition position{};
   double heading = 0.0;        ///< [rad] in the frame of the odometry, positive to the left, in (-pi, pi].
-  double turret = 0.0;         ///< [rad] 0 on a Scout.
   Wheels speeds{};             ///< [m/s]
-  double compass = 0.0;        ///< [rad] as the compass counts; of no meaning without one.
-  bool drives = false;         ///< The motors move the robot forward or backward.
-  bool turns = false;          ///< They turn it.
-  bool turret_turns = false;   ///< Never on a Scout.
   Duration controller_time{};  ///< Clock of the controller, in ms; it wraps after 49 days.
-  double processor_voltage = 0.0;  ///< [V] of the battery for the computer.
-  double motor_voltage = 0.0;      ///< [V] of the battery for the motors.
+  double motor_voltage = 0.0;  ///< [V] of the battery for the motors.
 };
 
 /// Returns whether the answer to a command of that type is the state.

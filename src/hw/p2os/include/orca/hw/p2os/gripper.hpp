@@ -9,22 +9,13 @@
 namespace orca::hw::p2os {
 
 /// What Command::gripper makes the gripper do: two paddles, on a lift. Both stop by themselves at their ends.
-///
-/// `store` and `deploy` are not for an object: they lift before the paddles hold it, and let it go above the floor.
-/// `pressure` and `carry` take their times, in steps of 20 ms, from Command::gripperval, which must be the next command.
 /// @source  Pioneer Gripper manual, "AROS Gripper client command set".
 enum class GripperAction : std::uint8_t {
-  open = 1,       ///< Opens the paddles.
-  close = 2,      ///< Closes the paddles, on each other or on what is between them.
-  stop = 3,       ///< Stops the paddles where they are.
-  up = 4,         ///< Raises the lift to its upper end.
-  down = 5,       ///< Lowers the lift to its lower end.
-  stop_lift = 6,  ///< Stops the lift where it is.
-  store = 7,      ///< Closes the paddles and raises the lift, both at once.
-  deploy = 8,     ///< Opens the paddles and lowers the lift, both at once.
-  halt = 15,      ///< Stops paddles and lift where they are.
-  pressure = 16,  ///< How long the paddles close on after they touch something: 1 to 100 steps.
-  carry = 17,     ///< How long the lift moves, from now on: 1 to 255 steps, negative: down.
+  open = 1,   ///< Opens the paddles.
+  close = 2,  ///< Closes the paddles, on each other or on what is between them.
+  up = 4,     ///< Raises the lift to its upper end.
+  down = 5,   ///< Lowers the lift to its lower end.
+  halt = 15,  ///< Stops paddles and lift where they are.
 };
 
 /// Returns Command::gripper.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <numbers>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -25,16 +24,13 @@ struct Model {
   double radius = 0.0;          ///< [m] of the circle that it turns in; 0: not known.
   double max_speed = 0.0;       ///< [m/s] 0: not known.
   double max_turn_rate = 0.0;   ///< [rad/s] 0: not known.
-  int sonars = 0;               ///< Number of sonars that the controller counts; 0: it has none.
   std::span<const Pose2>
       sonar_poses{};           ///< Of each in the robot frame, its x axis being the axis of the cone.
   unsigned absent_sonars = 0;  ///< Bit i: number i is counted, but there is no such sonar.
   int front_bumpers = 0;
   int rear_bumpers = 0;
-  std::optional<Vec2> laser{};   ///< [m] where a laser scanner is mounted, if it has a usual place.
-  double velocity_unit = 0.001;  ///< [m/s] a count of a wheel's speed.
+  double velocity_unit = 0.001;                         ///< [m/s] a count of a wheel's speed.
   double angle_unit = 2.0 * std::numbers::pi / 4096.0;  ///< [rad] a count of a heading.
-  double wheel_step = 0.020;                            ///< [m/s] a step of Command::vel2.
 };
 
 /// The model for a subclass.

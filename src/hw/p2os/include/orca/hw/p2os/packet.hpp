@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 
 #include "orca/hw/framing/scanner.hpp"
 #include "orca/hw/framing/short_list.hpp"
@@ -19,19 +21,9 @@ inline constexpr std::size_t kLongestPacket = 258;  ///< [bytes] header, length,
 /// A whole packet, ready to be sent.
 using Packet = framing::FrameBytes<kLongestPacket>;
 
-/// The first byte of a packet from the robot, as far as the type is one of these. Others must be passed over.
+/// The first byte of a packet from the robot, as far as a driver needs to tell it; see also is_sip() and sync_step(). Others must be passed over.
 enum class PacketType : std::uint8_t {
-  sync0 = 0x00,    ///< Echo of SYNC0.
-  sync1 = 0x01,    ///< Echo of SYNC1.
-  sync2 = 0x02,    ///< Echo of SYNC2 with the robot's names: parse_identity().
-  config = 0x20,   ///< Settings of the controller: parse_config().
-  encoder = 0x90,  ///< Wheel encoders: parse_encoder().
-  gyro = 0x98,     ///< Turn rates, just before a SIP: parse_gyro().
-  aux1 = 0xB0,     ///< Bytes from the first auxiliary port.
-  aux2 = 0xB8,     ///< Bytes from the second one.
-  io = 0xF0,       ///< Digital and analog ports: parse_io().
-  sync_lost =
-      0xFF,  ///< The robot awaits another step of the handshake, or was reset: begin again with SYNC0.
+  config = 0x20,  ///< Settings of the controller: parse_config().
 };
 
 /// Recognises a packet at the first of these bytes: FA FB, length, body, checksum with its high byte first.
@@ -47,5 +39,22 @@ inline constexpr framing::Protocol kProtocol{.look = look, .longest = kLongestPa
 /// Returns what lies between length and checksum: the type or the command, and what belongs to it.
 /// @pre  `packet` is a frame that a scanner with kProtocol has found.
 [[nodiscard]] std::span<const std::uint8_t> body_of(std::span<const std::uint8_t> packet);
+
+/// What a robot says of itself in answer to SYNC2.
+///
+/// A plain value.
+struct Identity {
+  std::string name;         ///< Given by its owner, e.g. "Pioneer2".
+  std::string robot_class;  ///< e.g. "Pioneer".
+  std::string subclass;     ///< The model, e.g. "p2dx": see choose_model().
+  friend bool operator==(const Identity&, const Identity&) = default;
+};
+
+/// Returns the step of the handshake that a body answers, 0 to 2; nothing if it is no answer.
+[[nodiscard]] std::optional<int> sync_step(std::span<const std::uint8_t> body);
+
+/// Reads the answer to SYNC2. Texts that are missing are empty.
+/// @return  nothing if the body is none.
+[[nodiscard]] std::optional<Identity> parse_identity(std::span<const std::uint8_t> body);
 
 }  // namespace orca::hw::p2os

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "orca/base/result.hpp"
+#include "orca/geometry/vec2.hpp"
 #include "orca/hw/framing/short_list.hpp"
 #include "orca/hw/p2os/model.hpp"
 #include "orca/hw/p2os/packet.hpp"
@@ -21,41 +22,33 @@ struct SonarEcho {
   friend bool operator==(const SonarEcho&, const SonarEcho&) = default;
 };
 
-/// State of the ports for user devices.
+/// State of the ports for user devices, as far as a gripper needs it.
 struct PortState {
-  std::uint8_t analog_port = 0;  ///< The analog port that `analog_voltage` is of.
-  double analog_voltage = 0.0;   ///< [V] 0 to 5.
-  std::uint8_t digital_in = 0;   ///< A bit per line.
-  std::uint8_t digital_out = 0;  ///< A bit per line.
-  std::uint8_t gripper = 0;      ///< Bits: 0 paddles open, 1 closed, 2 moving, 4 lift up, 5 down, 6 moving.
+  std::uint8_t digital_in = 0;  ///< A bit per line.
+  std::uint8_t gripper = 0;     ///< Bits: 0 paddles open, 1 closed, 2 moving, 4 lift up, 5 down, 6 moving.
 };
 
-/// Fields that newer firmware appends, in this order. Each is there only if the packet is long enough.
+/// What a driver needs of the fields that newer firmware appends. Each is there only if the packet is long enough.
 struct SipTail {
   std::optional<double>
       real_battery_voltage{};  ///< [V] of a robot whose first battery field is scaled to 12 V.
   std::optional<std::uint8_t>
       charge_state{};  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown.
-  std::optional<double> turn_rate{};              ///< [rad/s] positive to the left.
-  std::optional<std::uint16_t> fault_flags{};     ///< Bits of the controller.
-  std::optional<double> left_velocity{};          ///< [m/s] sideways, of robots that can move so.
-  std::optional<std::int8_t> temperature{};       ///< [degrees Celsius]
   std::optional<std::uint8_t> state_of_charge{};  ///< [%]
-  std::optional<std::uint32_t> microseconds{};    ///< [us] clock of the controller; it wraps.
-  std::optional<std::uint32_t> flags{};           ///< More bits of the controller ("flags 3").
 };
 
-/// The server information packet, which the robot sends every 100 ms by default.
+/// What a driver needs of the server information packet, which the robot sends every 100 ms by default.
 ///
 /// A plain value in SI units.
 /// @source  Pioneer 2 operations manual, "Standard server information packet".
 struct Sip {
   static constexpr std::size_t kMostEchoes = (kLongestBody - 20) / 3;
+  static constexpr int kCoordinates = 32768;  ///< Coordinates have 15 bits.
 
-  std::uint8_t type = 0;           ///< 0x32: motors stand; 0x33: they move; 0x30 to 0x34 occur.
-  bool is_moving = false;          ///< Type 0x33.
-  std::uint16_t x = 0;             ///< Raw coordinate of the odometry, for WheelOdometry.
-  std::uint16_t y = 0;             ///< Raw coordinate of the odometry, for WheelOdometry.
+  std::uint16_t x =
+      0;  ///< Coordinate of the odometry, in counts of Model::distance_unit, which wrap at kCoordinates.
+  std::uint16_t y =
+      0;  ///< Coordinate of the odometry, in counts of Model::distance_unit, which wrap at kCoordinates.
   double heading = 0.0;            ///< [rad] in the frame of the odometry, positive to the left, not wrapped.
   double left_speed = 0.0;         ///< [m/s] of the left wheel, forward positive.
   double right_speed = 0.0;        ///< [m/s] of the right wheel, forward positive.
@@ -64,12 +57,9 @@ struct Sip {
   bool right_stall = false;        ///< The right wheel is blocked.
   std::uint8_t front_bumpers = 0;  ///< Bit 0: the first one.
   std::uint8_t rear_bumpers = 0;   ///< Bit 0: the first one.
-  double control_heading = 0.0;    ///< [rad] that the robot turns to.
   bool motors_enabled = false;     ///< The motors have power.
   bool emergency_stop = false;     ///< The button is pressed.
   std::uint8_t sonar_groups = 0;   ///< Bits 0 to 3: groups of sonars that are on.
-  std::optional<double>
-      compass{};  ///< [rad] in steps of 2 degrees, as the compass counts; nothing if there is none.
   framing::ShortList<SonarEcho, kMostEchoes> echoes{};  ///< New ones only.
   std::optional<PortState> ports{};                     ///< Nothing if the packet ends before them.
   SipTail tail{};

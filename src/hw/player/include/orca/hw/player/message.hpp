@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -14,7 +16,6 @@
 /// @source  Player 3.1 server and its client library libplayerc.
 namespace orca::hw::player {
 
-inline constexpr std::uint16_t kDefaultPort = 6665;              ///< TCP port of a Player server.
 inline constexpr std::size_t kHeaderSize = 40;                   ///< [bytes]
 inline constexpr std::size_t kLongestMessage = 8 * 1024 * 1024;  ///< [bytes] header and payload.
 inline constexpr std::size_t kLongestPayload = kLongestMessage - kHeaderSize;  ///< [bytes]
@@ -23,7 +24,6 @@ inline constexpr std::size_t kLongestPayload = kLongestMessage - kHeaderSize;  /
 enum class Interface : std::uint32_t {
   player = 1,      ///< The server itself.
   power = 2,       ///< Batteries.
-  gripper = 3,     ///< Gripper.
   position2d = 4,  ///< Mobile base in the plane.
   sonar = 5,       ///< Ring of sonars; deprecated in Player, but drivers still use it.
   laser = 6,       ///< Laser scanner; deprecated in Player, but drivers still use it.
@@ -74,11 +74,6 @@ struct MessageId {
   return {header.address.interface, header.type, header.subtype};
 }
 
-/// Returns the identity of the positive answer to a request.
-[[nodiscard]] constexpr MessageId ack_of(const MessageId& request) {
-  return {request.interface, MessageType::ack, request.subtype};
-}
-
 /// Returns a header for device `index`; host, robot, time and sequence are 0.
 [[nodiscard]] inline Header header_for(const MessageId& id, std::uint32_t index = 0) {
   return {.address = {.interface = id.interface, .index = index}, .type = id.type, .subtype = id.subtype};
@@ -100,5 +95,16 @@ struct MessageId {
 /// @errors  invalid_argument if the payload exceeds kLongestPayload.
 [[nodiscard]] Result<std::vector<std::uint8_t>> make_message(Header header,
                                                              std::span<const std::uint8_t> payload = {});
+
+inline constexpr std::size_t kBannerSize = 32;  ///< [bytes]
+
+/// Returns what a server sends first: "Player v." and the version, filled up with zero bytes.
+/// @param version  e.g. "3.1.1-dev"; cut after 22 characters, so that a zero byte always ends it.
+[[nodiscard]] std::array<std::uint8_t, kBannerSize> make_banner(std::string_view version);
+
+/// Returns the version in a banner.
+/// @param banner  The first kBannerSize bytes of the connection.
+/// @errors  data_loss if there are fewer; invalid_argument if they do not begin like the banner of a Player server.
+[[nodiscard]] Result<std::string> parse_banner(std::span<const std::uint8_t> banner);
 
 }  // namespace orca::hw::player

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
-#include "orca/hw/player/banner.hpp"
 #include "orca/hw/player/message.hpp"
 
 namespace orca::hw::player {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "orca/hw/player/geometry.hpp"
 #include "orca/hw/player/message.hpp"
+#include "orca/hw/player/payload.hpp"
 
 /// Messages of the interface position2d.
 namespace orca::hw::player {
@@ -14,20 +14,12 @@ namespace orca::hw::player {
 inline constexpr MessageId kPosition2dState{Interface::position2d, MessageType::data, 1};
 /// VelocityCommand. Many drivers have no time limit: send a zero velocity before silence.
 inline constexpr MessageId kPosition2dVelocity{Interface::position2d, MessageType::command, 1};
-/// PositionCommand.
-inline constexpr MessageId kPosition2dPosition{Interface::position2d, MessageType::command, 2};
-/// SteeringCommand, whose angle is that of the wheels.
-inline constexpr MessageId kPosition2dCar{Interface::position2d, MessageType::command, 3};
-/// SteeringCommand, whose angle is the heading to take.
-inline constexpr MessageId kPosition2dVelocityHeading{Interface::position2d, MessageType::command, 4};
 /// Empty; answered by Geometry.
 inline constexpr MessageId kPosition2dAskGeometry{Interface::position2d, MessageType::request, 1};
 /// Switch; the answer is empty.
 inline constexpr MessageId kPosition2dMotorPower{Interface::position2d, MessageType::request, 2};
-/// ControlMode; the answer is empty.
+/// A mode of the driver; the answer is empty.
 inline constexpr MessageId kPosition2dVelocityMode{Interface::position2d, MessageType::request, 3};
-/// ControlMode; the answer is empty.
-inline constexpr MessageId kPosition2dPositionMode{Interface::position2d, MessageType::request, 4};
 /// Planar: the pose that the odometry shall report; the answer is empty.
 inline constexpr MessageId kPosition2dSetOdometry{Interface::position2d, MessageType::request, 5};
 /// Empty, as is the answer.
@@ -47,28 +39,6 @@ struct VelocityCommand {
   Planar velocity{};  ///< In the robot frame.
   bool motors_on = true;
   friend bool operator==(const VelocityCommand&, const VelocityCommand&) = default;
-};
-
-struct PositionCommand {
-  static constexpr std::string_view kName = "position2d POS";
-  Planar pose{};      ///< To go to, in the frame of the odometry.
-  Planar velocity{};  ///< To go with.
-  bool motors_on = true;
-  friend bool operator==(const PositionCommand&, const PositionCommand&) = default;
-};
-
-struct SteeringCommand {
-  static constexpr std::string_view kName = "position2d CAR or VEL_HEAD";
-  double velocity = 0.0;  ///< [m/s] forward positive.
-  double angle = 0.0;     ///< [rad] positive to the left.
-  friend bool operator==(const SteeringCommand&, const SteeringCommand&) = default;
-};
-
-/// A mode of a driver; its numbers depend on the driver.
-struct ControlMode {
-  static constexpr std::string_view kName = "position2d mode";
-  std::uint32_t mode = 0;
-  friend bool operator==(const ControlMode&, const ControlMode&) = default;
 };
 
 }  // namespace orca::hw::player

@@ -21,19 +21,10 @@ inline constexpr MessageId kSubscribe{Interface::player, MessageType::request, 3
 inline constexpr MessageId kAskData{Interface::player, MessageType::request, 4};
 /// DataMode; the answer is empty.
 inline constexpr MessageId kSetDataMode{Interface::player, MessageType::request, 5};
-/// ReplaceRule; the answer is empty.
+/// What a full queue of the server does; the answer is empty.
 inline constexpr MessageId kAddReplaceRule{Interface::player, MessageType::request, 10};
 /// Empty. Ends a round of data. Recognise it by its type: which device a server names in it was not recorded.
 inline constexpr MessageId kSynch{Interface::player, MessageType::synch, 1};
-/// Overflow. Ends a round of data, some of which were dropped.
-inline constexpr MessageId kSynchOverflow{Interface::player, MessageType::synch, 2};
-
-/// Returns the identity of a capability query, which every interface has: Capability; the answer is an empty ack if the
-/// device knows the message, else a nack.
-[[nodiscard]] constexpr MessageId ask_capability(Interface interface) {
-  return {interface, MessageType::request, 255};
-}
-
 /// The devices of a server.
 struct DeviceList {
   static constexpr std::string_view kName = "player DEVLIST";
@@ -75,35 +66,12 @@ struct DataMode {
   friend bool operator==(const DataMode&, const DataMode&) = default;
 };
 
-/// What the server's queue does with a new message of a kind.
-struct ReplaceRule {
-  static constexpr std::string_view kName = "player ADD_REPLACE_RULE";
-  enum class Action : std::uint32_t {
-    accept = 0,   ///< Queue it.
-    replace = 1,  ///< Let it take the place of an older one of its kind.
-    ignore = 2,   ///< Drop it.
-  };
-  std::int32_t interface = -1;  ///< -1: any. So for the next three.
-  std::int32_t index = -1;
-  std::int32_t type = -1;
-  std::int32_t subtype = -1;
-  Action action = Action::accept;
-  friend bool operator==(const ReplaceRule&, const ReplaceRule&) = default;
-};
-
 /// Question whether a device knows a message.
 struct Capability {
   static constexpr std::string_view kName = "capability query";
   std::uint32_t type = 0;
   std::uint32_t subtype = 0;
   friend bool operator==(const Capability&, const Capability&) = default;
-};
-
-/// Number of messages that a server has dropped because the client was too slow.
-struct Overflow {
-  static constexpr std::string_view kName = "SYNCH overflow";
-  std::uint32_t dropped = 0;
-  friend bool operator==(const Overflow&, const Overflow&) = default;
 };
 
 }  // namespace orca::hw::player

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "orca/hw/framing/scanner.hpp"
-#include "orca/hw/rplidar/point.hpp"
+#include "orca/hw/rplidar/node.hpp"
 
 namespace orca::hw::rplidar {
 
@@ -36,9 +36,6 @@ inline constexpr framing::Protocol kCapsuleProtocol{.look = look_at_capsule, .lo
 
 /// @pre  `frame` is one that a scanner with kCapsuleProtocol has found.
 [[nodiscard]] Capsule parse_capsule(std::span<const std::uint8_t> frame);
-
-/// Returns the bytes of a capsule.
-[[nodiscard]] std::array<std::uint8_t, kCapsuleSize> encode_capsule(const Capsule& capsule);
 
 /// The points of successive capsules. The angle between points is known only when the start of the next capsule is, so
 /// the points of a capsule are handed out with the next one.

@@ -5,13 +5,32 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 
+#include "orca/geometry/angle.hpp"
 #include "orca/hw/framing/scanner.hpp"
-#include "orca/hw/rplidar/point.hpp"
 
 namespace orca::hw::rplidar {
+
+/// A measured point in the frame of the scanner: origin in the axis of rotation, x forward as the manual draws it, where
+/// the scanner's angle is 0, y left, z up.
+///
+/// The scanner turns clockwise seen from above, so the angles of a scan decrease. A plain value.
+struct Point {
+  bool begins_scan = false;               ///< It is the first of a turn.
+  double angle = 0.0;                     ///< [rad] in (-pi, pi], counter-clockwise.
+  std::optional<double> range{};          ///< [m] nothing: no echo.
+  std::optional<std::uint8_t> quality{};  ///< 0 to 63, strength of the echo; nothing in an express scan.
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// Returns the angle of a Point.
+/// @param degrees [deg]  clockwise, as the scanner counts.
+[[nodiscard]] inline double counter_clockwise(double degrees) {
+  return wrapped(-degrees * std::numbers::pi / 180.0);
+}
 
 inline constexpr std::size_t kNodeSize = 5;  ///< [bytes]
 inline constexpr int kWholeTurn = 360 * 64;  ///< In the unit of start angles and of Node::angle.
@@ -29,9 +48,6 @@ struct Node {
 /// @pre     5 bytes.
 /// @return  nothing if the start flag and its inverse are equal, the check bit is 0, or the angle is a whole turn or more.
 [[nodiscard]] std::optional<Node> parse_node(std::span<const std::uint8_t> bytes);
-
-/// Returns the bytes of a node.
-[[nodiscard]] std::array<std::uint8_t, kNodeSize> encode_node(const Node& node);
 
 [[nodiscard]] Point point_of(const Node& node);
 

@@ -20,7 +20,6 @@ enum class Request : std::uint8_t {
   stop = 0x25,          ///< Ends a scan. No answer; wait 10 ms.
   reset = 0x40,         ///< As after power-on. The answer is some lines of text; wait 1 s.
   scan = 0x20,          ///< Points one by one, as soon as the motor turns evenly.
-  force_scan = 0x21,    ///< The same at once, for tests.
   express_scan = 0x82,  ///< Points in capsules, twice as many in a second.
   info = 0x50,          ///< DeviceInfo.
   health = 0x52,        ///< Health.

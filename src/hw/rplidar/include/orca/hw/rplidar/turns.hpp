@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
-#include "orca/hw/rplidar/point.hpp"
+#include "orca/hw/rplidar/node.hpp"
 
 namespace orca::hw::rplidar {
 

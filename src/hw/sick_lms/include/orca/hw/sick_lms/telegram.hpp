@@ -30,7 +30,7 @@ enum class Heard {
 /// a telegram whose beginning was not heard; do not rely on it.
 [[nodiscard]] framing::Finding look_from_laser(std::span<const std::uint8_t> bytes);
 
-/// Recognises a telegram to a laser, for emulators and tests.
+/// Recognises a telegram to a laser: our own, which a loop sends back.
 [[nodiscard]] framing::Finding look_from_host(std::span<const std::uint8_t> bytes);
 
 inline constexpr framing::Protocol kFromLaser{.look = look_from_laser, .longest = kLongestTelegram};

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "orca/base/time.hpp"
+
 namespace orca::hw::sick_lms {
 
 /// The beams of a laser: over which angle, and how close to each other. The first beam is the right-most one, at minus
@@ -33,5 +35,21 @@ inline constexpr std::array<Variant, 5> kVariants = {
 /// Returns the direction of a beam [rad], 0 ahead, positive to the left.
 /// @param beam  Counted from 0, the right-most one.
 [[nodiscard]] double beam_angle(const Variant& variant, std::size_t beam);
+
+/// Returns the size of the telegram of a scan (B0) without indices [bytes].
+[[nodiscard]] std::size_t scan_size(std::size_t beams);
+
+/// Returns how long bytes take on the line. A driver that stamps the last byte of a scan subtracts this to have the time
+/// of its first one.
+/// @pre  baud > 0
+[[nodiscard]] Duration line_time(std::size_t bytes, unsigned baud);
+
+/// Returns how long the mirror takes to measure all beams of a scan: it turns 75 times a second, and beams that are less than
+/// a degree apart need several turns. They were measured that long before the scan is sent.
+/// @pre  variant.resolution > 0
+[[nodiscard]] Duration mirror_time(const Variant& variant);
+
+/// Returns the shortest time between two scans, which is the longer one of what the mirror and the line need.
+[[nodiscard]] Duration scan_period(const Variant& variant, unsigned baud);
 
 }  // namespace orca::hw::sick_lms

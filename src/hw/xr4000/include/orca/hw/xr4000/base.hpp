@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
@@ -50,5 +51,22 @@ struct Axes {
 [[nodiscard]] constexpr std::size_t door_of(std::size_t set) { return set / 2; }
 /// Returns the direction from the robot's middle to that of a door [rad], positive to the left.
 [[nodiscard]] double door_direction(std::size_t door);
+
+/// The pose of the robot by its integrator. It begins at 0, and after forget() it goes on from where it was.
+///
+/// Thread contract: not synchronised.
+class IntegratorOdometry {
+ public:
+  /// Takes what the integrator says. The first one after forget() moves nothing.
+  void add(const Axes& integrator);
+  /// Makes the next value a new reference: after the connection was opened again, or set_integrator().
+  void forget() { origin_.reset(); }
+  /// Returns the pose in the frame of the odometry.
+  [[nodiscard]] const Pose2& pose() const { return pose_; }
+
+ private:
+  std::optional<Pose2> origin_;  // of the integrator's frame in that of the odometry
+  Pose2 pose_;
+};
 
 }  // namespace orca::hw::xr4000

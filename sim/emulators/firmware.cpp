@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/emulators/outgoing_line.hpp"
+#include "orca/emulators/firmware.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/hw/arrivals.hpp"
+#include "orca/hw/line_frames.hpp"
 
 #include <algorithm>
 
