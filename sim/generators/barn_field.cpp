@@ -2,7 +2,6 @@
 #include <array>
 #include <numbers>
 
-#include "families.hpp"
 #include "plan.hpp"
 
 namespace orca::sim::detail {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "families.hpp"
 #include "orca/xml/number.hpp"
+#include "plan.hpp"
 #include "reach.hpp"
 
 namespace orca::sim {

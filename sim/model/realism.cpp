@@ -1,7 +1,75 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/realism.hpp"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/xml/attributes.hpp"
+#include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
+
 namespace orca::sim {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+constexpr double kMostFactor = 100.0;
+
+struct Named {
+  std::string_view name;
+  double ErrorLevels::*value;
+  double most = kUnlimited;
+};
+
+constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatch},
+                             Named{"track_error", &ErrorLevels::track_error},
+                             Named{"slip", &ErrorLevels::slip},
+                             Named{"turn_slip", &ErrorLevels::turn_slip},
+                             Named{"delay_scale", &ErrorLevels::delay_scale},
+                             Named{"sonar_noise", &ErrorLevels::sonar_noise},
+                             Named{"sonar_outliers", &ErrorLevels::sonar_outliers, 1.0},
+                             Named{"critical_angle", &ErrorLevels::critical_angle, kRightAngle},
+                             Named{"laser_bias", &ErrorLevels::laser_bias},
+                             Named{"laser_sigma", &ErrorLevels::laser_sigma},
+                             Named{"laser_drop_angle", &ErrorLevels::laser_drop_angle, kRightAngle},
+                             Named{"infrared_noise", &ErrorLevels::infrared_noise},
+                             Named{"sonar_edges", &ErrorLevels::sonar_edges, 1.0},
+                             Named{"sonar_threshold", &ErrorLevels::sonar_threshold, 1.0},
+                             Named{"sonar_in_line", &ErrorLevels::sonar_in_line, kRightAngle},
+                             Named{"laser_spot", &ErrorLevels::laser_spot},
+                             Named{"contact_friction", &ErrorLevels::contact_friction},
+                             Named{"wheel_grip", &ErrorLevels::wheel_grip},
+                             Named{"motor_force", &ErrorLevels::motor_force}};
+
+Error unknown(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Named& error : kErrors) names.emplace_back(error.name);
+  return fail(Code::invalid_argument,
+              in_quotes(name) + " is no error of a level and no estimate; there are: " + listed(names) +
+                  xml::did_you_mean(xml::nearest_name(name, names)));
+}
+
+Status scale(ErrorLevels& levels, std::string_view word) {
+  const std::size_t sign = word.find('=');
+  const std::string_view name = xml::trimmed(word.substr(0, sign));
+  const auto error = std::ranges::find(kErrors, name, &Named::name);
+  if (error == kErrors.end()) return unknown(name);
+  const Result<double> factor =
+      xml::parse_number(sign == std::string_view::npos ? "" : xml::trimmed(word.substr(sign + 1)));
+  if (!factor || *factor < 0.0 || *factor > kMostFactor)
+    return fail(Code::invalid_argument, std::string(name) + " expects a factor from 0 to 100, as in " +
+                                            std::string(name) + "=2, found " + in_quotes(word));
+  double& value = levels.*(error->value);
+  value = std::min(value * *factor, error->most);
+  return ok();
+}
+
+}  // namespace
 
 ErrorLevels error_levels(Realism realism) {
   constexpr double kDegree = std::numbers::pi / 180.0;
@@ -41,6 +109,14 @@ ErrorLevels error_levels(Realism realism) {
               .quantised = true};
   }
   return {};
+}
+
+Result<ErrorLevels> scaled(ErrorLevels levels, std::string_view factors) {
+  for (const std::string_view word : xml::split(factors, ";")) {
+    if (word.empty()) continue;
+    if (const Status done = scale(levels, word); !done.ok()) return done.error();
+  }
+  return levels;
 }
 
 }  // namespace orca::sim

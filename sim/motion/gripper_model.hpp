@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "orca/base/hash.hpp"
-#include "orca/sim/gripper_order.hpp"
+#include "orca/sim/readings.hpp"
 #include "orca/sim/robot_model.hpp"
 
 namespace orca::sim::detail {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "orca/geometry/vec2.hpp"
-#include "orca/sim/walker.hpp"
+#include "orca/sim/world_model.hpp"
 
 namespace orca::sim::detail {
 

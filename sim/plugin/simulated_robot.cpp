@@ -88,7 +88,8 @@ void SimulatedRobot::find_start(std::vector<HardwareFault>& errors) {
   if (!place_->empty()) {
     const Place* const place = world_->place(*place_);
     if (place == nullptr) {
-      const std::vector<std::string> names = place_names();
+      std::vector<std::string> names;
+      for (const Place& known : world_->places) names.push_back(known.name);
       errors.push_back({"place", "\"" + *place_ + "\" is no place of " + *world_file_ + "; places: " +
                                      listed(names) + xml::did_you_mean(xml::nearest_name(*place_, names))});
       return;
@@ -107,12 +108,6 @@ void SimulatedRobot::check_start_is_free(std::vector<HardwareFault>& errors) con
                         xml::number_text(start_.x) + " m, y " + xml::number_text(start_.y) +
                         " m; choose a free place",
                     {"world", "robot", "place", "x", "y", "heading"}});
-}
-
-std::vector<std::string> SimulatedRobot::place_names() const {
-  std::vector<std::string> names;
-  for (const Place& place : world_->places) names.push_back(place.name);
-  return names;
 }
 
 std::vector<HardwareFault> SimulatedRobot::conflicts_with(const HardwareContainer& earlier) const {

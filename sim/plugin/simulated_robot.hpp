@@ -9,7 +9,7 @@
 #include "moment_log.hpp"
 #include "orca/hw/container.hpp"
 #include "orca/hw/drawable.hpp"
-#include "orca/sim/scaled_errors.hpp"
+#include "orca/sim/realism.hpp"
 #include "orca/sim/world_model.hpp"
 #include "shared_world.hpp"
 
@@ -40,7 +40,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   [[nodiscard]] const RobotModel& robot() const { return *robot_; }
   /// Returns where the graph puts the robot, in the world frame.
   [[nodiscard]] const Pose2& start() const { return start_; }
-  [[nodiscard]] const std::string& robot_name() const { return *name_; }
   [[nodiscard]] Realism realism() const;
   /// Tells the robot's motors what to do, from now on.
   Status command(const hw::DriveSetpoint& setpoint) { return shared_->command(id_, setpoint, host().now()); }
@@ -59,7 +58,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   std::optional<RobotModel> read_robot_file(std::vector<HardwareFault>& errors) const;
   void find_start(std::vector<HardwareFault>& errors);
   void check_start_is_free(std::vector<HardwareFault>& errors) const;
-  [[nodiscard]] std::vector<std::string> place_names() const;
   [[nodiscard]] const char* setting_unlike(const SimulatedRobot& other) const;
   [[nodiscard]] const char* start_param() const { return place_->empty() ? "x" : "place"; }
   [[nodiscard]] Result<ErrorLevels> levels() const { return scaled(error_levels(realism()), *errors_); }

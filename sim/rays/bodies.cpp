@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "bodies.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <numbers>
 #include <utility>
 
 #include "intersect.hpp"
+#include "marks.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -27,6 +30,10 @@ void for_cells_of(const Cells& cells, const Cells::Range& range, const Visit& vi
   for (int r = range.first_row; r <= range.last_row; ++r)
     for (int c = range.first_column; c <= range.last_column; ++c) visit(cells.cell(c, r));
 }
+
+// Number of circles that are marked at a time.
+constexpr std::size_t kBlock = 64;
+static_assert(kBlock % kMarkGroup == 0);
 
 }  // namespace
 
@@ -207,6 +214,54 @@ bool Bodies::choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t
     return number == axis.ignore_body || !outer_[number].at(axis.sensor_height);
   });
   return true;
+}
+
+void Discs::set(std::size_t number, const Circle& circle) {
+  if (number >= x_.size())
+    for (auto* column : {&x_, &y_, &radius_}) column->resize(number + 1);
+  x_[number] = single(circle.center.x);
+  y_[number] = single(circle.center.y);
+  radius_[number] = single(circle.radius + single_margin(circle.center));
+}
+
+void Discs::find_near(const Cone& cone, std::vector<std::uint32_t>& found) const {
+  const Question asked(cone);
+  std::array<std::int32_t, kBlock> marks;
+  for (std::size_t first = 0; first < x_.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, x_.size() - first);
+    mark(asked, first, count, marks.data());
+    for_all_marked(marks.data(), count,
+                   [&](std::size_t i) { found.push_back(static_cast<std::uint32_t>(first + i)); });
+  }
+}
+
+Discs::Question::Question(const Cone& cone) {
+  tip_x = single(cone.tip.x);
+  tip_y = single(cone.tip.y);
+  left_x = single(cone.left.x);
+  left_y = single(cone.left.y);
+  right_x = single(cone.right.x);
+  right_y = single(cone.right.y);
+  axis_x = single(cone.axis.x);
+  axis_y = single(cone.axis.y);
+  reach = single(cone.reach);
+  wider = single(cone.slack + single_margin(cone.tip));
+}
+
+void Discs::mark(const Question& asked, std::size_t first, std::size_t count, std::int32_t* marks) const {
+  const Question one = asked;
+  const float* const X = x_.data() + first;
+  const float* const Y = y_.data() + first;
+  const float* const R = radius_.data() + first;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float x = X[i] - one.tip_x;
+    const float y = Y[i] - one.tip_y;
+    const float radius = R[i] + one.wider;
+    const float along = one.axis_x * x + one.axis_y * y;
+    // The circle lies outside neither rim, and neither behind the tip nor beyond the end.
+    marks[i] = (one.left_x * y - one.left_y * x <= radius) & (one.right_x * y - one.right_y * x >= -radius) &
+               (along >= -radius) & (along <= one.reach + radius);
+  }
 }
 
 }  // namespace orca::sim::detail

@@ -5,7 +5,6 @@
 
 #include "bodies.hpp"
 #include "grid.hpp"
-#include "mesh_sections.hpp"
 #include "orca/base/portable_math.hpp"
 #include "panorama.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "grid.hpp"
 
+#include <utility>
+
 #include "intersect.hpp"
 #include "strips.hpp"
 
@@ -27,6 +29,8 @@ double empty_depth_in(const CellLists& lists, const Cone& cone, int& looks) {
   }
   return std::min(strips.begin(), cone.reach);
 }
+
+constexpr std::size_t kMaxSections = 64;
 
 }  // namespace
 
@@ -67,6 +71,17 @@ double Grid::empty_depth(const Cone& cone) const {
   regions_.survey(
       cone, [&](const CellLists& lists) { depth = std::min(depth, empty_depth_in(lists, cone, looks)); });
   return depth;
+}
+
+std::shared_ptr<const Grid> MeshSections::at(double height) const {
+  const MutexLock lock(mutex_);
+  if (const auto known = sections_.find(height); known != sections_.end()) return known->second;
+  Elements elements;
+  for (const auto& mesh : meshes_)
+    elements.add(section_of(*mesh, height), {height, std::numeric_limits<double>::infinity()});
+  // A cast that uses a section keeps it alive, so erasing it here is safe.
+  if (sections_.size() == kMaxSections) sections_.erase(sections_.begin());
+  return sections_[height] = std::make_shared<const Grid>(std::move(elements));
 }
 
 }  // namespace orca::sim::detail

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "orca/geometry/vec2.hpp"
 
 namespace orca::sim::detail {
 
@@ -26,5 +29,11 @@ void for_all_marked(std::int32_t* marks, std::size_t count, const Visit& visit) 
       if (marks[i] != 0) visit(i);
   }
 }
+
+inline float single(double value) { return static_cast<float>(value); }
+
+// Returns a generous bound [m] on the rounding error of single precision near a place. A search that allows
+// for it finds too many things rather than too few.
+inline double single_margin(Vec2 place) { return 1e-3 + 1e-6 * (std::fabs(place.x) + std::fabs(place.y)); }
 
 }  // namespace orca::sim::detail

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "rays/marks.hpp"
-#include "rays/single_precision.hpp"
 
 namespace orca::sim::detail {
 namespace {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "pose_text.hpp"
-
 namespace orca::sim::detail {
 namespace {
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "orca/geometry/arc.hpp"
@@ -153,6 +154,23 @@ const Robot* robot_at(const std::deque<Robot>& robots, const Body& body) {
     return body.top > r.model.bottom && overlap(body.shape, placed(r.model.footprint, r.body));
   });
   return found == robots.end() ? nullptr : &*found;
+}
+
+void Trail::add(const RobotSnapshot::Sample& now) {
+  const Pose2& last = samples_.back().pose;
+  if (norm(now.pose.position() - last.position()) < way_ &&
+      std::fabs(wrapped(now.pose.yaw - last.yaw)) < turn_)
+    return;
+  if (samples_.size() == kMost) thin_out();
+  samples_.push_back(now);
+}
+
+// Keeps every second pose, the first among them. A step of a whole turn is never reached, so that later only way counts.
+void Trail::thin_out() {
+  for (std::size_t i = 1; 2 * i < samples_.size(); ++i) samples_[i] = samples_[2 * i];
+  samples_.resize((samples_.size() + 1) / 2);
+  way_ *= 2.0;
+  turn_ *= 2.0;
 }
 
 }  // namespace orca::sim::detail

@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "items.hpp"
-#include "motion/contact_log.hpp"
 #include "motion/physics.hpp"
 #include "movers.hpp"
 #include "orca/base/team.hpp"
 #include "orca/geometry/arc.hpp"
-#include "pose_text.hpp"
 #include "robot.hpp"
 #include "robot_solids.hpp"
 #include "schedule.hpp"

@@ -8,7 +8,7 @@
 #include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
-#include "urdf_parts.hpp"
+#include "urdf_check.hpp"
 
 namespace orca::sim::detail {
 namespace {

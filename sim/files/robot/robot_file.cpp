@@ -11,7 +11,6 @@
 #include "orca/xml/number.hpp"
 #include "urdf_body.hpp"
 #include "urdf_check.hpp"
-#include "urdf_parts.hpp"
 
 namespace orca::sim {
 namespace {

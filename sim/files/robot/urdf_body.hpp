@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <urdf_parser/urdf_parser.h>
 #include <map>
 #include <string>
 
 #include "orca/base/result.hpp"
 #include "orca/sim/robot_model.hpp"
+#include "orca/xml/document.hpp"
 #include "urdf_check.hpp"
 
 namespace orca::sim::detail {
@@ -35,5 +37,10 @@ struct UrdfBody {
 // @errors  invalid_argument if urdfdom rejects the text; it does not say where.
 [[nodiscard]] Result<UrdfBody> read_urdf_body(const xml::Element& robot, const std::string& text,
                                               const MeshHulls& hulls);
+
+// Computes the rotations of all joints, collisions and inertias from their angles in the file. urdfdom computes them with the C
+// library's sine and cosine, which differ from machine to machine.
+// @pre  check_urdf() found no error in `robot`, and urdfdom read `model` from the same text.
+void compute_rotations(const xml::Element& robot, urdf::ModelInterface& model);
 
 }  // namespace orca::sim::detail

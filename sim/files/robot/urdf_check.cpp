@@ -8,7 +8,6 @@
 #include "motion/hull_corners.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
-#include "urdf_parts.hpp"
 
 namespace orca::sim::detail {
 namespace {

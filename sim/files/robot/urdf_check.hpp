@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "orca/robot_file/codes.hpp"
+#include "orca/robot_file/reader.hpp"
+#include "orca/robot_file/rules.hpp"
 #include "orca/sim/mesh.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/reporter.hpp"
@@ -23,5 +26,13 @@ void check_urdf(const xml::Element& robot, const std::string& packages, xml::Rep
 
 // Reports a file that is still in the language xacro, once, and returns whether it is one.
 bool report_xacro(const xml::Element& robot, xml::Reporter& reporter);
+
+namespace robot_codes = robot_file::codes;
+using robot_file::kJointType;
+using robot_file::kRobotFile;
+using robot_file::only_child;
+
+// Checks names, parents, roots, loops and mimics.
+void check_tree(const xml::Element& robot, xml::Reporter& reporter);
 
 }  // namespace orca::sim::detail

@@ -7,7 +7,7 @@
 #include "orca/base/text.hpp"
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/names.hpp"
-#include "urdf_parts.hpp"
+#include "urdf_check.hpp"
 
 namespace orca::sim::detail {
 namespace {

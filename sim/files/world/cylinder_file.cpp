@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "codes.hpp"
-#include "files/formats/gzip_file.hpp"
+#include "files/formats/image_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/robot_file/values.hpp"
 #include "orca/xml/number.hpp"
@@ -19,7 +19,7 @@ using namespace robot_file::values;
 
 namespace {
 
-constexpr std::string_view kHeader = "world,x,y";
+constexpr std::string_view kColumns = "world,x,y";
 constexpr double kRadius = 0.075;       // [m]
 constexpr double kHeight = 2.5;         // [m]
 constexpr std::size_t kMost = 100'000;  // cylinders of one world
@@ -46,8 +46,8 @@ class CylinderFile {
       const std::string_view content = xml::trimmed(text.substr(start, end - start));
       start = end + 1;
       if (++line == 1) {
-        if (content != kHeader)
-          return refuse(1, 1, "the first line is not " + in_quotes(kHeader) + ", the names of the columns");
+        if (content != kColumns)
+          return refuse(1, 1, "the first line is not " + in_quotes(kColumns) + ", the names of the columns");
       } else if (!content.empty()) {
         row(content, line);
       }
@@ -71,7 +71,7 @@ class CylinderFile {
     if (fields.size() != 3)
       return error(
           line, 1,
-          "the row has " + std::to_string(fields.size()) + " fields, expected 3: " + std::string(kHeader));
+          "the row has " + std::to_string(fields.size()) + " fields, expected 3: " + std::string(kColumns));
     const auto column = [&](std::string_view field) {
       return 1 + static_cast<int>(field.data() - content.data());
     };

@@ -72,6 +72,31 @@ constexpr std::size_t kMaxItems = 200;
 constexpr std::size_t kMaxEvents = 1000;
 constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
+std::optional<double> height(const xml::Attributes& element) {
+  return element.number_or("height", kWallHeight);
+}
+
+using Elements = std::vector<std::pair<const xml::Element*, const xml::ElementRule*>>;
+
+bool within_limits(const xml::Attributes& world, const Elements& elements) {
+  const auto count = [&](const xml::ElementRule& rule) {
+    return static_cast<std::size_t>(std::ranges::count(elements, &rule, &Elements::value_type::second));
+  };
+  const auto too_many = [&](std::size_t found, const char* what, std::size_t limit) {
+    if (found <= limit) return false;
+    world.error(world_codes::kTooMany, "the world has " + std::to_string(found) + " " + what + ", at most " +
+                                           std::to_string(limit) + " are read");
+    return true;
+  };
+  const bool obstacles = too_many(elements.size() - count(kPlaceRule), "obstacles", kMaxObstacles);
+  const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
+  const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
+  const bool items = too_many(count(kItemRule), "items", kMaxItems);
+  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule),
+                               "moves, kidnaps and outages", kMaxEvents);
+  return !obstacles && !places && !walkers && !items && !events;
+}
+
 }  // namespace
 
 constexpr std::array<WorldReader::Reader, 16> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
@@ -121,29 +146,6 @@ void WorldReader::header(const Attributes& world) {
     world.error_at(
         "version", world_codes::kVersion,
         "version " + in_quotes(*version) + " of the world format is not known; this Orca reads \"1\"");
-}
-
-bool WorldReader::within_limits(const Attributes& world, const Elements& elements) const {
-  const auto count = [&](const xml::ElementRule& rule) {
-    return static_cast<std::size_t>(std::ranges::count(elements, &rule, &Elements::value_type::second));
-  };
-  const auto too_many = [&](std::size_t found, const char* what, std::size_t limit) {
-    if (found <= limit) return false;
-    world.error(world_codes::kTooMany, "the world has " + std::to_string(found) + " " + what + ", at most " +
-                                           std::to_string(limit) + " are read");
-    return true;
-  };
-  const bool obstacles = too_many(elements.size() - count(kPlaceRule), "obstacles", kMaxObstacles);
-  const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
-  const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
-  const bool items = too_many(count(kItemRule), "items", kMaxItems);
-  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule),
-                               "moves, kidnaps and outages", kMaxEvents);
-  return !obstacles && !places && !walkers && !items && !events;
-}
-
-std::optional<double> WorldReader::height(const Attributes& element) const {
-  return element.number_or("height", kWallHeight);
 }
 
 void WorldReader::claim(const Attributes& element, const std::string& kind, const std::string& name) {

@@ -27,7 +27,6 @@ class WorldReader {
 
  private:
   using Attributes = xml::Attributes;
-  using Elements = std::vector<std::pair<const xml::Element*, const xml::ElementRule*>>;
   // An element inside <world>, and the function that reads it.
   struct Reader {
     const xml::ElementRule* rule;
@@ -36,7 +35,6 @@ class WorldReader {
   static const std::array<Reader, 16> kReaders;
 
   void header(const Attributes& world);
-  bool within_limits(const Attributes& world, const Elements& elements) const;
   void wall(const Attributes& element);
   void room(const Attributes& element);
   void box(const Attributes& element);
@@ -59,7 +57,6 @@ class WorldReader {
   void add_visitor(const Attributes& element, Shape shape, const Pose2& X_WO, double height);
   void add_place(const Attributes& element, Place place);
   [[nodiscard]] Attributes attributes_of(const xml::Element& element, const xml::ElementRule& rule);
-  [[nodiscard]] std::optional<double> height(const Attributes& element) const;
   // Returns the name that the element gives itself, its kind if it gives none. Reports a name that is taken.
   std::string own_name(const Attributes& element);
   void claim(const Attributes& element, const std::string& kind, const std::string& name);

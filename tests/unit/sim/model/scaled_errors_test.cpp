@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "orca/sim/scaled_errors.hpp"
+#include "orca/sim/realism.hpp"
 
 #include <catch2/catch.hpp>
 

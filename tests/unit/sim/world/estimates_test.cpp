@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "laser.hpp"
-#include "orca/sim/scaled_errors.hpp"
+#include "orca/sim/realism.hpp"
 
 using namespace orca::sim;
 using namespace orca::sim::test;

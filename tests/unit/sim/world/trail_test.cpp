@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "world/trail.hpp"
+#include "world/robot.hpp"
 
 #include <catch2/catch.hpp>
 

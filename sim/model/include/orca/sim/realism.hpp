@@ -2,7 +2,9 @@
 #pragma once
 
 #include <numbers>
+#include <string_view>
 
+#include "orca/base/result.hpp"
 #include "orca/robot_file/guesses.hpp"
 
 namespace orca::sim {
@@ -48,5 +50,12 @@ struct ErrorLevels {
 };
 
 [[nodiscard]] ErrorLevels error_levels(Realism realism);
+
+/// Multiplies single errors of a level, or estimates that all levels share, in order to see how much a result depends on
+/// them. An angle grows to 90 degrees at most, a probability or a share to 1.
+///
+/// @param factors  names of numbers of ErrorLevels with a factor each, from 0 to 100: "slip=2; sonar_noise=0.5". Empty: none.
+/// @errors  invalid_argument, with the first word that is wrong and what is expected.
+[[nodiscard]] Result<ErrorLevels> scaled(ErrorLevels levels, std::string_view factors);
 
 }  // namespace orca::sim

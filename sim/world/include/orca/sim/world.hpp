@@ -12,7 +12,6 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/sim/caster.hpp"
-#include "orca/sim/gripper_order.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"

@@ -2,7 +2,6 @@
 #include <array>
 #include <numbers>
 
-#include "families.hpp"
 #include "orca/xml/number.hpp"
 #include "plan.hpp"
 
@@ -43,6 +42,12 @@ std::vector<Vec2> beside(const std::vector<Vec2>& line, double offset) {
   return side;
 }
 
+constexpr double kApart = 3.0;     // [m] From the trap to start and goal.
+constexpr double kMargin = 1.0;    // [m] From start and goal to the hall's ends.
+constexpr double kLargest = 50.0;  // [m]
+
+constexpr double kJamb = 0.3;  // [m] Least wall beside a door.
+
 }  // namespace
 
 WorldModel draw(const Corridor& family, RandomStream& random) {
@@ -71,6 +76,60 @@ std::string fault_of(const Corridor& family, double radius) {
     return "shortest must be at least " + xml::number_text(least) +
            " m, twice the width with a wall, so that legs stay apart";
   return too_narrow("width", family.width, radius);
+}
+
+WorldModel draw(const UTrap& family, RandomStream& random) {
+  const double width = family.width * random.uniform(0.8, 1.2);
+  const double depth = family.depth * random.uniform(0.8, 1.2);
+  const double mouth = kMargin + kApart;
+  const double half = 0.5 * (width + kThickness);  // To the middle of the U's arms.
+  const double hall = width + 2.0 * (kThickness + family.beside);
+  const double y = 0.5 * hall;
+  const double bottom = mouth + depth + 0.5 * kThickness;
+  WorldModel world;
+  add_hall(world, {0.0, 0.0}, {bottom + kApart + kMargin, hall});
+  add_wall(world, {mouth, y - half}, {bottom, y - half});
+  add_wall(world, {mouth, y + half}, {bottom, y + half});
+  add_wall(world, {bottom, y - half}, {bottom, y + half});
+  const double across = 0.25 * width;
+  const double start = y + random.uniform(-across, across);
+  const double goal = y + random.uniform(-across, across);
+  world.places = {{"start", {kMargin, start, 0.0}}, {"goal", {bottom + kApart, goal, 0.0}}};
+  return world;
+}
+
+std::string fault_of(const UTrap& family, double radius) {
+  for (const double value : {family.width, family.depth, family.beside})
+    if (!(value > 0.0 && value <= kLargest))
+      return "width, depth and beside must be more than 0 and at most 50 m";
+  return too_narrow("beside", family.beside, radius);
+}
+
+WorldModel draw(const NarrowDoors& family, RandomStream& random) {
+  WorldModel world;
+  const double nearest = kJamb + 0.5 * family.door;
+  const double length = static_cast<double>(family.walls + 1) * family.spacing;
+  add_hall(world, {0.0, 0.0}, {length, family.width});
+  for (std::size_t i = 1; i <= family.walls; ++i) {
+    const double x = static_cast<double>(i) * family.spacing;
+    const double at = random.uniform(nearest, family.width - nearest);
+    add_wall(world, {x, 0.0}, {x, family.width}, {{at, family.door}});
+  }
+  const double y = 0.5 * family.width;
+  world.places = {{"start", {0.5 * family.spacing, y, 0.0}},
+                  {"goal", {length - 0.5 * family.spacing, y, 0.0}}};
+  return world;
+}
+
+std::string fault_of(const NarrowDoors& family, double radius) {
+  if (family.walls < 1 || family.walls > 50) return "walls must be between 1 and 50";
+  if (!(family.spacing <= 20.0 && family.width <= 50.0))
+    return "spacing must be at most 20 m, width at most 50 m";
+  if (!(family.width >= family.door + 2.0 * kJamb))
+    return "the hall's width must be that of a door and 0.6 m more";
+  if (const std::string fault = too_narrow("spacing", family.spacing - kThickness, radius); !fault.empty())
+    return fault;
+  return too_narrow("door", family.door, radius);
 }
 
 }  // namespace orca::sim::detail
