@@ -120,7 +120,7 @@ Scan Scanner::run() {
   return std::move(scan_);
 }
 
-void Scanner::report(const char* code, Mark at, std::string message) {
+void Scanner::flaw(const char* code, Mark at, std::string message) {
   if (stopped_) return;
   out_.error(code, {file_, at.line, at.column}, std::move(message));
   if (++reported_ < kMaxErrors) return;
@@ -129,11 +129,9 @@ void Scanner::report(const char* code, Mark at, std::string message) {
   cursor_.advance_to_end();
 }
 
-void Scanner::flaw(const char* code, Mark at, std::string message) { report(code, at, std::move(message)); }
-
 void Scanner::broken(const char* code, Mark at, std::string message) {
   scan_.readable = false;
-  report(code, at, std::move(message));
+  flaw(code, at, std::move(message));
 }
 
 void Scanner::stop(const char* code, Mark at, std::string message) {

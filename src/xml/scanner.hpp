@@ -75,7 +75,6 @@ class Scanner {
   TagEnd attributes(std::string_view tag, Mark begin);
   TagEnd skip_rest_of_tag();
   std::optional<TagEnd> attribute();
-  void missing_value(std::string_view name, Mark begin);
   void missing_quote(std::string_view name);
   std::optional<TagEnd> value(std::string_view name, AttributeMark& mark);
   TagEnd value_runs_on(std::string_view name, Mark begin, std::string_view so_far);
@@ -90,7 +89,6 @@ class Scanner {
   void flaw(const char* code, Mark at, std::string message);    // the tree is still to be had
   void broken(const char* code, Mark at, std::string message);  // it is not
   void stop(const char* code, Mark at, std::string message);    // nothing more can be said
-  void report(const char* code, Mark at, std::string message);
 
   Cursor cursor_;
   const std::string& file_;

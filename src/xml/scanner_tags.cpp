@@ -105,7 +105,8 @@ std::optional<Scanner::TagEnd> Scanner::attribute() {
   const std::string_view attribute_name = name();
   skip_blanks();
   if (cursor_.peek() != '=') {
-    missing_value(attribute_name, mark.name);
+    broken(codes::kAttribute, mark.name,
+           attribute_text(attribute_name) + " has no value: write " + shown(attribute_name) + "=\"...\"");
     return std::nullopt;
   }
   cursor_.advance();
@@ -117,10 +118,6 @@ std::optional<Scanner::TagEnd> Scanner::attribute() {
   const auto end = value(attribute_name, mark);
   note_attribute(attribute_name, mark, {from, cursor_.offset() - from});
   return end;
-}
-
-void Scanner::missing_value(std::string_view name, Mark begin) {
-  broken(codes::kAttribute, begin, attribute_text(name) + " has no value: write " + shown(name) + "=\"...\"");
 }
 
 void Scanner::missing_quote(std::string_view name) {

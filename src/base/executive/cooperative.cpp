@@ -214,7 +214,12 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
     if (doorbell_ != nullptr && inbox_changed_.take()) notify_rung();
     if (inbox_filled_.load(std::memory_order_acquire)) take_notifications();
     if (!is_virtual()) fire_timers();
-    if (main_is_next_) return main_at_once();
+    if (main_is_next_) {  // whatever else is ready
+      main_is_next_ = false;
+      make_ready(*main_);
+      ready_.remove(*main_);
+      return *main_;
+    }
     if (!ready_.empty()) return ready_.pop();
     if (is_virtual()) {
       advance_virtual_time();
@@ -222,14 +227,6 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
       wait_for_work();
     }
   }
-}
-
-// Returns the main task, whatever else is ready.
-CooperativeExecutive::Fiber& CooperativeExecutive::main_at_once() {
-  main_is_next_ = false;
-  make_ready(*main_);
-  ready_.remove(*main_);
-  return *main_;
 }
 
 inline void CooperativeExecutive::begin(Fiber& fiber) {

@@ -75,7 +75,6 @@ class CooperativeExecutive final : public Executive {
   Fiber& next_to_run();
   void begin(Fiber& fiber);
   void count_turn(Fiber& fiber);
-  Fiber& main_at_once();
   void set_timer(Fiber& fiber, TimePoint deadline);
   void cancel_timer(Fiber& fiber);
   void take_notifications();
