@@ -229,7 +229,7 @@ void Ledger::settle_holds_of(const std::string& process, const std::string& why)
 
 bool Ledger::is_in_use(const std::string& process) const {
   const MutexLock lock(mutex_);
-  return std::ranges::any_of(graph_.components, [&](const graph::ComponentNode& node) {
+  return std::ranges::any_of(graph_.components, [&](const graph::ComponentNode& node) ORCA_REQUIRES(mutex_) {
     const host::ComponentState state = components_.at(node.name).state;
     return node.process == process && state != host::ComponentState::idle &&
            state != host::ComponentState::unloaded;
