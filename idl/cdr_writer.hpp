@@ -23,7 +23,7 @@ template <class T>
 concept WireNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
 /// A writer of values in XCDR version 1, the encoding that Fast DDS uses, into memory of a fixed size. Alignment
-/// counts from the first byte. What does not fit is counted, but not written.
+/// counts from the first byte. Values that do not fit are counted, but not written.
 ///
 /// Thread contract: one thread.
 /// @source  OMG DDS-XTypes 1.3, 7.4.3 (plain CDR, version 1); CORBA 3.3 part 2, 9.3.

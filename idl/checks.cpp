@@ -33,7 +33,7 @@ bool is_possible(const idl::Point& point, const idl::Rotation3D& rotation) {
 
 bool is_number(double range) { return !std::isnan(range); }
 
-// What scans and rounds have in common.
+// Checks the part that scans and rounds have in common.
 Status check_ranges(const idl::RangeReadings& readings) {
   if (readings.ranges().empty()) return wrong("it has no ranges");
   if (std::ranges::none_of(readings.ranges(), is_number))

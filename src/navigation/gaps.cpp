@@ -11,7 +11,7 @@
 namespace orca::nav {
 namespace {
 
-constexpr int kSettle = 3;          // times that the middle is looked for anew
+constexpr int kSettle = 3;          // times that the middle is looked for again
 constexpr double kOpposite = -0.5;  // cosine of the angle between both sides, at most
 constexpr double kEvery = 0.1;      // [m] at which a path is searched for gaps
 constexpr double kOffMiddle = 0.2;  // [m] from the path to the middle of a gap that belongs to it

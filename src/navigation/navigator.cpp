@@ -23,7 +23,7 @@ constexpr double kIdle = 3.0;           // [s] without motion, though not blocke
 constexpr double kRoomAhead = 1.5;      // [m]
 constexpr double kSameWay = 2.5;        // [m] ahead on which two paths are compared
 constexpr double kBeside = 0.25;        // [m] apart: the same way
-constexpr double kAside = 0.5;          // [m] off the path: plan anew
+constexpr double kAside = 0.5;          // [m] off the path: plan again
 
 }  // namespace
 

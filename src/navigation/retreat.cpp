@@ -51,7 +51,7 @@ bool walk_outline(const Footprint& footprint, const Pose2& pose, Visit visit) {
 }  // namespace
 
 void Retreat::note(const Pose2& pose) {
-  if (retreated_)  // What it has backed away from is not behind it any more.
+  if (retreated_)  // the obstacle is not behind it any more
     while (!trail_.empty() && seen_from(pose, trail_.back().position()).x > 0.0) trail_.pop_back();
   retreated_ = false;
   if (!trail_.empty() && norm(pose.position() - trail_.back().position()) < kTrailStep &&

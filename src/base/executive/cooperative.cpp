@@ -75,7 +75,7 @@ class CooperativeEvent final : public Event {
 namespace {
 
 // Returns whether a thread of this process sleeps in a system call. A write that waits for its reader does
-// not count. False where the system does not tell.
+// not count. Returns false where the system does not report it.
 bool sleeps_in_system(pid_t thread) {
   constexpr std::array kWrites{SYS_write, SYS_pwrite64, SYS_writev, SYS_sendto, SYS_sendmsg};
   // Reads "running", or the number of the system call that the thread is in.

@@ -17,7 +17,7 @@ namespace orca::detail {
 namespace {
 
 // Only the waiter sets kAsleep, and only the waiter leaves it at a timeout. Any other way out is a notification,
-// so none is lost. Another process may write anything else into the word by mistake. That counts as a notification as well, and who
+// so none is lost. Another process may write anything else into the word by mistake. It counts as a notification, too, and who
 // rings next finds a word that may have been kAsleep, and wakes. So a sleeper misses a ring only if what was written happens to be
 // kIdle or kNotified, which is why these are numbers that nobody writes by chance; zero is the word of nobody yet. Against the worst
 // case a word of several processes counts as rung after kLongestTrust.

@@ -49,8 +49,8 @@ inline void finish_switch([[maybe_unused]] void* fake_stack, [[maybe_unused]] St
 #endif
 }
 
-/// Announces that the stack is gone. Whatever the loader maps there next, for example a plugin, then has no
-/// red zones of former frames.
+/// Announces that the stack is gone. The next mapping there, for example of a plugin, then
+/// has no red zones of former frames.
 inline void forget_stack([[maybe_unused]] const StackBounds& stack) {
 #if defined(__SANITIZE_ADDRESS__)
   __asan_unpoison_memory_region(stack.bottom, stack.size);

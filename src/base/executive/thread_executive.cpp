@@ -85,8 +85,8 @@ bool ThreadInputEvent::take() {
          state_.exchange(kNoNews, std::memory_order_acquire) == kNews;
 }
 
-// Sleeps until there is news or the deadline comes, or for a shorter time: a ring may come late, when what it told of is known
-// already. Returns whether the descriptor has input, or has failed, which reading it tells.
+// Sleeps until there is news or the deadline comes, or for a shorter time: a ring may come late, when its news is known
+// already. Returns whether the descriptor has input or has failed; a read shows which.
 bool ThreadInputEvent::poll_until(TimePoint deadline) {
   if constexpr (kLongestSleep != Duration::max()) deadline = std::min(deadline, steady_now() + kLongestSleep);
   pollfd news[] = {{bell_, POLLIN, 0}, {watched_, POLLIN, 0}};  // a negative one is left out

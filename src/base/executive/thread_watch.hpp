@@ -82,7 +82,7 @@ class ThreadWatch {
     std::uint64_t state;
     TimePoint since;                      // when it was first seen in this state
     std::optional<ProcessorWait> wait{};  // from the second time on
-    Duration waited_before{0};            // as wait told it then
+    Duration waited_before{0};            // as wait reported it then
   };
   static Duration busy_time(Watched& watched, TimePoint now);
 

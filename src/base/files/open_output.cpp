@@ -25,7 +25,7 @@ std::string without_slash(std::string path) {
   return path;
 }
 
-// What is found in a folder that everybody may write to must have been put there by this user, or by the folder's owner.
+// Checks an entry of a folder that everybody may write to: it must be this user's, or the folder owner's.
 Status check(const struct stat& found, const struct stat& folder) {
   const auto refuse = [](const std::string& what) {
     return fail(Code::unavailable, what + ", in a folder that everybody may write to; choose another name");

@@ -25,7 +25,7 @@ class AlarmCentral final : public orca::Component {
   orca::Outcome work() override {
     const std::size_t subscribers = alarms_.subscriber_count();
     const auto news = take_alarms();
-    // A new subscriber hears first of what is still open. What is new is among that.
+    // A new subscriber first gets the open alarms, the new ones among them.
     for (const Alarm& alarm : subscribers > subscribers_ ? kept_alarms() : news) pass_on(alarm);
     subscribers_ = subscribers;
     return orca::again();

@@ -79,8 +79,8 @@ Way best_direction(std::span<const Vec2> echoes, const TurnRoom& turns, const Si
 }
 
 // How far an echo lets the rectangle turn. Seen from the body the echo goes round on a circle, which lies within the rectangle
-// near its corners: of a corner at the front from `low` to `high`. Of an echo that is within already, only turning the corner
-// away from it is left.
+// near its corners: of a corner at the front from `low` to `high`. From an echo that is within already the
+// corner can only turn away.
 TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
   const double low = distance > body.half_length ? portable::acos(body.half_length / distance) : 0.0;
   const double high =

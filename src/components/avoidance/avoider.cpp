@@ -145,7 +145,7 @@ void Avoider::stop() {
   question_.reset();
 }
 
-// What a derived class keeps besides is found anew in a lap or two.
+// Saves the common part; a derived class finds its own again in a lap or two.
 void Avoider::save_state(StateWriter& state) const {
   state.write(body_, memory_, pose_, twist_, moved_at_, heard_at_, last_direction_);
 }
@@ -238,7 +238,7 @@ std::string Avoider::why_deaf() {
   return text;
 }
 
-// Returns how a robot gets free that stands although it has somewhere to go. What it has met without seeing it is remembered.
+// Returns how a robot gets free that stands although it has somewhere to go. Remembers what it has met without seeing it.
 std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
   if (!remembers() || !moved_at_) return std::nullopt;
   if (!escape_) escape_.emplace(outline_of(described_body()));

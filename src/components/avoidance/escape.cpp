@@ -64,7 +64,7 @@ nav::Steer Escape::way_out(const Moment& moment) {
   const nav::Steer back =
       retreat_.step(moment.now, scene, [&](Vec2 point) { return moment.floor.has(point); });
   if (!back.blocked && back.speed < 0.0) return back;
-  // What it has met is ahead. Between sonars there may be a wall for its corners.
+  // The unseen obstacle is ahead. Between sonars there may be a wall for its corners.
   const bool knows_shapes = outline_.is_circle() || !moment.floor.empty();
   if (!moment.goal || !knows_shapes) return {.blocked = true};
   const double angle = std::clamp(*moment.goal, -kFarTurn, kFarTurn);

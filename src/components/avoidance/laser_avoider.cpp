@@ -20,7 +20,7 @@ constexpr double kHardlyYields = 1e-5;
 constexpr double kErrorOfReading = 0.01;
 constexpr double kSector = std::numbers::pi / 36;
 // So much beside the circle a body may come to within a few readings, and its corners must know the shape of what is there: to a
-// centimetre, as well as a reading tells it.
+// centimetre, as well as a reading shows it.
 constexpr double kBesideBody = 0.25;  // [m]
 constexpr double kFineSector = std::numbers::pi / 120;
 

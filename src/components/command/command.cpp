@@ -299,7 +299,7 @@ class Command final : public orca::Component {
     return clients_.send(std::move(list));
   }
 
-  // Asks the user for one goal; false when there will be no more. What is typed so far stays when the lap is given up for an order.
+  // Asks the user for one goal; false when there will be no more. Typed letters stay when the lap is given up for an order.
   bool ask() {
     const orca::LiveLine::Pause room;  // the user sees what he types
     if (!prompt_.show()) return false;

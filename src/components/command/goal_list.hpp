@@ -13,7 +13,7 @@
 
 namespace orca::command {
 
-/// What is known of a doorway besides its middle.
+/// A doorway without its middle.
 struct Doorway {
   double direction = 0.0;  ///< [rad] that leads through it; the opposite one does too.
   double width = 0.0;      ///< [m] of the opening.
@@ -24,7 +24,7 @@ struct Place {
   double y = 0.0;  ///< [m]
   double z = 0.0;  ///< [m] above the floor.
   std::optional<Doorway> door{};
-  std::string name{};  ///< Of a place that a map knows; empty: the coordinates are given.
+  std::string name{};  ///< A place that a map knows; empty: the coordinates are given.
 };
 
 /// A goal and the via points on the way to it.
@@ -56,7 +56,7 @@ struct GoalLine {
 /// @errors  those of read_input_file(); invalid_argument if it has more than 1 MB.
 [[nodiscard]] Result<std::vector<GoalLine>> read_goal_file(const std::string& path);
 
-/// What counts as having reached a point.
+/// The demands for having reached a point.
 struct Demands {
   double radius = 0.0;      ///< [m]
   double angle = 0.0;       ///< [rad] off the direction at the goal.

@@ -8,8 +8,8 @@
 
 namespace orca::command {
 
-/// What must still be sent for one goal: points of its route to Goto, and the list of behaviours to the fuser. A
-/// receiver that was started again has forgotten what it got, so it gets it once more, without the points that the
+/// The objects that must still be sent for one goal: points of its route to Goto, and the list of behaviours to the fuser. A
+/// receiver that was started again has forgotten them, so it gets them once more, without the points that the
 /// robot has passed.
 ///
 /// Thread contract: not synchronised.

@@ -20,7 +20,7 @@ constexpr double kRest = 1e-9;  // [m/s], [rad/s] a slower velocity is none.
 struct Cell {
   Twist2 motion;
   bool admissible = false;
-  double value = 0.0;  // Of the objective function before it is smoothed.
+  double value = 0.0;  // of the objective function, before it is smoothed
 };
 
 std::vector<double> evenly(double low, double high, std::size_t count) {

@@ -17,7 +17,7 @@ namespace orca::dwa {
 
 using avoid::Footprint;
 
-/// What the robot can do.
+/// The abilities of the robot.
 struct Abilities {
   double max_speed = 0.0;          ///< [m/s] with max_turn_rate it bounds the velocities V_s.
   double max_turn_rate = 0.0;      ///< [rad/s] to either side.
@@ -34,7 +34,7 @@ struct Weights {
   double speed = 0.0;     ///< gamma
 };
 
-/// What does not change from lap to lap.
+/// The settings, which do not change from lap to lap.
 struct Settings {
   Abilities robot;
   Weights weights;
@@ -46,7 +46,7 @@ struct Settings {
   double least_margin = 0.0;  ///< [m] the same at rest; in between in proportion to the speed.
 };
 
-/// What is around the robot.
+/// The surroundings of the robot.
 struct Scene {
   std::span<const Vec2> echoes;
   Vec2 target;                        ///< The place to drive to; without one, a place straight ahead.
@@ -93,7 +93,7 @@ struct Room {
 [[nodiscard]] std::optional<Twist2> turn_on_the_spot(const Twist2& now, double side,
                                                      std::span<const Vec2> echoes, const Settings& settings);
 
-/// What the robot remembers from one lap to the next.
+/// The memory from one lap to the next.
 struct State {
   double turning_to =
       0.0;  ///< The side to which it turns on the spot as there is no way ahead, +1 or -1; 0: it does not.

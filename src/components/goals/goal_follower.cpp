@@ -72,7 +72,7 @@ Status GoalFollower::start() {
   return ok();
 }
 
-// The legs of a door are laid out anew from where the robot is.
+// Leaves out the legs of a door: they are laid out again from where the robot is.
 void GoalFollower::save_state(StateWriter& state) const {
   state.write(route_, patience_, before_, posed_at_, doubts_);
 }

@@ -8,7 +8,7 @@
 namespace orca::go {
 namespace {
 
-constexpr double kDrift = 1.5;  // reach radii from the target, beyond which a robot at rest approaches anew
+constexpr double kDrift = 1.5;  // reach radii from the target, beyond which a robot at rest approaches again
 
 double distance_in_space(const Target& target, const Pose2& pose) {
   return portable::hypot(target.place.x - pose.x, target.place.y - pose.y, target.rise);

@@ -6,7 +6,7 @@ namespace {
 
 /// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
 /// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
-/// What it does with goals, via points and doors is that of all behaviours that follow goals.
+/// It treats goals, via points and doors as all behaviours that follow goals.
 class Goto final : public orca::go::GoalFollower {
  public:
   explicit Goto(orca::ComponentHost& host) : GoalFollower(host, kBlockedAfter) {}

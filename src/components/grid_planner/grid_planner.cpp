@@ -39,7 +39,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   static constexpr double kOwnEcho = 0.1;        // [m] what scanners see so near to the robot is the robot
   using Scanners = orca::PushProxyArray<orca::idl::LaserRangeReadings>;
 
-  // What the base says about the robot. Zero: it does not say.
+  // The robot's body, as the base reports it. Zero: it does not.
   struct Body {
     double radius = 0.0;        // [m]
     double length = 0.0;        // [m]
@@ -221,7 +221,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     navigator_->hear(beams_, pose);
   }
 
-  // What it has mapped lies elsewhere now, and so does the frame of the odometry in the map.
+  // Forgets the map, whose content lies elsewhere now, and the place of the odometry's frame in it.
   void forget_places() override {
     navigator_.reset();
     history_.clear();
@@ -323,7 +323,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
   Scanners scanners_{*this,
                      "scanners",
-                     {.text = "Scans of lasers that stand somewhere and tell their places in the world; "
+                     {.text = "Scans of lasers that stand somewhere and report their places in the world; "
                               "needs a localizer.",
                       .optional = true}};
   orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
@@ -370,9 +370,7 @@ class GridPlanner final : public orca::go::GoalFollower {
       *this,
       "speed_per_clearance",
       4.0,
-      {.unit = "1/s",
-       .min = 0.0,
-       .text = "What each metre beyond the margin that is free adds to that speed."}};
+      {.unit = "1/s", .min = 0.0, .text = "Speed that each free metre beyond the margin adds to that."}};
   orca::Param<double> clearance_{
       *this,
       "clearance",

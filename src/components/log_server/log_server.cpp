@@ -41,7 +41,7 @@ class LogServer final : public orca::Component {
   explicit LogServer(orca::ComponentHost& host) : Component(host) {
     lap_every(std::chrono::milliseconds(100));
   }
-  // What is logged while the system is taken down is written as well.
+  // Lines that are logged while the system is taken down are written as well.
   ~LogServer() override {
     listener_.reset();
     distant_.reset();

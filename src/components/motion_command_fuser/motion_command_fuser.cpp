@@ -111,7 +111,7 @@ class MotionCommandFuser final : public orca::Component {
     return orca::ok();
   }
 
-  // Returns a behaviour of which nothing has been heard yet. One that had fallen silent is told to be so at once.
+  // Returns a behaviour of which nothing has been heard yet. One that had fallen silent is reported as silent at once.
   [[nodiscard]] Listened anew(const Source& source, const std::string& name) const {
     const orca::fuse::Reliance reliance = lost_.reliance_of(source);
     const orca::TimePoint since = reliance.is_lost() ? orca::TimePoint{} : now();

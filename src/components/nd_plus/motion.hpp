@@ -13,7 +13,7 @@ namespace orca::nd {
 
 using avoid::Footprint;
 
-/// What does not change from lap to lap.
+/// The settings, which do not change from lap to lap.
 struct Settings {
   Footprint body;
   double security_distance =
@@ -45,10 +45,10 @@ struct Dangers {
   [[nodiscard]] double share() const;
 };
 
-/// Returns the nearest dangerous obstacles to both sides of a direction [rad]. What lies behind is none: the robot leaves it.
+/// Returns the nearest dangerous obstacles to both sides of a direction [rad]. Obstacles behind are none: the robot leaves them.
 [[nodiscard]] Dangers dangers(std::span<const Vec2> echoes, double direction, const Settings& settings);
 
-/// What the robot is in: low or high safety; dangers on one or both sides; goal in the region, a wide or a narrow one.
+/// The situation of the robot: low or high safety; dangers on one or both sides; goal in the region, a wide or a narrow one.
 enum class Situation {
   low_safety_goal_in_region,   ///< LSGR
   low_safety_1_side,           ///< LS1

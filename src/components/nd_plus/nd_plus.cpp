@@ -54,7 +54,7 @@ class NdPlus final : public orca::avoid::LaserAvoider {
     return {true, course.turn_rate, course.speed, 1.0, course.turn_rate};
   }
 
-  // What ND+ says, as far as the body can follow; standing where no region has room for it.
+  // Returns the course of ND+ as far as the body can follow; standing where no region has room for it.
   [[nodiscard]] orca::nd::Course steer(std::span<const orca::Vec2> echoes,
                                        const orca::avoid::Situation& situation,
                                        const orca::nd::Settings& settings) {

@@ -42,7 +42,7 @@ std::vector<Entrance> entrances(const std::vector<Region>& regions, const Goal& 
   return found;
 }
 
-// What stands outermost at a gap: an echo, since a sector is too coarse to pass it closely.
+// Returns the outermost obstacle at a gap: an echo, since a sector is too coarse to pass it closely.
 Vec2 edge_of(const Entrance& way, std::span<const Vec2> echoes, const Depths& seen, double radius) {
   const double depth = seen[outside(way)];
   const Vec2 sight = direction(direction_of(outside(way)));

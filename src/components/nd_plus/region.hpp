@@ -20,7 +20,7 @@ struct Goal {
   std::optional<double> last = {};
 };
 
-/// What stands at a rising gap, beside a region.
+/// The obstacle at a rising gap, beside a region.
 struct Edge {
   Vec2 place;         ///< [m]
   double side = 1.0;  ///< +1: it stands to the left of the region, -1: to the right.

@@ -17,8 +17,8 @@ using orca::idl::RobotPose;
 
 /// A localizer by dead reckoning: the odometry, seen from the frame of the world, in which the robot's start is known. It
 /// remembers nothing but a pose that somebody has sent, so one that is started on the way knows as much as one that was there from the
-/// start. After the base has begun
-/// anew it does not know where the robot is, and says so with each pose, until somebody sets its start.
+/// start. After the base has
+/// started again it does not know where the robot is, and says so with each pose, until somebody sets its start.
 class OdometryLocalizer final : public orca::Component {
  public:
   explicit OdometryLocalizer(orca::ComponentHost& host) : Component(host) {}
@@ -110,7 +110,7 @@ class OdometryLocalizer final : public orca::Component {
       &OdometryLocalizer::on_pose,
       {.text = "Where the robot is now, in the frame of the world, from somebody who knows it."}};
   orca::PushProxy<Odometry> odometry_{
-      *this, "odometry", {.text = "What the base measures, from the robot's start on."}};
+      *this, "odometry", {.text = "Odometry of the base, from the robot's start on."}};
   orca::PushServer<RobotPose> poses_{
       *this, "RobotPosePush", {.text = "Pose of the robot in the frame of the world, once per lap."}};
   orca::Param<double> start_x_{

@@ -117,7 +117,7 @@ void ClientSession::begin_round(const Header& request) {
   end_round();
 }
 
-// What is new of each device, and the synch that a client waits for. A round without anything new waits, as a server of Player does.
+// Sends the news of each device, and the synch that a client waits for. A round without anything new waits, as a server of Player does.
 void ClientSession::end_round() {
   if (!asked_ || fresh_.empty()) return;
   asked_ = false;

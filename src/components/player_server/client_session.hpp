@@ -21,7 +21,7 @@
 
 namespace orca::player_server {
 
-/// What a client of Player and this robot say to each other: bytes in, bytes out.
+/// The talk between a client of Player and this robot: bytes in, bytes out.
 ///
 /// Data are sent as they arise, or on request in pull mode; of each device the newest takes the place of one that has not been
 /// sent. A client that does not read is sent nothing new, and is given up when its answers pile up, too.

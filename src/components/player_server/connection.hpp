@@ -42,7 +42,7 @@ class Connection {
 class Listener {
  public:
   /// @param address  IPv4 address of this machine, or 0.0.0.0 for all of its own.
-  /// @param port     0: any; port() tells which.
+  /// @param port     0: any; port() returns it.
   /// @errors  already_exists if another program has the port, unavailable with any other reason, and what to do.
   Status open(const std::string& address, std::uint16_t port);
   void close() { socket_.reset(); }

@@ -39,7 +39,7 @@ const orca::idl::TimeValue& stamp_of(const orca::idl::SonarRangeReadings& readin
 
 /// A behaviour by which programs written for Player drive the robot, as if it were a server of Player: position2d, sonar and laser, the
 /// last two as rangers, too: ranger:0 is the sonars, and ranger:1 is the laser.
-/// Of several clients that send velocities the last one is obeyed. The robot stops when it has sent none for `max_command_age`, and
+/// The last of several clients that send velocities is obeyed. The robot stops when it has sent none for `max_command_age`, and
 /// at once when its connection ends.
 ///
 /// It needs the steady clock, because its clients live in real time.
@@ -100,7 +100,7 @@ class PlayerServer final : public orca::Component {
     return orca::again();
   }
 
-  // Clients ask once where sonars and laser sit, which the first readings tell. A sensor that is silent is not waited for longer.
+  // Clients ask once where sonars and laser sit, which the first readings show. A sensor that is silent is not waited for longer.
   [[nodiscard]] bool is_known() const {
     const bool has_all = face_.state && (!face_.has_sonar || face_.sonar) && (!face_.has_laser || face_.scan);
     return has_all || now() >= listens_by_ - kPredecessorGoes + kFirstReadings;
@@ -125,7 +125,7 @@ class PlayerServer final : public orca::Component {
     take_news_of(laser_, {kLaser, kLaserRanger});
   }
 
-  // What has come since the last lap; the newest is what a client wants.
+  // Returns the newest object since the last lap, which is the one that a client wants.
   template <class Object>
   void take_news_of(orca::PushProxy<Object>& port, std::initializer_list<DeviceName> names) {
     orca::ObjectPtr<Object> newest;

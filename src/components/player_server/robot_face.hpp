@@ -37,7 +37,7 @@ struct RobotFace {
   /// Returns the devices that the robot has: position2d always; sonar and ranger:0, laser and ranger:1 if there are ports for them.
   [[nodiscard]] std::vector<DeviceName> devices() const;
 
-  hw::player::Size3 size{};  ///< Of the robot; 0: not known.
+  hw::player::Size3 size{};  ///< The robot's; 0: not known.
   std::optional<hw::player::Position2dState> state{};
   std::optional<hw::player::SonarRanges> sonar{};
   hw::player::SonarGeometry sonar_poses{};

@@ -20,23 +20,23 @@ struct Manner {
   double patience = 0.0;        ///< [s] for each step, after which the errand has failed.
 };
 
-/// What the robot should do now.
+/// The motion that the robot should make now.
 struct Wish {
   double direction = 0.0;  ///< [rad] robot frame, positive to the left; used while it drives.
   double turn_rate = 0.0;  ///< [rad/s] used while it stands.
   double speed = 0.0;      ///< [m/s]
 };
 
-/// What comes of one lap.
+/// The result of one lap.
 struct Step {
   enum class Kind { goes_on, done, failed };
   Kind kind = Kind::goes_on;
   Wish wish{};
-  std::optional<idl::GripperCommand> gripper{};  ///< What to tell the gripper.
+  std::optional<idl::GripperCommand> gripper{};  ///< The command to the gripper.
   std::string reason{};                          ///< Why it has failed, for people.
 };
 
-/// What is to be done at a place that the robot has come near to: to fetch what stands there, or to put down there what it
+/// The work at a place that the robot has come near to: it fetches the thing that stands there, or puts down the one that it
 /// holds. It turns to the place, drives straight up to it, and works with the gripper; then it has the thing lifted, or has
 /// driven back from it.
 ///
@@ -87,7 +87,7 @@ class Errand {
   Vec2 place_{};
   Stage stage_ = Stage::open;
   std::optional<double> began_{};  // [s] the present stage
-  std::optional<double> told_{};   // [s] when the gripper was told last
+  std::optional<double> told_{};   // [s] when the gripper was commanded last
   Vec2 from_{};                    // where the present stage began
 };
 

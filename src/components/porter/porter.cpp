@@ -93,7 +93,7 @@ class Porter final : public orca::Component {
     forget_goal();
   }
 
-  // Whether it tells of a goal that was replaced by another one meanwhile.
+  // Returns whether it reports a goal that was replaced by another one meanwhile.
   [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
     return !goal_ || goal_->mission() != result.mission();
   }
@@ -184,15 +184,14 @@ class Porter final : public orca::Component {
       *this, "motion", {.text = "One command per lap: a wish at such a place, no opinion elsewhere."}};
 
   orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
-  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "That Goto is there."}};
+  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of Goto."}};
   orca::PushProxy<orca::idl::GoalPoint> towards_{*this, "towards", {.text = "Where Goto drives to now."}};
-  orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "That Goto has given up."}};
+  orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "Goals that Goto has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};
-  orca::SendProxy<orca::idl::GripperCommand> gripper_{
-      *this, "gripper", {.text = "What the gripper is to do."}};
+  orca::SendProxy<orca::idl::GripperCommand> gripper_{*this, "gripper", {.text = "Commands to the gripper."}};
   orca::PushProxy<orca::idl::GripperState> gripper_state_{
-      *this, "gripper_state", {.text = "What the gripper does and feels."}};
+      *this, "gripper_state", {.text = "State of the gripper."}};
 
   orca::Param<std::vector<std::string>> fetch_at_{
       *this, "fetch_at", {}, {.text = "Names of the goals where the robot is to fetch what stands there."}};

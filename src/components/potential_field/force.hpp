@@ -41,7 +41,7 @@ struct Settings {
 /// Returns the velocity [m/s] at which the damping k_v x' balances a force: the robot has no inertia beside the damping.
 [[nodiscard]] Vec2 velocity(Vec2 force, const Settings& settings);
 
-/// What a robot can follow of a velocity that cannot move sideways or backwards.
+/// The part of a velocity that a robot can follow which cannot move sideways or backwards.
 struct Course {
   double direction = 0.0;  ///< [rad] of the velocity, robot frame.
   double speed =

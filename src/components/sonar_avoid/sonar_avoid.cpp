@@ -45,7 +45,7 @@ class SonarAvoid final : public orca::avoid::Avoider {
     return true;
   }
 
-  // Whether a sonar has fired lately. A base tells of its ring even if the sonars are off.
+  // Returns whether a sonar has fired lately. A base reports its ring even if the sonars are off.
   bool fires(const orca::idl::SonarRangeReadings& readings) {
     std::optional<orca::TimePoint> last;
     for (const orca::idl::TimeValue& stamp : readings.stamps())
@@ -53,7 +53,8 @@ class SonarAvoid final : public orca::avoid::Avoider {
     return !last || is_valid(readings, last_firing(age_of(*last)));
   }
 
-  // A driver that is not told which sonar has fired takes a range that stays the same for a round old.
+  // Checks the age of the last firing. A driver that does not know which sonar has fired takes a range that stays the same
+  // for a round old.
   [[nodiscard]] orca::Status last_firing(double age) const {
     constexpr double kRound = 0.5;  // [s] in which the slowest known ring fires once
     const double limit = deaf_after() + kRound;
@@ -72,8 +73,8 @@ class SonarAvoid final : public orca::avoid::Avoider {
            round->origin() + "\" hear something nearer than they can measure";
   }
 
-  // A base tells of its whole ring more often than the ring makes its round. What is told again would confirm itself, and each
-  // time at another place, as the motion since it was heard is a guess.
+  // Returns whether a reading is new. A base reports its whole ring more often than the ring makes its round. A repeated echo
+  // would confirm itself, each time at another place, as the motion since it was heard is a guess.
   bool is_news(std::size_t sonar, orca::TimePoint fired) {
     if (remembers() && fired == fired_[sonar]) return false;
     fired_[sonar] = fired;

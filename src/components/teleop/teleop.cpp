@@ -74,7 +74,7 @@ class Teleop final : public orca::Component {
   explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
 
  private:
-  // What the base can do at most.
+  // The limits of the base.
   struct Limits {
     double speed = std::numeric_limits<double>::infinity();      // [m/s]
     double turn_rate = std::numeric_limits<double>::infinity();  // [rad/s]

@@ -16,7 +16,7 @@ struct Valley {
   std::size_t width = 0;  ///< Number of free sectors, counted to the left; kSectors: nothing is blocked.
 };
 
-/// What a direction is compared to.
+/// The directions that another one is compared to.
 struct Aim {
   double target = 0.0;         ///< [rad] k_t: to the goal.
   double heading = 0.0;        ///< [rad] theta: where the robot points.
@@ -30,7 +30,7 @@ struct Costs {
   double last = 2.0;     ///< mu_3: of the angle to the direction chosen the last time.
 };
 
-/// What does not change from lap to lap.
+/// The settings, which do not change from lap to lap.
 struct Settings {
   Surroundings around;
   Thresholds thresholds;
@@ -38,7 +38,7 @@ struct Settings {
   Costs costs;
 };
 
-/// What VFH+ remembers from one lap to the next.
+/// The memory of VFH+ from one lap to the next.
 struct State {
   Blocked blocked;             ///< The binary polar histogram.
   std::optional<double> last;  ///< [rad] the direction that was chosen.

@@ -47,8 +47,8 @@ class VfhPlus final : public orca::avoid::LaserAvoider {
     return {true, direction, limits.max_speed * room(ahead, limits), urgency(way, may_turn, limits)};
   }
 
-  // Takes the echoes over in axes that do not turn with the robot, as the sectors. What the robot cannot touch before
-  // it is at the goal is not in the way there.
+  // Takes the echoes over in axes that do not turn with the robot, as the sectors. Echoes that the robot cannot
+  // touch before it is at the goal are not in the way there.
   void look_at(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                const orca::avoid::Limits& limits) {
     const double farthest = situation.goal_distance + limits.robot_radius + limits.margin;

@@ -66,7 +66,7 @@ std::vector<OdometryUncertainty::Wheel> OdometryUncertainty::wheels_of(idl::Driv
   std::vector<Wheel> wheels;
   for (const Vec2& tangent : kTangents) {
     if (type == idl::SYNCHRO) {
-      // The wheels roll abreast. What one goes farther turns the body, by least squares over the three.
+      // The wheels roll abreast. A wheel that goes farther turns the body, by least squares over the three.
       wheels.push_back({{1.0, 0.0}, 0.0, {1.0 / 3.0, 0.0, 0.0}, (1.0 / (0.75 * track)) * tangent});
     } else {
       wheels.push_back(

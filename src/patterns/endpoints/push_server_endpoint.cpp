@@ -114,7 +114,7 @@ void PushServerEndpoint::wait_for_room(const ObjectRef& object) {
   try {
     while (!home().strand.wait_for(next_limit(), [&] { return settle(object); })) {
     }
-  } catch (const Interrupted&) {  // its next blocking call tells the component to leave
+  } catch (const Interrupted&) {  // its next blocking call makes the component leave
     give_up(object);
   }
 }

@@ -61,7 +61,7 @@ bool RequestClient<Answer>::move_to(const std::string& server) {
   return alternatives_ && alternatives_->want(server);
 }
 
-// What was offered to the old server is still answered by it, or withdrawn from it.
+// Requests that the old server has are still answered by it, or withdrawn from it.
 template <class Answer>
 void RequestClient<Answer>::move(RequestTarget<Answer>* target) {
   if (target == target_) return;

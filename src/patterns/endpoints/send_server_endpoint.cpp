@@ -208,8 +208,8 @@ bool SendServerEndpoint::handle_one(Status& outcome) {
   return true;
 }
 
-// Counts what has become of an object, and tells its sender if that still waits for it. With the lock held, so that the
-// sender cannot go meanwhile.
+// Counts the outcome of an object, and reports it to a sender that still waits for it. Holds the lock, so that the sender
+// cannot go meanwhile.
 void SendServerEndpoint::settle(const Accepted& accepted, const Status& outcome) {
   const MutexLock lock(mutex_);
   if (!outcome.ok()) ++(accepted.edge->is_gone ? of_gone_ : accepted.edge->counters).failed;

@@ -11,7 +11,7 @@
 
 namespace orca::frames {
 
-/// What has become of a frame that was to be sent.
+/// The outcome of sending a frame.
 enum class Sent {
   yes,        ///< It is on its way, or as soon as there is room.
   no_room,    ///< It was dropped, as it may be: there was no room.

@@ -10,7 +10,7 @@ namespace {
 
 Frame with_rate(FrameKind kind, std::uint64_t subscription, const UpdateRate& rate) {
   Frame frame(kind, subscription);
-  // What a component asks for may make no sense; what travels does, or the peer would cut this end off.
+  // A component may ask for nonsense; nonsense that travels would make the peer cut this end off.
   frame.add(static_cast<std::uint64_t>(std::max(rate.interval, Duration{0}).count()));
   frame.add(std::uint64_t{std::max(rate.multiple, 1U)});
   return frame;

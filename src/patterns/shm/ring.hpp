@@ -44,7 +44,7 @@ struct Ring {
 /// Returns one of the two rings in the memory of a segment.
 [[nodiscard]] Ring ring_in(std::span<std::byte> segment, std::size_t index);
 
-/// What has become of a record that was to be written.
+/// The outcome of writing a record.
 enum class Written { yes, no_room, too_large };
 
 /// The writing side of a ring that is fresh.

@@ -46,7 +46,7 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   [[nodiscard]] ShmCounters counters() const override;
 
  private:
-  // What another thread asks for.
+  // An order of another thread.
   struct Change {
     Error reason;
     std::optional<RingSegment> segment;

@@ -153,7 +153,7 @@ class HardwareDescriber final : public Describer<hw::HardwareHost>, public Descr
 
  private:
   using Faults = std::vector<HardwareFault>;
-  // Calls the driver. What it throws becomes a fault.
+  // Calls the driver. An exception becomes a fault.
   Faults faults_of(const std::function<Faults()>& ask) const {
     const Result<Faults> faults =
         guarded(contract_.type, Hook::prepare, &entry_, [&]() -> Result<Faults> { return ask(); });

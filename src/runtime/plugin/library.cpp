@@ -107,7 +107,7 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
   return judged;
 }
 
-// What is left of a plugin that stays in memory for ever.
+// The remains of a plugin that stays in memory for ever.
 struct Remains {
   std::unique_ptr<LoadedPlugin> entry;
   std::optional<PluginImage> image;
@@ -129,7 +129,7 @@ Error cannot_load(const std::string& path, const std::string& file, const std::s
 
 }  // namespace
 
-// What the dynamic linker is to open, after it was judged.
+// The file that the dynamic linker is to open, after it was judged.
 struct PluginLibrary::Source {
   std::string path;         // for people
   std::string file;         // to open
@@ -146,7 +146,7 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   if (!judged) return judged.error();
   Result<std::unique_ptr<PluginLibrary>> library = open({file, file, file, std::move(judged).value()});
   if (library || library.error().code != Code::already_exists) return library;
-  // The file was written anew, and what it held before is in memory for some reason.
+  // The file was rewritten, and its former content is in memory for some reason.
   Result<PluginImage> image = PluginImage::copy(file);
   if (!image) return image.error();
   return load(std::move(image).value());

@@ -10,7 +10,7 @@
 namespace orca::plugin {
 namespace {
 
-// The system tells the umask only to whoever sets it.
+// Returns the umask, which the system reports only to whoever sets it.
 mode_t present_umask() {
   const mode_t present = umask(077);
   umask(present);

@@ -41,7 +41,7 @@ constexpr std::chrono::milliseconds kLook{50};  // between two questions whether
 
 constexpr const char* kEffectText = "would have left a trace outside its trial";
 
-// What the copy says: a kind, then a text with its length before it.
+// The kinds of message from the copy: a kind, then a text with its length before it.
 enum class Kind : char {
   step = 's',
   finding = 'f',

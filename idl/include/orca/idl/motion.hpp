@@ -29,8 +29,8 @@ namespace orca {
 /// @param weight [1]  share when fused with the commands of others, at least 0.
 [[nodiscard]] Loan<idl::MotionCommand> turn(double rate, double speed, double weight = 1.0);
 
-/// Checks the numbers of a command, the same way for all who take commands. What a base can carry out is another
-/// question (hw::MotionHW).
+/// Checks the numbers of a command, the same way for all who take commands. Whether a base can carry it out is
+/// another question (hw::MotionHW).
 /// @errors  invalid_argument for a number that is not finite and for a negative weight. A full stop is never refused,
 ///          whatever its numbers are.
 /// @thread  pure function, as the next two; any thread.

@@ -203,8 +203,8 @@ template <class T>
   return Loan<T>(make_object(object_type<T>()));
 }
 
-/// Returns a pooled T with the given value. Of a value that refers to an object of a derived type it takes the
-/// fields of T only; copy_value() keeps them all.
+/// Returns a pooled T with the given value. From a value that refers to an object of a derived type it takes
+/// the fields of T only; copy_value() keeps them all.
 template <class T>
 [[nodiscard]] Loan<T> make_object(const T& value) {
   Loan<T> loan = make_object<T>();

@@ -19,14 +19,14 @@ namespace orca::dds {
 /// The place of an end: its edge, the line to the process at the other end, and its port.
 struct EndPlace {
   Line& line;
-  Outbox& outbox;      ///< Of the line.
+  Outbox& outbox;      ///< The line's.
   std::uint64_t edge;  ///< The same number at both ends.
-  Strand& strand;      ///< Of the port; outlives the end.
+  Strand& strand;      ///< The port's; outlives the end.
   std::string name;    ///< For people: "a.out to b.in".
 };
 
 /// One end of an edge through DDS. Frames go as parcels of a line, and wait here until the strand of the port takes them
-/// in. What happens to the line waits in the same queue, so that the strand sees all in order.
+/// in. Events of the line wait in the same queue, so that the strand sees all in order.
 ///
 /// Thread contract: as FrameEnd, Intake and Passenger. The handlers run in take_in(), one at a time.
 class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
@@ -59,7 +59,7 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   [[nodiscard]] std::uint64_t line_session() const { return line_session_.load(std::memory_order_acquire); }
 
  private:
-  // What waits for the strand.
+  // An event that waits for the strand.
   struct News {
     enum class What { frame, cut, joined, fault } what;
     std::vector<std::byte> frame{};

@@ -41,8 +41,8 @@ class Passenger {
   virtual void line_joined(std::uint64_t session) = 0;
 };
 
-/// What two processes say to each other beside the objects of Push, whatever the network does to it: each parcel arrives
-/// once and in order, or the line is lost.
+/// The parcels between two processes, all but the objects of Push: each arrives once and in order, whatever the network
+/// does, or the line is lost.
 ///
 /// Everybody in the network hears these numbers. So while there is a peer, a line believes its participant only, and no other
 /// one that says what the peer would say next.

@@ -18,7 +18,7 @@ struct Message {
   std::uint64_t from = 0;      ///< Identifies the sender by the hash of its name.
   std::uint64_t own = 0;       ///< The number by which the sender takes part at present.
   std::uint64_t peer = 0;      ///< The receiver's such number, as far as the sender knows it; 0: not yet.
-  std::uint64_t sequence = 0;  ///< Of the parcel, from 1 in each session; 0: there is none.
+  std::uint64_t sequence = 0;  ///< The parcel's, from 1 in each session; 0: there is none.
   std::uint64_t received = 0;  ///< Sequence number of the last parcel that the sender has received in order.
   std::span<const std::byte> parcel{};
 };
@@ -29,7 +29,7 @@ struct Message {
 /// Takes the first message off a sample. Its parcel is a view of the bytes. Nothing if there is none, or none that is whole.
 [[nodiscard]] std::optional<Message> take_message(std::span<const std::byte>& sample);
 
-/// What a parcel tells the end of an edge. On the wire a parcel is the number of the edge, the kind, 64 bits each, and the
+/// The message of a parcel to the end of an edge. On the wire a parcel is the number of the edge, the kind, 64 bits each, and the
 /// contents.
 enum class Parcel : std::uint64_t {
   frame = 1,  ///< A frame.

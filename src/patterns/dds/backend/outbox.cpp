@@ -89,7 +89,7 @@ bool Outbox::take_few() {
   return true;
 }
 
-// Takes what waits. What a write that threw has left is lost, as in the network.
+// Takes what waits. The rest of a write that threw is lost, as in the network.
 void Outbox::take() {
   taken_.clear();
   taken_.swap(letters_);

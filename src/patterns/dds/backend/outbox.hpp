@@ -19,7 +19,7 @@ struct Letter {
   ObjectRef object{};
   Label label{};
   std::vector<std::byte> message{};
-  std::size_t size = 0;  ///< Of the object, encoded [bytes].
+  std::size_t size = 0;  ///< The encoded object's [bytes].
 };
 
 /// The thread that writes to DDS, since a write may wait for a lock or for the network and a component must not. How much
@@ -42,7 +42,7 @@ class Outbox {
   void post(Letter letter, By by = By::outbox);
   /// Writes what waits on this thread, if that is little and nobody else is writing; otherwise leaves it to the thread.
   void write_here();
-  /// Writes what waits, and ends the thread. What is posted afterwards is not written.
+  /// Writes what waits, and ends the thread. Letters posted afterwards are not written.
   void end();
 
  private:

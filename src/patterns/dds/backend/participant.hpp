@@ -18,20 +18,20 @@
 
 namespace orca::dds {
 
-/// What accompanies an object on its topic. It travels as the sample's related identity, which readers that do not ask
+/// The label of an object on its topic. It travels as the sample's related identity, which readers that do not ask
 /// for it do not see.
 struct Label {
-  std::uint64_t layout_hash = 0;  ///< Of the object's type, which may be derived from that of the topic.
+  std::uint64_t layout_hash = 0;  ///< Belongs to the object's type, which may be derived from the topic's.
   std::uint64_t edges = 0;        ///< A bit for each edge for which the object is due; below 2^62.
   std::uint32_t epoch = 0;        ///< Grows with each subscription that begins to use the topic.
 };
 
-/// What a reader has received.
+/// An object or a message that a reader has received.
 struct Sample {
   std::vector<std::byte> bytes;  ///< kHeadroom bytes, then the contents.
-  Label label;                   ///< Of objects.
+  Label label;                   ///< Objects have one.
   Origin origin;
-  std::uint64_t sequence = 0;  ///< Of the writer; a gap means that samples were lost.
+  std::uint64_t sequence = 0;  ///< The writer's; a gap means that samples were lost.
 
   /// Returns the object's XCDR1, or a message.
   [[nodiscard]] std::span<const std::byte> contents() const { return std::span(bytes).subspan(kHeadroom); }
@@ -66,7 +66,7 @@ struct TopicOptions {
   /// @thread  one of DDS.
   std::function<void()> found{};
   Duration reminder{
-      std::chrono::milliseconds(50)};  ///< Of a writer, to readers that have not acknowledged a sample.
+      std::chrono::milliseconds(50)};  ///< From a writer to readers that have not acknowledged a sample.
 };
 
 /// This process's part in DDS.

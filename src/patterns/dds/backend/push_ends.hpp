@@ -14,7 +14,7 @@
 namespace orca::dds {
 
 /// The server's end of a Push edge. Objects are first sent as frames, which always arrive, and written to the topic as well.
-/// Once the client's end has heard the topic, it is told that objects come through the topic alone from now on. An object
+/// Once the client's end has heard the topic, it is informed that objects come through the topic alone from now on. An object
 /// for whose place its publisher waits is always a frame.
 ///
 /// Thread contract: as DdsEnd; objects are sent with the lock of the port's endpoint held.
@@ -30,7 +30,7 @@ class PublishingEnd final : public DdsEnd {
   void arrived(Parcel kind, std::span<const std::byte> contents) override;
 
  private:
-  // What goes through the topic.
+  // The part of the edge that goes through the topic.
   struct Direct {
     std::uint64_t session;
     std::uint64_t subscription;
@@ -87,7 +87,7 @@ class SubscribingEnd final : public DdsEnd, public SampleSink {
   void report_missed(std::uint64_t missed) ORCA_REQUIRES(topic_mutex_);
 
   const std::shared_ptr<Subscription> subscription_;
-  std::atomic<std::uint64_t> reported_in_{0};  // session of the line in which the server was told
+  std::atomic<std::uint64_t> reported_in_{0};  // session of the line in which the server was informed
   Mutex topic_mutex_;
   std::optional<Direct> direct_ ORCA_GUARDED_BY(topic_mutex_);
   std::deque<Held> held_ ORCA_GUARDED_BY(topic_mutex_);  // came before it was known whether they count

@@ -12,7 +12,7 @@
 
 namespace orca::dds {
 
-/// What a writer is given: an object, or bytes that are to be a sequence<octet>.
+/// An object for a writer, or bytes that are to be a sequence<octet>.
 struct Outgoing {
   const ObjectRef* object = nullptr;  ///< Null: the bytes.
   std::span<const std::byte> bytes{};

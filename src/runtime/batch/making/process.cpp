@@ -38,7 +38,7 @@ std::string reason_of(int status) {
   return "its process ended with status " + std::to_string(WEXITSTATUS(status)) + " and no result";
 }
 
-// What a component prints is no result, and nobody types for it.
+// Silences the process: output of a component is no result, and nobody types for it.
 void be_silent() {
   const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(null, STDIN_FILENO);

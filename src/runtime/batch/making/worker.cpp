@@ -31,7 +31,7 @@ constexpr std::size_t kBlocksEach = 1000;
 constexpr std::size_t kMovedBy = 37UL << 20;  // [bytes]
 constexpr int kFill = 0xa5;
 
-// Writes all of it, or what the pipe takes: the other side tells a text that is not whole.
+// Writes all of it, or what the pipe takes: the other side recognises a text that is not whole.
 void write_all(int to, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(to, text.data(), text.size());
@@ -73,7 +73,7 @@ void scramble_heap() {
   }
   std::shuffle(holes.begin(), holes.end(), random);
   for (void* const hole : holes) std::free(hole);
-  // Whatever is mapped from here on lies elsewhere.
+  // Later mappings lie elsewhere.
   (void)mmap(nullptr, kMovedBy, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
 }
 

@@ -16,7 +16,7 @@ namespace orca::batch {
 
 /// Returns the length of the way [m].
 [[nodiscard]] double way_of(std::span<const Scene::Step> steps);
-/// Returns when the way became so long [m], between two steps in proportion; nothing if it never did.
+/// Returns when the way reached this length [m], between two steps in proportion; nothing if it never did.
 [[nodiscard]] std::optional<TimePoint> time_of_way(std::span<const Scene::Step> steps, double way);
 /// Returns the steps from a time on.
 [[nodiscard]] std::span<const Scene::Step> since(std::span<const Scene::Step> steps, TimePoint time);

@@ -18,12 +18,12 @@ namespace orca::batch {
 
 /// A metric of a variant's runs.
 struct Summary {
-  std::size_t runs = 0;      ///< That have it.
+  std::size_t runs = 0;      ///< Those that have it.
   Estimate mean;             ///< With an interval over worlds and seeds.
   double middle_half = 0.0;  ///< Mean of the middle half of the runs.
 };
 
-/// What the runs of a variant came to.
+/// The outcomes of the runs of a variant.
 struct VariantResult {
   std::string name;
   std::size_t runs = 0;
@@ -37,11 +37,11 @@ struct VariantResult {
 struct Difference {
   std::string first, second;  ///< Variants.
   std::string metric;
-  std::size_t pairs = 0;   ///< Of runs in the same world with the same seed.
+  std::size_t pairs = 0;   ///< Pairs of runs in the same world with the same seed.
   bool by_worlds = false;  ///< Whether the test compares worlds, and not runs.
   Estimate difference;     ///< first - second, with an interval over worlds and seeds.
   double p =
-      1.0;  ///< Of McNemar's test for success, of Wilcoxon's for others; adjusted for all tests by Holm's method.
+      1.0;  ///< By McNemar's test for success, by Wilcoxon's for others; adjusted for all tests by Holm's method.
   double improvement =
       0.5;  ///< Probability that a run of the first is better than one of the second in the same world.
   Verdict verdict;
@@ -53,7 +53,7 @@ struct BatchResult {
   std::vector<std::string> worlds;      ///< By name.
   /// Number of successes and runs by variant and world.
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
-  std::vector<Difference> differences;  ///< Of each pair of variants in each metric that is compared.
+  std::vector<Difference> differences;  ///< One for each pair of variants in each metric that is compared.
 };
 
 /// The fewest worlds whose means are compared instead of their runs: the smallest p-value of five is 0.0625.

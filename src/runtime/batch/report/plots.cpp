@@ -14,7 +14,7 @@ namespace {
 
 using xml::escaped;
 
-// Colours that people with any colour vision tell apart (M. Okabe and K. Ito, "Color universal design", 2008).
+// Colours that people with any colour vision distinguish (M. Okabe and K. Ito, "Color universal design", 2008).
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
 constexpr double kWidth = 640.0, kHeight = 320.0, kLeft = 52.0, kBottom = 40.0, kTop = 12.0, kRight = 150.0;
 constexpr double kMapWidth = 420.0, kMostMapHeight = 520.0, kMapMargin = 0.3;

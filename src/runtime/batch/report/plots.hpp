@@ -14,7 +14,7 @@ namespace orca::batch {
 struct Series {
   std::string name;
   std::vector<double> values;
-  std::size_t runs = 0;  ///< Of which some have no value: the curve does not reach 1 then.
+  std::size_t runs = 0;  ///< If some of them have no value, the curve does not reach 1.
 };
 
 /// Returns the share of the runs whose value is at most x, as a stepped line for each series. @pre  one has a value.
@@ -29,7 +29,7 @@ struct Track {
   bool ends_badly = false;  ///< Marks its last place.
 };
 
-/// What is drawn of a world.
+/// The map of a world as it is drawn.
 struct Map {
   std::vector<Places> walls{};
   std::vector<Track> tracks{};
@@ -42,7 +42,7 @@ struct Map {
 /// Returns the names of variants with their colours, for the lines of a map.
 [[nodiscard]] std::string legend_plot(const std::vector<std::string>& variants);
 
-/// Reads lines of a Sketch. What is no place is left out; there is no line without a place.
+/// Reads lines of a Sketch. Words that are no place are left out; there is no line without a place.
 [[nodiscard]] std::vector<Places> read_lines(const std::string& text);
 
 }  // namespace orca::batch

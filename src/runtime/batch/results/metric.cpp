@@ -8,7 +8,7 @@ namespace orca::batch {
 namespace {
 
 constexpr std::array kBetterWhenMore{"success", "spl", "barn_score", "clearance", "clearance_p5"};
-// What an unfinished run has of these cannot be compared with that of a finished one.
+// The metrics of finished runs only: those of an unfinished one cannot be compared with them.
 constexpr std::array kOfSuccesses{"time", "way", "way_ratio", "jerk", "reversals"};
 
 bool is_among(const auto& names, std::string_view name) {

@@ -70,7 +70,7 @@ class Statement {
   Statement(sqlite3* database, const std::string& text) {
     sqlite3_stmt* made = nullptr;
     (void)sqlite3_prepare_v2(database, text.c_str(), -1, &made, nullptr);
-    statement_.reset(made);  // null, if there was an error, which the steps will tell
+    statement_.reset(made);  // null if there was an error, which the steps will report
   }
 
   Statement& operator<<(const std::string& value) {

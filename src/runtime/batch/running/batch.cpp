@@ -12,7 +12,7 @@
 namespace orca::batch {
 namespace {
 
-// What depends on addresses may come out the same by chance.
+// A run that depends on addresses may come out the same by chance.
 constexpr int kMostPairs = 5;
 
 // The runs that are made twice.

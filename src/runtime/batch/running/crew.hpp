@@ -15,7 +15,7 @@ namespace orca::batch {
 
 /// A run to be made.
 struct Task {
-  std::size_t number;      ///< Of the run.
+  std::size_t number;      ///< The run's.
   bool elsewhere = false;  ///< In other circumstances, which must change nothing.
   unsigned tries = 0;      ///< So far, in which the machine was overloaded.
 };

@@ -13,7 +13,7 @@
 namespace orca::plugin {
 namespace {
 
-// What the dynamic linker calls for each library until it has found one.
+// A search through the libraries that the dynamic linker reports one by one.
 struct Search {
   const link_map* wanted;
   CodeIdentity found;

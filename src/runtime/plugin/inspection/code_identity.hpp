@@ -8,7 +8,7 @@
 
 namespace orca::plugin {
 
-/// What tells one build of a library from any other: its build id, or a hash of its machine code if the linker wrote no
+/// The identity of one build of a library: its build id, or a hash of its machine code if the linker wrote no
 /// build id.
 ///
 /// A plain value.

@@ -5,7 +5,7 @@
 
 namespace orca {
 
-/// What a task is doing and for whom, as long as the object lives: for alarms and for the last words of a
+/// The work of a task and the one for whom it works, as long as the object lives: for alarms and for the last words of a
 /// process that dies of it. Activities nest; the innermost is the current one. It moves along when a task on
 /// a fiber is switched to.
 ///

@@ -156,11 +156,11 @@ enum class PluginKind { component, hardware };
 struct HardwareFault {
   /// The parameter to correct; empty: `text` is a whole line about a place in another file.
   std::string param;
-  std::string text;  ///< What was found and what was expected.
+  std::string text;  ///< The value found and the one expected.
   /// Other parameters that the fault follows from. The checker drops the fault if the value of one of them, or
   /// of `param`, could not be read: what is wrong with that one is reported already.
   std::vector<std::string> follows_from{};
-  /// Of two containers that are compared: it is a fault only if they are in different processes.
+  /// Whether it is a fault only if the two containers compared are in different processes.
   bool if_apart = false;
   /// It can be used as it is, but most likely something else was meant: the checker warns, and nothing stops.
   bool only_warns = false;

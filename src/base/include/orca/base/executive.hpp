@@ -51,8 +51,8 @@ class Event {
 /// Thread contract: as Event; watch() as wait_until().
 class InputEvent : public Event {
  public:
-  /// Lets a wait also end while the descriptor has input to be read, or has failed, which reading it tells. Whoever does not
-  /// read what is there does not wait any more.
+  /// Lets a wait also end while the descriptor has input to be read, or has failed; a read shows which. Input that is
+  /// not read ends every wait at once.
   /// @param descriptor  stays open until another one is watched; -1: none.
   virtual void watch(int descriptor) = 0;
 };
@@ -138,7 +138,7 @@ class Executive {
   virtual void run(std::function<void()> main) = 0;
 
   /// The number of turns that a task may have at one instant of virtual time. A turn ends when the task waits.
-  /// What happens at one instant in a system of the greatest size, 10,000 components, takes a task far fewer.
+  /// A system of the greatest size, 10,000 components, takes far fewer per task.
   static constexpr std::uint32_t kMostTurns = 100'000;
 
   /// Returns the tasks that keep virtual time from passing: those that had at least half of kMostTurns turns at the

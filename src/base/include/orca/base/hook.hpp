@@ -9,7 +9,7 @@ namespace orca {
 /// The places where the runtime calls into a plugin.
 enum class Hook {
   load,         ///< Its library is loaded and the type looked up.
-  constructor,  ///< Of a component or a hardware container.
+  constructor,  ///< The constructor of a component or a hardware container.
   prepare,      ///< HardwareContainer::prepare().
   configure,
   start,
@@ -20,7 +20,7 @@ enum class Hook {
   params_changed,
   save_state,
   load_state,
-  handler,  ///< Of a Send or Query server; the port says which.
+  handler,  ///< The handler of a Send or Query server; the port says which.
   strand,   ///< Everything that a hardware container does while the system runs.
   destructor,
   unload  ///< Its library is unloaded: static destructors and atexit handlers.

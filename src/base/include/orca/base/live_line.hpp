@@ -6,7 +6,7 @@
 
 namespace orca {
 
-/// The last line of a terminal, which the program writes anew again and again. There is one in a process. Everything
+/// The last line of a terminal, which the program rewrites again and again. There is one in a process. Everything
 /// else that Orca writes to a terminal makes room for it with a Pause, so that the two do not mix.
 ///
 /// Thread contract: any thread; also in signal handlers where it says so.

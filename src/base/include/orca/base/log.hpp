@@ -31,7 +31,7 @@ struct Line {
   Level level = Level::info;
   std::string_view who;
   std::string_view text;  ///< As it was written, not made printable().
-  TimePoint time;         ///< Of the clock of the log; without a clock 0.
+  TimePoint time;         ///< By the clock of the log; 0 without a clock.
 };
 
 /// Hears every line of this process while it lives, also those below the level that is written.

@@ -4,7 +4,7 @@
 /// Mathematical functions that compute the same bits on each machine with IEEE 754 doubles.
 ///
 /// The C library's functions round differently in the last bit on processors with fused multiply-add, and from one version
-/// to the next. Whatever enters the state of a simulated world, a reading or a decision of a component is computed with
+/// to the next. States of a simulated world, readings and decisions of components are computed with
 /// these instead. They use +, -, *, / and square roots of doubles only, which the standard defines exactly.
 /// std::sqrt, std::fabs, std::floor, std::fmod and std::remainder are exact everywhere and need no replacement.
 ///
@@ -45,7 +45,7 @@ struct CosSin {
 /// Returns the natural logarithm: -infinity of 0, NaN of negative numbers.
 [[nodiscard]] double log(double x);
 
-/// Return the length of a vector, without overflow and underflow on the way. That of three parts is wrong by up to 2 ulp.
+/// Return the length of a vector, without overflow and underflow on the way. The one of three parts is wrong by up to 2 ulp.
 [[nodiscard]] double hypot(double x, double y);
 [[nodiscard]] double hypot(double x, double y, double z);
 

@@ -11,7 +11,7 @@
 
 namespace orca {
 
-/// What the *caller* can do about an error decides its code: fix the input, retry, or give up.
+/// The kinds of error, by what the *caller* can do: fix the input, retry, or give up.
 enum class Code {
   invalid_argument,     ///< The input is wrong; correct it.
   not_found,            ///< A named thing does not exist.

@@ -145,8 +145,8 @@ class Component : public PortOwner {
   /// from now on belongs to none.
   void end_mission() { host_.end_mission(); }
   /// Makes an object the cause of what is sent from now on. If the component has no task, the object's mission
-  /// is its mission in this lap. What a PushProxy returns counts without this; what a component only looks at
-  /// with latest() or gets from a PushProxyArray does not.
+  /// is its mission in this lap. Objects that a PushProxy returns count without this; those that a component
+  /// only looks at with latest() or gets from a PushProxyArray do not.
   void note_cause(const idl::OrcaObject& object) { host_.note_cause(object); }
 
   /// Raises an alarm of this component's own. It reaches the log, the operator (`orcactl alarms`), AlarmCentral and the result of

@@ -10,13 +10,13 @@
 namespace orca {
 
 /// The life of the sender whose objects a port brings. A component that was lost with its process and was started again counts its
-/// objects from the beginning. What it knew is lost, too: odometry then counts from another place.
+/// objects from the beginning. Its knowledge is lost, too: odometry then counts from another place.
 ///
 /// Thread contract: as the component.
 class SenderLife {
  public:
-  /// Returns whether the sender of this object has begun anew since the object before. An object that comes twice, or from another
-  /// sender, tells nothing.
+  /// Returns whether the sender of this object has started again since the object before. An object that comes twice, or from
+  /// another sender, shows nothing.
   /// @pre  called with each object that is taken, in their order.
   bool begins_anew(const idl::OrcaObject& object) {
     const bool anew = object.origin() == sender_ && object.seq() < last_;

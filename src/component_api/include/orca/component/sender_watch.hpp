@@ -38,7 +38,7 @@ class SenderWatch {
 
  private:
   struct Complaint {
-    std::string about;  // What, and whose.
+    std::string about;  // the kind of object, and its sender
     TimePoint said;
   };
 

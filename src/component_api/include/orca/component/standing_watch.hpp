@@ -8,8 +8,8 @@
 
 namespace orca {
 
-/// The watch over a robot that stands although it is to drive. It says why in the log once the robot has stood for 2 s, at most
-/// once a minute: nobody need be told while it drives, or is about to.
+/// The watch over a robot that stands although it is to drive. It reports the cause in the log once the robot has stood for 2 s, at
+/// most once a minute, and nothing while the robot drives or is about to.
 ///
 /// Thread contract: as the component.
 class StandingWatch {
@@ -18,7 +18,7 @@ class StandingWatch {
   explicit StandingWatch(const PluginHost& host) : host_(host) {}
 
   /// Takes note of whether the robot stands; called once a lap.
-  /// @param why  returns the cause, for people; empty if there is none to be told.
+  /// @param why  returns the cause, for people; empty if there is none to be reported.
   template <class Why>
   void look(bool stands, Why why) {
     const TimePoint now = host_.now();
@@ -29,7 +29,7 @@ class StandingWatch {
     said_at_ = now;
     host_.write_log(log::Level::warning, "the robot stands: " + cause);
   }
-  /// Begins anew: the robot was not to drive.
+  /// Starts again: the robot was not to drive.
   void reset() { since_.reset(); }
 
  private:

@@ -80,7 +80,7 @@ auto parts_of_state(T& value) {
 
 }  // namespace detail
 
-/// What a component gives its successor: values one after the other, each with its kind.
+/// The writer of the state that a component gives its successor: values one after the other, each with its kind.
 ///
 /// A value is a bool, a number, an enumerator, a text, a time, an object of the IDL or an ObjectPtr, which keeps its type and
 /// its header; a std::optional, std::pair, array, or
@@ -112,7 +112,7 @@ class StateWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// What a component gets from its predecessor.
+/// The reader of the state that a component gets from its predecessor.
 ///
 /// Thread contract: not synchronised.
 class StateReader {

@@ -40,7 +40,7 @@ struct NavigatorRules {
 /// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
 /// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
 ///
-/// Recovery: after `patience` without any motion it retreats (see Retreat), the farther the more often in a row, and plans anew.
+/// Recovery: after `patience` without any motion it retreats (see Retreat), the farther the more often in a row, and plans again.
 /// From the second time in a row on it also forgets what it has seen farther than 1.5 m away, for that may be old.
 ///
 /// Thread contract: one thread at a time.

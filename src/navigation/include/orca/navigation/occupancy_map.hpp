@@ -19,7 +19,7 @@ struct Beam {
 };
 
 /// A square window of occupancy that moves with the robot. Evidence of each cell is counted: a scan that ends in a cell adds,
-/// a scan that looks through it subtracts, both at most once per scan and within bounds. That is the log-odds filter of
+/// a scan that looks through it subtracts, both at most once per scan and within bounds. It is the log-odds filter of
 /// Elfes 1989 with whole numbers, for a sensor that sees the truth twice as strongly by an echo as by its absence.
 ///
 /// Beams without echo make unknown cells free but do not clear occupied ones: a smooth wall gives no echo at a grazing angle.
@@ -32,7 +32,7 @@ class OccupancyMap {
 
   /// Forgets everything and puts the window around `middle`.
   void reset(Vec2 middle);
-  /// Moves the window by whole cells if `place` has left its middle half. What leaves the window is forgotten.
+  /// Moves the window by whole cells if `place` has left its middle half. Cells that leave the window are forgotten.
   void follow(Vec2 place);
   /// Takes over one scan. Parts of beams outside the window do not count.
   void see(std::span<const Beam> scan);

@@ -13,7 +13,7 @@
 
 namespace orca::nav {
 
-/// What a planner prefers.
+/// The preferences of a planner.
 struct PlanWishes {
   double clearance = 0.35;  ///< [m] beside the robot's inner circle; nearer to obstacles a way gets dearer.
   double clearance_cost = 4.0;  ///< [1] extra cost of a way right beside an obstacle, relative to a free one.
@@ -32,14 +32,14 @@ struct Plan {
 [[nodiscard]] double touches_along(const OccupancyMap& map, const Footprint& footprint, const Path& path,
                                    double from, double to);
 
-/// A planner of ways through an occupancy map. Cells nearer to an obstacle than the robot's inner circle are not passable. What
-/// the circle cannot decide, the exact outline does: where it would touch something on the first 3 m of the way, the
-/// place is closed and the search repeated. Farther away a sensor's noise could close a way that is open. It keeps its buffers from call to call.
+/// A planner of ways through an occupancy map. Cells nearer to an obstacle than the robot's inner circle are not passable. Where
+/// the circle cannot decide, the exact outline does: if it would touch something on the first 3 m of the way, the
+/// place is closed and the search is repeated. Farther away a sensor's noise could close a way that is open. It keeps its buffers from call to call.
 ///
 /// Thread contract: one thread at a time.
 class PathPlanner {
  public:
-  /// Looks at the map: distances and costs are computed anew.
+  /// Computes distances and costs again from the map.
   void look_at(const OccupancyMap& map, const Footprint& footprint, const PlanWishes& wishes);
 
   /// Plans a way. A goal outside of the map counts as the place of the map on the straight line to it.

@@ -15,7 +15,7 @@ namespace orca::nav {
 /// Thread contract: as for a container: const functions from any thread, others need exclusive access.
 class PoseHistory {
  public:
-  /// Adds a pose. One that is not newer than the last makes it begin anew.
+  /// Adds a pose. One that is not newer than the last clears the history first.
   void add(TimePoint stamp, const Pose2& pose);
   void clear() { poses_.clear(); }
   [[nodiscard]] bool empty() const { return poses_.empty(); }

@@ -55,7 +55,7 @@ struct Steer {
   bool blocked = false;    ///< It can do nothing that follows the path.
 };
 
-/// What the robot knows when it steers.
+/// The facts by which the robot steers.
 struct Scene {
   Pose2 pose{};                    ///< of the robot when the command takes effect.
   double speed = 0.0;              ///< [m/s] then.

@@ -37,7 +37,7 @@ class Retreat {
   void reset() { direction_ = -1.0; }
 
  private:
-  // What one step looks at.
+  // The facts of one step.
   struct View {
     const Scene& scene;
     const Seen& seen;

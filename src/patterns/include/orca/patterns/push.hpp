@@ -245,7 +245,7 @@ class PushProxyArray : public PushProxyArrayHandle {
       : PushProxyArrayHandle(owner, std::move(name), type_id(object_type<T>()), options) {}
 
   /// Returns the servers that the graph connects here, subscribed to or not. Their order means nothing: those of other
-  /// processes come later, and so may those that were connected while the system ran; path() tells them apart. A source whose
+  /// processes come later, and so may those that were connected while the system ran; path() distinguishes them. A source whose
   /// connection was removed meanwhile brings nothing any more.
   [[nodiscard]] std::vector<Source> sources() const {
     std::vector<Source> all;

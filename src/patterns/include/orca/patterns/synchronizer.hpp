@@ -60,7 +60,7 @@ class Synchronizer {
   /// The component then takes these objects with get_update() or take().
   ///
   /// Objects that are too old to match anything that comes are dropped and counted as EdgeCounters::unmatched.
-  /// Of the sets that match, the earliest counts. If the fastest subject sends every `p`, `within` = `p` / 2 makes
+  /// The earliest of the sets that match counts. If the fastest subject sends every `p`, `within` = `p` / 2 makes
   /// it the closest as well.
   /// @pre  the stamps of one server do not go back in time. Each edge has room for the objects that must wait for
   ///       others: an edge that keeps only the latest loses them.

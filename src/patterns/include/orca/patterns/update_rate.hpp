@@ -17,7 +17,7 @@ struct UpdateRate {
 
 /// The rate at which the server agrees to update a subscriber.
 struct UpdateGrant {
-  Duration base_period{0};     ///< Of the server [s]; 0: it pushes irregularly.
+  Duration base_period{0};     ///< The server's [s]; 0: it pushes irregularly.
   std::uint32_t multiple = 1;  ///< The subscriber gets every n-th object.
   Duration interval{0};  ///< Time between two objects [s]: `multiple` base periods; for an irregular server
                          ///< the interval asked for, which is then measured.

@@ -16,9 +16,9 @@
 
 namespace orca::robot_file {
 
-inline constexpr Duration kShortestPeriod = 10ms;  ///< Of a device: the tick of the simulator.
+inline constexpr Duration kShortestPeriod = 10ms;  ///< A device's: the tick of the simulator.
 
-/// What a robot file says of a device for its description only; the simulation does not use it.
+/// The words of a robot file about a device that are for its description only; the simulation does not use them.
 struct DeviceLabel {
   std::string vendor;
   std::string model;
@@ -199,7 +199,7 @@ struct Odometer {
   Guesses<WheelErrorGuess> errors{};
 };
 
-/// What the element <orca> of a robot's file says. A plain value; see read_devices().
+/// The content of the element <orca> of a robot's file. A plain value; see read_devices().
 struct Devices {
   std::string vendor;
   std::string model;

@@ -21,7 +21,7 @@ enum class Realism {
 /// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
 [[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
 
-/// What a robot's file guesses of a device's errors: for the device in general, and for levels of realism at which it
+/// The guesses of a robot's file about a device's errors: for the device in general, and for levels of realism at which it
 /// is worse or better. Without any guess they are not known.
 /// @tparam Guess  a WheelErrorGuess or a RangeErrorGuess.
 template <class Guess>

@@ -16,8 +16,8 @@ namespace orca::xml {
 struct Attribute {
   std::string name;
   std::string value;
-  Position position;        ///< Of the name.
-  Position value_position;  ///< Of the first character of the value, after the quote.
+  Position position;        ///< The name's.
+  Position value_position;  ///< The first character of the value, after the quote.
   bool intact = true;       ///< False: an error in the value is reported already; do not judge it again.
 };
 
@@ -25,7 +25,7 @@ struct Attribute {
 class Element {
  public:
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const Position& position() const { return position_; }  ///< Of the '<'.
+  [[nodiscard]] const Position& position() const { return position_; }  ///< The place of the '<'.
 
   /// Returns the attributes in document order; each name occurs once.
   [[nodiscard]] const std::vector<Attribute>& attributes() const { return attributes_; }

@@ -26,7 +26,7 @@ struct ValueRule {
   double min = -kUnlimited;
   double max = kUnlimited;
   bool above_min = false;                          ///< `min` itself is not allowed.
-  std::span<const std::string_view> choices = {};  ///< Of a text: the only ones; empty: any.
+  std::span<const std::string_view> choices = {};  ///< The only texts; empty: any.
 };
 
 struct AttributeRule {

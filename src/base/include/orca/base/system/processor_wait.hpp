@@ -10,9 +10,9 @@
 
 namespace orca {
 
-/// The time for which threads could run and no processor was free for them. It tells one that computes, or hangs, from one
+/// The time for which threads could run and no processor was free for them. It separates one that computes, or hangs, from one
 /// that the machine has no time for. The system itself counts a wait only when it ends, so whoever wants to know of one that
-/// goes on looks now and then. Where the system tells nothing the wait is 0.
+/// goes on looks now and then. Where the system reports nothing the wait is 0.
 ///
 /// Thread contract: not synchronised.
 class ProcessorWait {

@@ -57,13 +57,13 @@ struct Situation {
   bool passes_goal = false;  ///< Whether the goal is a point on the way, where the robot does not stop.
 };
 
-/// What the robot should do: nothing, or drive in a direction or along an arc.
+/// The advice to a robot: nothing, or to drive in a direction or along an arc.
 struct Advice {
   bool needed = false;
   double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive.
   double speed = 0.0;      ///< [m/s]
   double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
-  /// [rad/s] if given, the robot turns at this rate; the direction only tells the side.
+  /// [rad/s] if given, the robot turns at this rate; the direction gives the side only.
   std::optional<double> turn_rate = {};
 };
 

@@ -37,8 +37,8 @@ namespace orca::avoid {
 /// A base at its port `robot` is asked how large the robot is and how often its sensor measures. The answer is not
 /// waited for, but until it comes the robot stands.
 ///
-/// What it knows goes to an avoid behaviour of any type that takes its place while the robot drives, so that this need
-/// not look around first.
+/// An avoid behaviour of any type that takes its place while the robot drives gets its knowledge, and need not look
+/// around first.
 ///
 /// Thread contract: as every component.
 class Avoider : public Component {
@@ -124,7 +124,7 @@ class Avoider : public Component {
  private:
   static constexpr std::uint32_t kStateVersion = 3;
 
-  // What the base says about the robot.
+  // The robot's body, as the base reports it.
   struct Body {
     double radius;           // [m] of the circle that holds the body and the bumpers.
     double sensor_interval;  // [s] between two readings of the sensor; 0: not known.

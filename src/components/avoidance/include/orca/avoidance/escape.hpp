@@ -18,11 +18,11 @@ namespace orca::avoid {
 /// Thread contract: one thread at a time.
 class Escape {
  public:
-  /// What it knows of a moment.
+  /// The facts of a moment.
   struct Moment {
     TimePoint now;
     Pose2 pose;                    ///< In a frame that does not move, as that of the odometry.
-    Twist2 twist;                  ///< Of the robot.
+    Twist2 twist;                  ///< The robot's.
     std::optional<double> goal;    ///< [rad] robot frame; nothing: it has nowhere to go.
     std::span<const Vec2> echoes;  ///< Robot frame.
     const SeenFloor& floor;        ///< In the frame of the pose.

@@ -16,10 +16,10 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class LaserAvoider : public Avoider {
  protected:
-  /// What is remembered of scans.
+  /// The wishes for the memory of scans.
   struct Memory {
     bool hidden =
-        false;  ///< What a scan cannot see because it lies behind something else: a body that turns may touch it.
+        false;  ///< Whether it keeps what lies behind something else: a body that turns may touch it.
     bool shapes =
         false;  ///< The shape of what is near, not only its nearest points: a body turns its corners past it.
     double time =
@@ -47,7 +47,7 @@ class LaserAvoider : public Avoider {
   using MoreLasers = PushProxyArray<idl::LaserRangeReadings>;
   struct Further {
     MoreLasers::Source source;
-    std::uint32_t number;              // Of the sensor, for the memory.
+    std::uint32_t number;              // the sensor's, for the memory
     std::optional<TimePoint> heard{};  // When its last scan came, unless that was none.
   };
 

@@ -14,7 +14,7 @@ struct Scan {
   double max_range = 0.0;          ///< [m] at or above it nothing was seen.
   double angle_start = 0.0;        ///< [rad] of the first beam, sensor frame.
   double angle_increment = 0.0;    ///< [rad] from one beam to the next.
-  Pose2 X_RS;                      ///< Of the sensor, robot frame.
+  Pose2 X_RS;                      ///< The sensor's, robot frame.
 };
 
 /// How much of a scan is kept. A plain value.

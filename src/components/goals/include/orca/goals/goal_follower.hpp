@@ -28,8 +28,8 @@ namespace orca::go {
 /// While somebody subscribes to its failures it gives up goals that it cannot reach. It has not arrived as long as it
 /// does not know well enough where it is.
 ///
-/// The pose comes from the localizer or, without one, from the odometry; it starts the laps. What it knows goes to another
-/// behaviour that drives to goals and takes its place while the robot drives.
+/// The pose comes from the localizer or, without one, from the odometry; it starts the laps. Another behaviour
+/// that drives to goals and takes its place while the robot drives gets its knowledge.
 ///
 /// Thread contract: as every component.
 class GoalFollower : public Component {
@@ -74,7 +74,7 @@ class GoalFollower : public Component {
   /// Takes the pose of this lap. A derived class that overrides it calls this one or note_pose().
   /// @return nothing if the pose says nothing valid; the robot then stands.
   [[nodiscard]] virtual std::optional<Pose2> take_pose();
-  /// Takes note of odometry, whose frame becomes another one if the base begins anew.
+  /// Takes note of odometry, whose frame becomes another one if the base starts again.
   void note_odometry(const idl::Odometry& odometry);
   /// Returns whether a reading says anything valid; if it does not, says so in the log.
   template <class Reading>
@@ -89,7 +89,7 @@ class GoalFollower : public Component {
   }
 
  private:
-  // What the subscribers to the path have seen.
+  // The path as its subscribers have it.
   struct PathShown {
     std::uint64_t change = 0;  // of the route
     std::size_t to = 0;        // subscribers

@@ -17,7 +17,7 @@ struct Manner {
 /// Returns a point as a target: the place, reach and direction that its sender gave it.
 [[nodiscard]] Target target_of(const idl::GoalPoint& point, const Manner& manner);
 
-/// Returns the places that lead to a point, in order. That is the point itself, unless it is a Door: the robot
+/// Returns the places that lead to a point, in order. It is the point itself, unless that is a Door: the robot
 /// then lines up in front of it, on its own side, and drives straight to the middle, or as far behind it if
 /// the door is a via point. It need not line up if it stands in front of the door already.
 ///
@@ -27,7 +27,7 @@ struct Manner {
 /// The places that lead to the next point of a route, as far as the robot still has to go there.
 class Legs {
  public:
-  /// Returns the place to drive to now. The places are laid out anew when the point is another one.
+  /// Returns the place to drive to now. The places are laid out again when the point is another one.
   const Target& next(const Route::Point& point, const Pose2& pose, const Manner& manner);
   /// Returns whether the place is the last one for its point.
   /// @pre  next() has been called since the last pop().

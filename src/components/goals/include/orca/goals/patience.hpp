@@ -12,7 +12,7 @@ namespace orca::go {
 /// least.
 class Patience {
  public:
-  /// Begins anew: the point is another one.
+  /// Starts again: the point is another one.
   void begin() { nearest_ = std::numeric_limits<double>::infinity(); }
 
   /// Takes note of the present distance to the point [m].

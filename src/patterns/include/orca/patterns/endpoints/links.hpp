@@ -25,7 +25,7 @@ class Links {
   /// @param to      the other end.
   /// @param policy  how the edge buffers, for Push and Send; without it, the policy of the receiving port's
   /// author.
-  /// What travels may be of a type that is derived from the one that its receiver asks for.
+  /// The objects may be of a type that is derived from the one that their receiver asks for.
   ///
   /// @errors  invalid_argument if the ends do not fit each other, or if the policy lets a device wait;
   /// already_exists if the proxy is taken.
@@ -33,8 +33,8 @@ class Links {
   Status connect(Endpoint& from, Endpoint& to) { return connect(from, to, to.contract().queue); }
 
   /// Lets a port use its connection to a peer no more, and destroys its end of the link. A request that was not answered yet
-  /// gets an error. What a server has accepted it still handles, unless the sender waits for the handler's outcome. What waits
-  /// at a PushProxy is dropped. The other end has to leave as well: the client first.
+  /// gets an error. A server still handles its accepted objects, unless the sender waits for the handler's outcome.
+  /// Objects that wait at a PushProxy are dropped. The other end has to leave as well: the client first.
   /// @param peer  "component.port" of the other end. Nothing happens if there is no such connection.
   /// @pre  the port is not movable (MovablePort::can_move()).
   /// @thread  the strand of the port between two laps; for a server in the same process, that of the client as well.

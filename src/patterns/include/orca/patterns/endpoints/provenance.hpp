@@ -26,8 +26,8 @@ class Provenance {
   void begin_handling(const idl::OrcaObject& object);
   /// Does the same for a Send handler, whose object gives the component its task.
   void begin_task(const idl::OrcaObject& object);
-  /// Returns to the task before, because the handler has refused the object. What is sent or logged before the
-  /// next lap or handler still belongs to the object's mission.
+  /// Returns to the task before, because the handler has refused the object. Objects and log lines before
+  /// the next lap or handler still belong to the object's mission.
   void refuse_task() { task_mission_ = mission_before_task_; }
   /// Begins a mission: the component's task from now on.
   void begin_mission(std::uint64_t mission);

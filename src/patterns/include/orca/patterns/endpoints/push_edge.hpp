@@ -34,14 +34,14 @@ class PushEdge final : public PushSink {
     return subscribed_.load(std::memory_order_acquire) && has_server();
   }
 
-  /// Moves the edge to another server, and with it the subscription if there is one. What waits stays, and so does the newest
-  /// object until one comes from the new server.
+  /// Moves the edge to another server, and with it the subscription if there is one. Waiting objects stay, and so does the
+  /// newest one until the new server sends another.
   /// @param source  null: to none. The edge then has no subscription until it is moved to one.
   void move_to(PushSource* source);
   /// Moves the edge to no server, and forgets what waits and the newest object.
   void leave();
   [[nodiscard]] bool has_server() const { return source_.load(std::memory_order_acquire) != nullptr; }
-  /// Gives the edge another policy. What waits and finds no room any more is dropped, the oldest first.
+  /// Gives the edge another policy. Waiting objects without room are dropped, the oldest first.
   void set_policy(const QueuePolicy& policy);
 
   /// Requests another update rate, from now on or from the next subscription on. The rate that the graph

@@ -54,7 +54,7 @@ class PushServerEndpoint final : public Endpoint {
   [[nodiscard]] ObjectRef seal(ObjectLoan&& loan, const Provenance* provenance);
 
   /// Hands a sealed object to all subscribers. Only edges whose policy is `block` can make it wait, after all
-  /// others have the object. That wait ends early when the component must leave its lap; the object is then
+  /// others have the object. The wait ends early when the component must leave its lap; the object is then
   /// dropped on those edges.
   /// @thread  as seal(), which it follows.
   void publish(ObjectRef&& object);

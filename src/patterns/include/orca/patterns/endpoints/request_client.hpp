@@ -28,8 +28,8 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   /// this one.
   /// @thread  before the component runs, or its strand between two laps.
   void connect(RequestTarget<Answer>& target);
-  /// Lets the port use a server no more. What that has not answered yet gets an error at once, and the server is not touched
-  /// any more; it drops these requests when its end of the connection goes. Nothing if the port has never used it.
+  /// Lets the port use a server no more. Its open requests get an error at once, and the server is not touched any
+  /// more; it drops these requests when its end of the connection goes. Nothing if the port has never used it.
   /// @pre  !can_move()
   /// @thread  as connect().
   void disconnect(const std::string& server);
@@ -90,7 +90,7 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
  private:
   using Pending = PendingAnswers<Answer>;
 
-  // What was offered from an id on went to a target, until the next one took over.
+  // The requests from an id on, which went to one target until the next one took over.
   struct Era {
     RequestId first;
     RequestTarget<Answer>* target;  // null: none, or it is gone

@@ -31,11 +31,11 @@ class SendServerEndpoint final : public Endpoint {
   /// Adds an edge.
   /// @param client  path of the SendProxy, for messages.
   SendTarget& connect(std::string client, const QueuePolicy& policy);
-  /// Gives the edge to a client another policy. What waits stays.
+  /// Gives the edge to a client another policy. Waiting objects stay.
   /// @return false if there is none.
   bool change(const std::string& client, const QueuePolicy& policy);
-  /// Removes the edge to a client. What it has accepted is still handled. What waits for room, or for its handler's outcome
-  /// on an edge that confirms that, is dropped, and counted as withdrawn; an object in the handler is not confirmed. The
+  /// Removes the edge to a client. Accepted objects are still handled. Those that wait for room, or for their handler's
+  /// outcome on an edge that confirms it, are dropped and counted as withdrawn; an object in the handler is not confirmed. The
   /// client may be destroyed then. Nobody may use the edge any more.
   /// @thread  any; the client does not use it at the same time.
   void disconnect(const std::string& client);

@@ -20,7 +20,7 @@ namespace orca::batch {
 class BatchListener {
  public:
   virtual ~BatchListener() = default;
-  /// Takes the outcome of a run. What it stores is what a batch that is stopped has done.
+  /// Takes the outcome of a run. A batch that is stopped has done what is stored here.
   /// @errors  end the batch.
   virtual Status finished(std::size_t number, const Outcome& outcome, const Cost& cost) = 0;
   /// Takes what came of making a run twice.

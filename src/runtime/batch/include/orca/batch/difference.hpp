@@ -18,7 +18,7 @@ struct Delivery {
   std::string time;  ///< [s] since the start of the run.
   std::string component;
   std::string port;
-  std::string seq;  ///< Of the object.
+  std::string seq;  ///< The object's.
   std::string type;
   std::string origin;  ///< Component that made the object.
   std::string value;   ///< The object as text (docs/objects.md).
@@ -33,7 +33,7 @@ struct Delivery {
 
 /// The first place in which two runs part.
 struct DeliveryDifference {
-  std::size_t number = 0;          ///< Of the delivery in its run, from 1.
+  std::size_t number = 0;          ///< The delivery's in its run, from 1.
   std::optional<Delivery> first;   ///< Nothing: the first run has no more deliveries.
   std::optional<Delivery> second;  ///< Likewise.
 
@@ -45,11 +45,11 @@ struct DeliveryDifference {
 /// A run that is to be made once more.
 struct RunAgain {
   const Experiment& experiment;
-  std::size_t number;  ///< Of the run in it.
+  std::size_t number;  ///< The run's in it.
   const BatchOptions& options;
 };
 
-/// What became of two runs that were made side by side.
+/// The outcome of two runs that were made side by side.
 struct PairOfRuns {
   std::optional<DeliveryDifference>
       difference;            ///< Nothing: all deliveries are the same, to the microsecond.

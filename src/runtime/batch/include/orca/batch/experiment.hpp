@@ -31,7 +31,7 @@ struct Variant {
   std::string graph;  ///< Path.
   std::vector<Setting> settings;
   xml::Position position;
-  std::string profile{};  ///< Of the graph; empty: its default_profile.
+  std::string profile{};  ///< The graph's; empty: its default_profile.
 };
 
 /// One of the places in which each variant is tried.

@@ -29,7 +29,7 @@ enum class Failure : std::uint8_t {
 /// Returns the failure of that name; nothing if there is none.
 [[nodiscard]] std::optional<Failure> failure_of(std::string_view name);
 
-/// How the robots of a run moved, all together. What is not known is missing: without a simulated robot everything. A plain value.
+/// The motion of the robots of a run, all together. Unknown measures are missing: without a simulated robot all. A plain value.
 struct Measures {
   std::optional<double> way{};
   std::optional<double> way_ratio{};
@@ -45,7 +45,7 @@ struct Measures {
 
 /// A measure: where it is kept, and what it means.
 struct Measure {
-  const char* name;  ///< Of the column in tables; never changes.
+  const char* name;  ///< The column's in tables; never changes.
   const char* unit;  ///< "" for a ratio.
   const char* text;
   std::optional<double> Measures::*value;
@@ -54,11 +54,11 @@ struct Measure {
 /// Returns all measures, in the order of the columns.
 [[nodiscard]] std::span<const Measure> all_measures();
 
-/// What is known of a run besides its motion.
+/// The end of a run, without its motion.
 struct RunEnd {
   bool succeeded = false;
-  TimePoint end{};                                 ///< Of the run's clock: the last arrival of a success.
-  std::optional<TimePoint> first_contact{};        ///< Of the same clock.
+  TimePoint end{};                                 ///< By the run's clock: the last arrival of a success.
+  std::optional<TimePoint> first_contact{};        ///< By the same clock.
   std::optional<double> reference = std::nullopt;  ///< [m] Length of the way that the world names.
 };
 
@@ -69,12 +69,12 @@ struct RunEnd {
 /// Returns why a run that was not ended by a fault did not succeed.
 [[nodiscard]] Failure failure_in(const Scene& scene, const RunEnd& end);
 
-/// What a report draws of a run: lists of lines, each the places that it joins, as "x y" [m] to 1 cm, with commas between the
+/// The drawing of a run in a report: lists of lines, each the places that it joins, as "x y" [m] to 1 cm, with commas between the
 /// places and semicolons between the lines. A plain value.
 struct Sketch {
   std::string tracks{};    ///< Where each robot went: at most 129 evenly spaced places.
   std::string contacts{};  ///< Where robots touched something, each a line of one place: the first 8.
-  std::string walls{};     ///< Of the world, as it was at the end.
+  std::string walls{};     ///< The world's, as it was at the end.
   friend bool operator==(const Sketch&, const Sketch&) = default;
 };
 

@@ -25,10 +25,10 @@ enum class Ending : std::uint8_t {
 /// Returns the ending of that name; nothing if there is none.
 [[nodiscard]] std::optional<Ending> ending_of(std::string_view name);
 
-/// What a run came to, the same whenever and wherever it is made. A plain value.
+/// The outcome of a run, the same whenever and wherever it is made. A plain value.
 struct Outcome {
   Ending ending = Ending::crash;
-  std::string reason;  ///< Of a failure, a crash or a hang; otherwise empty.
+  std::string reason;  ///< The reason of a failure, a crash or a hang; otherwise empty.
   double time =
       0.0;  ///< [s] simulated, from the start to the last arrival of a success, otherwise to the end.
   std::uint32_t goals = 0;  ///< Number that were reached.
@@ -41,13 +41,13 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// What a run took of the machine. It differs each time.
+/// The cost of a run to the machine. It differs each time.
 struct Cost {
   double wall = 0.0;  ///< [s]
   double cpu = 0.0;   ///< [s] of all its threads.
 };
 
-/// What came of making a run twice, the second time with another memory layout, process, environment and folder. A plain value.
+/// The result of making a run twice, the second time with another memory layout, process, environment and folder. A plain value.
 struct Repeat {
   std::string first;   ///< Trace hash, or the name of the ending if there is none.
   std::string second;  ///< Likewise, of the second time.

@@ -14,7 +14,7 @@ namespace orca::batch {
 struct Report {
   std::string html;      ///< Self-contained, with plots.
   std::string markdown;  ///< The same without plots.
-  std::string summary;   ///< What is established and what is not, a line each, for a terminal.
+  std::string summary;   ///< The findings, established or not, a line each, for a terminal.
 };
 
 /// Makes the report on those results of an experiment that there are.

@@ -12,10 +12,10 @@
 
 namespace orca::batch {
 
-/// What differs between the results of two batches. A plain value.
+/// The difference between the results of two batches. A plain value.
 struct ResultsDifference {
   std::size_t in_both = 0;                     ///< Runs of the same variant, world and seed.
-  std::size_t different = 0;                   ///< Of these, runs with another outcome.
+  std::size_t different = 0;                   ///< Those of them with another outcome.
   std::size_t only_first = 0;                  ///< Runs that the second batch does not have.
   std::size_t only_second = 0;                 ///< Runs that the first batch does not have.
   std::optional<std::pair<Row, Row>> first{};  ///< The first run with another outcome, in both batches.

@@ -29,7 +29,7 @@ struct Origin {
   std::vector<std::string> plugins;  ///< Folders of plugins besides Orca's own.
 };
 
-/// What runs depend on: names and hashes of their content.
+/// The files and programs that runs depend on: names and hashes of their content.
 using Inputs = std::map<std::string, std::string>;
 
 /// A run that was made twice, by the names of the experiment.
@@ -40,8 +40,8 @@ struct RepeatRow {
   Repeat repeat;
 };
 
-/// The results of an experiment in a file, an SQLite database: its tables are `runs`, `timing`, `repeats` and `experiment`. What add() has
-/// returned is in the file, whatever becomes of this process.
+/// The results of an experiment in a file, an SQLite database: its tables are `runs`, `timing`, `repeats` and `experiment`. When add()
+/// returns, the result is in the file, whatever becomes of this process.
 ///
 /// Thread contract: not synchronised; one thread. One process at a time writes to a file.
 class Store {

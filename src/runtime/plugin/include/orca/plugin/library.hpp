@@ -50,8 +50,8 @@ class PluginLibrary {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// Returns the name of its file in a process's memory map.
   [[nodiscard]] const std::string& mapped_name() const { return mapped_name_; }
-  /// Returns the build id that the linker wrote into it, in hexadecimal digits; empty if there is none. It tells this build
-  /// of the code from any other.
+  /// Returns the build id that the linker wrote into it, in hexadecimal digits; empty if there is none. It distinguishes this
+  /// build of the code from any other.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
   [[nodiscard]] const Manifest& manifest() const { return *manifest_; }
   [[nodiscard]] std::vector<const TypeEntry*> types() const;

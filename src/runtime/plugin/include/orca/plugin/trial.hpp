@@ -21,7 +21,7 @@ class TrialLine {
   virtual void step(const std::string& what) = 0;
   /// Hands over a finding; any bytes.
   virtual void find(const std::string& finding) = 0;
-  /// Asks the process that waits, and blocks until it has answered; any bytes. That does not count as time of the trial.
+  /// Asks the process that waits, and blocks until it has answered; any bytes. The wait does not count as time of the trial.
   [[nodiscard]] virtual std::string ask(const std::string& question) = 0;
   /// Ends the trial well from wherever it is.
   [[noreturn]] virtual void end() = 0;
@@ -34,7 +34,7 @@ struct TrialResult {
     died,      ///< A signal, exit() or an exception that nothing can catch ended the copy.
     too_long,  ///< It was ended at its time limit.
     effect,    ///< It was ended before it left a trace outside the copy.
-    silent,    ///< It could not be tried, or not be heard. That says nothing about the code.
+    silent,    ///< It could not be tried, or not be heard; this says nothing about the code.
   };
   Ending ending = Ending::silent;
   std::string last_step;
@@ -42,9 +42,9 @@ struct TrialResult {
   std::vector<std::string> findings;
 };
 
-/// What a trial may do to the world outside its copy of the process.
+/// The effects that a trial may have outside its copy of the process.
 enum class Effects {
-  any,  ///< Whatever the code does.
+  any,  ///< All that the code has.
   none,  ///< It is ended before it opens a file for writing or a device, changes the file system, reaches for another
   ///< process, starts one, or talks to a network.
 };

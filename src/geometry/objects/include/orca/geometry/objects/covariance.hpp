@@ -41,7 +41,7 @@ namespace orca {
 
 /// Composes poses in space, as compose() does in the plane.
 /// @errors  failed_precondition if the result's x axis points straight up or down (within 1e-6 rad) and its
-///          covariance is not zero: roll and yaw cannot be told apart there, so theirs does not exist.
+///          covariance is not zero: roll and yaw cannot be separated there, so theirs does not exist.
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<idl::Pose3D> compose(const idl::Pose3D& X_AB, const idl::Pose3D& X_BC);
 

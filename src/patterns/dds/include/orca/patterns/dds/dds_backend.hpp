@@ -38,7 +38,7 @@ struct DdsOptions {
 /// The port at the other end of an edge.
 struct DdsPeer {
   std::string path;     ///< "component.port".
-  std::string process;  ///< That it is in.
+  std::string process;  ///< The one that it is in.
   std::string type;     ///< IDL name of the type that a Push server declares; otherwise not needed.
   std::uint64_t edge =
       0;  ///< Tells edges between the same ports apart, if there is more than one in the life of both.
@@ -74,7 +74,7 @@ class DdsBackend {
 [[nodiscard]] Result<std::unique_ptr<DdsBackend>> open_dds(const std::string& library,
                                                            const DdsOptions& options);
 
-/// What the library's function makes.
+/// The result of the library's function.
 using MadeDdsBackend = std::optional<Result<std::unique_ptr<DdsBackend>>>;
 /// The one function that the library exports, as orca_make_dds_backend.
 using MakeDdsBackend = void (*)(const DdsOptions& options, MadeDdsBackend& made);

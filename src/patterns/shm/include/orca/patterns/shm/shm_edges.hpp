@@ -45,8 +45,8 @@ struct ShmPeer {
 
 /// One end of an edge, as the process that hosts it controls it. It belongs to its port.
 ///
-/// Thread contract: any thread. What the functions ask for happens on the strand of the port, when it next waits or
-/// looks at a port; they wake it.
+/// Thread contract: any thread. Orders are carried out on the strand of the port, when it next waits or looks at a
+/// port; the functions wake it.
 class ShmEnd {
  public:
   virtual ~ShmEnd() = default;

@@ -12,19 +12,20 @@ namespace orca::batch {
 
 /// How a bootstrap draws.
 struct BootstrapOptions {
-  std::uint64_t seed = 1;  ///< Of its own random stream: the same seed gives the same bits on every machine.
+  std::uint64_t seed =
+      1;  ///< For a random stream of its own: the same seed gives the same bits on every machine.
   std::size_t draws = 10'000;  ///< Resamples, at least 1. Each takes 8 bytes and a step for each value.
 };
 
 /// A mean of values and how well it is known.
 struct Estimate {
-  double value = 0.0;  ///< Of the values as they are.
+  double value = 0.0;  ///< From the values as they are.
   Interval interval;   ///< 95 %, by percentiles.
 };
 
 /// Estimates the mean over all runs of all worlds by a hierarchical bootstrap. A draw takes as many worlds as there are, with
 /// replacement, and from each taken world as many of its runs as it has, with replacement. The interval reaches from the
-/// quantile 0.025 to the quantile 0.975 of the means of the draws (see quantile()). It tells how the mean varies over other
+/// quantile 0.025 to the quantile 0.975 of the means of the draws (see quantile()). It shows how the mean varies over other
 /// worlds of the same kind and other seeds.
 ///
 /// A world counts as often as it has runs. Other orders of the worlds or of their runs are other draws, so give them sorted.

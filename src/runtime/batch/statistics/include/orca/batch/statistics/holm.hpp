@@ -9,8 +9,8 @@
 namespace orca::batch {
 
 /// Returns p-values adjusted for their number by Holm's step-down method, in the order given. Comparing them with 0.05 keeps
-/// the probability of any false finding among all of them at 5 %, whatever their dependence. Of the i-th smallest of m values it
-/// is the largest of min(1, (m - j + 1) p_j) over j <= i. An empty list gives an empty list.
+/// the probability of any false finding among all of them at 5 %, whatever their dependence. The i-th smallest of m values
+/// becomes the largest of min(1, (m - j + 1) p_j) over j <= i. An empty list gives an empty list.
 ///
 /// @param p_values  in [0, 1], in any order: those of all tests that were made, not only of the ones that are reported.
 /// @errors  invalid_argument if a value is not in [0, 1], or not a number.

@@ -13,12 +13,12 @@ namespace orca::batch {
 constexpr std::uint64_t kLeastRuns = 9;  ///< Runs of each algorithm that a claim needs.
 constexpr double kLargestPValue = 0.05;  ///< Largest adjusted p-value that supports a claim.
 
-/// What is known of the difference of two algorithms in one metric.
+/// The evidence about the difference of two algorithms in one metric.
 struct Comparison {
   std::uint64_t first_runs = 0;
   std::uint64_t second_runs = 0;
-  double adjusted_p = 1.0;  ///< Of a paired test, after holm() over all tests of the report.
-  Interval difference;      ///< Of the paired difference, by bootstrap_difference().
+  double adjusted_p = 1.0;  ///< From a paired test, after holm() over all tests of the report.
+  Interval difference;      ///< The paired one, by bootstrap_difference().
 };
 
 /// A reason why a difference is not established.
@@ -28,7 +28,7 @@ enum class Doubt {
   p_value_too_large,       ///< Above kLargestPValue.
 };
 
-/// What a report says about a difference.
+/// The words of a report about a difference.
 struct Verdict {
   std::vector<Doubt> doubts;  ///< All that apply, in the order of the enumeration.
   std::string text;  ///< "difference established", or "not established: " and the reasons with their numbers.
