@@ -50,7 +50,7 @@ Given given_to(pid_t process, std::optional<pid_t> thread) {
 
 }  // namespace
 
-// Who can run and has not run since the last look waits. The sum is the wait that the system has not counted yet, which
+// A thread that can run and has not run since the last look waits. The sum is the wait that the system has not counted yet, which
 // is seconds long where others are preferred. A thread that ends takes its time with it.
 Duration ProcessorWait::look() {
   const Given given = given_to(process_, thread_);

@@ -16,7 +16,7 @@ namespace {
 constexpr mode_t kOthersWrite = S_IWGRP | S_IWOTH;
 constexpr mode_t kOthers = S_IRWXG | S_IRWXO;
 
-// Where the folder of the user is to be.
+// The place of the user's folder.
 struct Place {
   std::string parent;
   std::string name;

@@ -78,7 +78,7 @@ Way best_direction(std::span<const Vec2> echoes, const TurnRoom& turns, const Si
   return best;
 }
 
-// How far an echo lets the rectangle turn. Seen from the body the echo goes round on a circle, which lies within the rectangle
+// Returns how far an echo lets the rectangle turn. Seen from the body the echo goes round on a circle, which lies within the rectangle
 // near its corners: of a corner at the front from `low` to `high`. From an echo that is within already the
 // corner can only turn away.
 TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
@@ -99,7 +99,7 @@ TurnRoom room_beside(Vec2 echo, double distance, const Rectangle& body) {
   return room;
 }
 
-// Whether nothing near an echo is farther from it than a narrow thing is wide.
+// Returns whether nothing near an echo is farther from it than a narrow thing is wide.
 bool is_alone(Vec2 echo, std::span<const Vec2> echoes) {
   return std::ranges::none_of(echoes, [&](Vec2 other) {
     const double apart = norm(other - echo);
@@ -107,7 +107,7 @@ bool is_alone(Vec2 echo, std::span<const Vec2> echoes) {
   });
 }
 
-// Whether an echo and all those of the same thing are alone: else it is the middle of something wider.
+// Returns whether an echo and all those of the same thing are alone: else it is the middle of something wider.
 bool is_narrow(Vec2 echo, std::span<const Vec2> echoes) {
   return std::ranges::all_of(
       echoes, [&](Vec2 other) { return norm(other - echo) > kNarrow || is_alone(other, echoes); });

@@ -70,7 +70,7 @@ double angle_to_rectangle(const Orbit& orbit, const Footprint& body) {
   return nearest;
 }
 
-// Whether an echo comes from so far within the body that it can only be the robot itself, or an error.
+// Returns whether an echo comes from so far within the body that it can only be the robot itself, or an error.
 bool is_within(double gap, const Footprint& body) {
   return gap <= -(body.is_circle() ? body.radius : std::min(body.half_length, body.half_width));
 }

@@ -20,7 +20,7 @@ std::optional<Vec2> place_of(const Scan& scan, std::size_t i) {
 
 double distance(Vec2 echo) { return portable::hypot(echo.x, echo.y); }
 
-// Whether the beam to a place has measured nothing. `along` is its angle from the first beam.
+// Returns whether the beam to a place has measured nothing. `along` is its angle from the first beam.
 bool is_unread(const Scan& scan, double along) {
   if (scan.angle_increment == 0.0) return std::isnan(scan.ranges.front());
   const auto last = static_cast<long>(scan.ranges.size()) - 1;
@@ -28,7 +28,7 @@ bool is_unread(const Scan& scan, double along) {
   return std::isnan(scan.ranges[static_cast<std::size_t>(beam)]);
 }
 
-// Whether a beam beside a place ends before it. `along` is its angle from the first beam.
+// Returns whether a beam beside a place ends before it. `along` is its angle from the first beam.
 bool is_hidden(const Scan& scan, double along, double away) {
   if (scan.angle_increment == 0.0) return false;  // no beam is beside another
   const auto last = static_cast<long>(scan.ranges.size()) - 1;

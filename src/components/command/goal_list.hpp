@@ -89,7 +89,7 @@ class Agenda {
   /// Takes note that the robot is driven to the next goal.
   void begin() { ++begun_; }
 
-  /// How many goals of this list were begun, in all rounds.
+  /// Returns how many goals of this list were begun, in all rounds.
   [[nodiscard]] std::size_t begun() const { return begun_; }
   void go_on_after(std::size_t begun) { begun_ = begun; }
 

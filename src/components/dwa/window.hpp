@@ -59,7 +59,7 @@ struct Window {
   std::vector<double> turn_rates;  ///< [rad/s] ascending.
 };
 
-/// How far the robot can go on with a velocity.
+/// The way that the robot can go on with a velocity.
 struct Room {
   double time = 0.0;  ///< [s] left to brake before it touches something; infinity: it never does.
   double distance =

@@ -29,7 +29,7 @@ using Names = orca::Param<std::vector<std::string>>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// How often the fuser looks for behaviours that have fallen silent.
+// The period in which the fuser looks for behaviours that have fallen silent.
 constexpr orca::Duration kWatchPeriod = std::chrono::milliseconds(20);
 // [s] A shorter silence is no sign of a fault on a machine without real-time scheduling.
 constexpr double kShortestSilence = 0.1;

@@ -36,7 +36,7 @@ struct Voice {
   bool lost = false;  ///< It fell silent, and does not speak regularly again yet.
 };
 
-/// Whether a behaviour may be relied upon. One that has fallen silent may be so again once it has spoken in time
+/// The reliability of a behaviour. One that has fallen silent is relied upon again once it has spoken in time
 /// kTimely times in a row: a robot that drove on each word of a behaviour that is dying would drive blindly in
 /// between.
 class Reliance {

@@ -52,7 +52,7 @@ double speed_beside(double share, const Settings& settings) {
 
 double nose(const Footprint& body) { return body.is_circle() ? body.radius : body.half_length; }
 
-// Whether the robot can stop before an echo is nearer than the margin, and by `reserve` [m] of its way before that.
+// Returns whether the robot can stop before an echo is nearer than the margin, and by `reserve` [m] of its way before that.
 bool keeps(const Course& course, double reserve, std::span<const Vec2> echoes, const Settings& settings) {
   const Twist2 motion{course.speed, 0.0, course.turn_rate};
   const double time = avoid::time_to_margin(echoes, motion, settings.margin, settings.body);

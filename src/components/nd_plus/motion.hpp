@@ -71,7 +71,7 @@ enum class Situation {
 [[nodiscard]] double motion_direction(const Dangers& dangers, const FreeWalkingArea& area, double radius,
                                       const Settings& settings);
 
-/// How the robot drives.
+/// The motion of the robot.
 struct Course {
   double speed = 0.0;      ///< [m/s]
   double turn_rate = 0.0;  ///< [rad/s]

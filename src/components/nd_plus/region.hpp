@@ -12,7 +12,7 @@
 /// diagram.hpp.
 namespace orca::nd {
 
-/// Where the robot is to drive.
+/// The place to drive to.
 struct Goal {
   double direction = 0.0;  ///< [rad]
   double distance = 0.0;   ///< [m] that it must come nearer until the goal is reached.

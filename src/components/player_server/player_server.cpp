@@ -66,7 +66,7 @@ class PlayerServer final : public orca::Component {
     return orca::ok();
   }
 
-  // Who has the port may be the code that this replaces, which goes when this has proved itself.
+  // Returns whether the port may become free: the code that this replaces may have it, and goes when this has proved itself.
   [[nodiscard]] bool may_listen_later(const Status& listens) const {
     return listens.ok() || (listens.error().code == orca::Code::already_exists && now() < listens_by_);
   }

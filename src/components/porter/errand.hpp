@@ -11,7 +11,7 @@
 
 namespace orca::porter {
 
-/// How the robot works with its gripper.
+/// The manner in which the robot works with its gripper.
 struct Manner {
   double reach = 0.0;  ///< [m] from the middle of the robot to the inner beam, where the paddles hold things.
   double approach_speed = 0.0;  ///< [m/s]

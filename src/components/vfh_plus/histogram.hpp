@@ -39,7 +39,7 @@ struct Thresholds {
   double high = 0.0;  ///< tau_high: a sector of more is blocked.
 };
 
-/// How the robot drives now.
+/// The present motion of the robot.
 struct Motion {
   double heading = 0.0;  ///< [rad] theta.
   double radius = 0.0;   ///< [m] r: of the tightest arc that it can drive now; 0: it turns on the spot.

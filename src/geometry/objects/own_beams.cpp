@@ -44,7 +44,7 @@ std::string in_metres(double length) {
   return text;
 }
 
-// Whether a beam has met something too near to be measured. One that has measured nothing (NaN) has not.
+// Returns whether a beam has met something too near to be measured. One that has measured nothing (NaN) has not.
 bool is_too_near(const idl::LaserRangeReadings& scan, double range) {
   return range <= scan.min_range() && range < scan.max_range();
 }

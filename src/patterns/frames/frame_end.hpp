@@ -19,10 +19,10 @@ enum class Sent {
   cut,        ///< It was dropped, because the link is cut.
 };
 
-/// Whether a frame may be dropped because the link has no room for it at present.
+/// The permission to drop a frame for which the link has no room at present.
 enum class Loss { never, allowed };
 
-/// Whether the caller waits for what comes of the frame anyway, so that the link may spend the caller's time on it.
+/// The caller's haste: one that waits for the outcome anyway lets the link spend the caller's time on the frame.
 enum class Caller { goes_on, waits };
 
 /// The functions that an end calls. None may block; no two run at the same time.

@@ -24,7 +24,7 @@ Duration now() {
   return std::chrono::seconds(time.tv_sec) + Duration(time.tv_nsec);
 }
 
-// How long this thread has waited for a processor so far; 0 where the system does not say it. Called in a signal handler.
+// Returns how long this thread has waited for a processor so far; 0 where the system does not say it. Called in a signal handler.
 Duration waited() {
   char text[64] = {};  // nanoseconds run, nanoseconds waited, ...
   const int file = open("/proc/thread-self/schedstat", O_RDONLY | O_CLOEXEC);

@@ -23,7 +23,7 @@ namespace orca::dds {
 /// The participant that a message came from: the prefix of its DDS identity.
 using Origin = std::array<std::byte, 12>;
 
-/// Who writes a message: the thread that does so for all; the one that has it, as soon as it holds no lock; or the thread
+/// The writer of a message: the thread that does so for all; the one that has it, as soon as it holds no lock; or the thread
 /// for all when it next writes, a tick later at most, which saves waking it for each of many messages.
 enum class By : std::uint8_t { outbox, caller, next };
 
@@ -63,7 +63,7 @@ class Line {
     Duration liveliness{300ms};  ///< Without a sign of life for this long [s] the peer is lost.
   };
 
-  /// How often tick() is to be called [s].
+  /// The period in which tick() is to be called [s].
   static constexpr Duration kTick{20ms};
 
   /// @param peer  name of the other process.

@@ -36,7 +36,7 @@ class RunProcess {
   /// Reads what there is. Returns whether that was all.
   [[nodiscard]] bool read();
 
-  /// Whether it takes too long.
+  /// The kinds of lateness.
   enum class Lateness {
     none,
     hang,     ///< It had the whole limit for itself.

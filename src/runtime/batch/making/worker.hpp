@@ -7,7 +7,7 @@
 
 namespace orca::batch {
 
-/// How a run is made, besides what it is.
+/// The plan of a worker: how a run is made.
 struct WorkPlan {
   int to = -1;             ///< Descriptor of the pipe for the outcome.
   int trace = -1;          ///< Descriptor of a pipe for all deliveries with their values; -1: none.

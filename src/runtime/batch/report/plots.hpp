@@ -22,7 +22,7 @@ struct Series {
 
 /// Places that a line joins, [m] in the world.
 using Places = std::vector<Vec2>;
-/// Where a robot went, on a map.
+/// The way of a robot on a map.
 struct Track {
   Places places;
   std::size_t variant = 0;  ///< Whose colour it gets.

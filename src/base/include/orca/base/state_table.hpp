@@ -9,7 +9,7 @@
 
 namespace orca {
 
-/// How an event of a state machine comes about. It decides what a state without a row for the event means.
+/// The origin of an event of a state machine. It decides what a state without a row for the event means.
 enum class EventKind {
   circumstance,  ///< Something that holds in the world. Without a row it changes nothing.
   order,         ///< Somebody asks for it. Without a row it is refused.

@@ -21,13 +21,13 @@ struct Moment {
   Twist2 twist;  ///< in the robot's frame.
 };
 
-/// Where the robot should go.
+/// The place where the robot should go.
 struct Errand {
   Vec2 place;            ///< map frame.
   bool passing = false;  ///< It need not stop there.
 };
 
-/// How a Navigator works.
+/// The rules of a Navigator.
 struct NavigatorRules {
   Pursuit pursuit;
   PlanWishes wishes;

@@ -30,7 +30,7 @@ struct Arc {
 /// @param deceleration [m/s2]  > 0.   @param delay [s]  until it begins to slow down.
 [[nodiscard]] double speed_to_stop_within(double way, double deceleration, double delay);
 
-/// How a robot follows a path.
+/// The manner in which a robot follows a path.
 struct Pursuit {
   double max_speed = 0.5;             ///< [m/s]
   double turn_rate = 1.0;             ///< [rad/s] largest.

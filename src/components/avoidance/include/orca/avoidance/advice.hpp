@@ -82,7 +82,7 @@ struct Advice {
 /// @param all  the echoes, robot frame; afterwards also those beside things that stand alone.
 void add_feet(std::vector<Vec2>& all, double foot);
 
-/// How far a robot can turn on the spot before a corner of its body touches an echo [rad]; both are positive.
+/// The turns on the spot that a robot can make before a corner of its body touches an echo [rad]; both are positive.
 struct TurnRoom {
   double left = std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();

@@ -43,7 +43,7 @@ namespace orca::avoid {
 /// Thread contract: as every component.
 class Avoider : public Component {
  protected:
-  /// How behaviours with different sensors differ.
+  /// The differences between behaviours with different sensors.
   struct Manner {
     double echo_time = 0.0;      ///< [s] The default: how long an echo counts that was heard once.
     double memory_time = 4.0;    ///< [s] The same for one that was heard at least twice.

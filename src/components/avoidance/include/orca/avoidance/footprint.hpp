@@ -41,7 +41,7 @@ using nav::Footprint;
 [[nodiscard]] double time_to_margin(std::span<const Vec2> echoes, const Twist2& motion, double margin,
                                     const Footprint& body);
 
-/// How hard a robot brakes.
+/// The brakes of a robot.
 struct Brakes {
   double deceleration = 0.0;       ///< [m/s2]
   double turn_deceleration = 0.0;  ///< [rad/s2]

@@ -17,7 +17,7 @@ struct Scan {
   Pose2 X_RS;                      ///< The sensor's, robot frame.
 };
 
-/// How much of a scan is kept. A plain value.
+/// The detail in which a scan is kept. A plain value.
 struct Detail {
   double sector = 0.0;  ///< [rad] Of the beams in each sector only the nearest reading is kept,
   double range = 0.0;   ///< [m] and only if it is nearer to the robot's centre than this.

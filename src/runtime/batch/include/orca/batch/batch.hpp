@@ -42,7 +42,7 @@ struct BatchPlan {
   std::function<std::optional<std::size_t>()> next{};
 };
 
-/// How a batch ended.
+/// The end of a batch.
 enum class BatchEnd {
   complete,   ///< All runs were made.
   stopped,    ///< By SIGINT or SIGTERM. The runs that were under way are given up.

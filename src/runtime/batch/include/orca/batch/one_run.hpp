@@ -10,7 +10,7 @@
 
 namespace orca::batch {
 
-/// How the runs of a batch are made. A plain value.
+/// The options of a batch's runs. A plain value.
 struct BatchOptions {
   std::vector<std::string> plugin_folders;  ///< Where plugins are looked for.
   Backend backend = Backend::fiber;         ///< fiber or baton.

@@ -10,7 +10,7 @@
 
 namespace orca::batch {
 
-/// How a run ended. The names are those of the table of results, and never change.
+/// The end of a run. The names are those of the table of results, and never change.
 enum class Ending : std::uint8_t {
   success,      ///< All goals were reached, and nothing was touched.
   collision,    ///< A robot touched something.

@@ -23,7 +23,7 @@ struct Row {
   Cost cost;
 };
 
-/// Where results come from, so that their runs can be made again. A plain value.
+/// The origin of results, from which their runs can be made again. A plain value.
 struct Origin {
   std::string file;                  ///< The experiment's path, absolute.
   std::vector<std::string> plugins;  ///< Folders of plugins besides Orca's own.

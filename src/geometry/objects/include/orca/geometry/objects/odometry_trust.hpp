@@ -8,7 +8,7 @@
 
 namespace orca {
 
-/// How far the poses of some odometry can be trusted, for those who drive by them. Odometry with a covariance is taken at its word.
+/// The trust in the poses of some odometry, for those who drive by them. Odometry with a covariance is taken at its word.
 /// Odometry without one is not exact, but unknown: it counts as wrong as is usual (usual_figures.hpp).
 ///
 /// Thread contract: not synchronised; one strand.

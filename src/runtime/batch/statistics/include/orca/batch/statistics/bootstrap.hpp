@@ -10,7 +10,7 @@
 
 namespace orca::batch {
 
-/// How a bootstrap draws.
+/// The options of a bootstrap.
 struct BootstrapOptions {
   std::uint64_t seed =
       1;  ///< For a random stream of its own: the same seed gives the same bits on every machine.
