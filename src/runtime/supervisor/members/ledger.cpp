@@ -104,15 +104,14 @@ Status Ledger::take_change(const StateChange& change) {
   return ok();
 }
 
-template <class T>
-bool Ledger::keep_new(std::vector<T> host::RunResult::*known, const T& result) {
-  const MutexLock lock(mutex_);
-  if (host::is_passed_on(so_far_.*known, result)) return false;
-  (so_far_.*known).push_back(result);
-  return true;
-}
-
 Status Ledger::take_object(const Report& report, const std::string& process) {
+  // Returns whether a result is new, and then keeps it.
+  const auto keep_new = [this](auto results, const auto& result) {
+    const MutexLock lock(mutex_);
+    if (host::is_passed_on(so_far_.*results, result)) return false;
+    (so_far_.*results).push_back(result);
+    return true;
+  };
   if (const auto* arrived = std::get_if<ArrivedReport>(&report)) {
     Result<idl::Arrived> object = read<idl::Arrived>(*arrived);
     if (!object) return object.error();

@@ -103,9 +103,6 @@ class Ledger final : public host::RunView {
   Status take_figures(const Report& report, const std::string& process);
   Status take_object(const Report& report, const std::string& process);
   void note(idl::Alarm alarm, const std::string& process, const std::string& reporter);
-  // Keeps a result unless it was passed on before. Returns whether it is new.
-  template <class T>
-  bool keep_new(std::vector<T> host::RunResult::*known, const T& result);
 
   const graph::Graph& graph_;
   host::RunListener& listener_;

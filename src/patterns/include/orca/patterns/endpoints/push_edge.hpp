@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "orca/base/mutex.hpp"
-#include "orca/base/task_mutex.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/published.hpp"
 #include "orca/patterns/endpoints/push_link.hpp"
+#include "orca/patterns/endpoints/task_mutex.hpp"
 
 namespace orca {
 
