@@ -119,8 +119,8 @@ Status ask_once(const apps::Call& call, Client& client) {
 Status ask_stubbornly(const apps::Call& call, Client& client) {
   const bool ends = call.command->name == "stop";
   const bool may_repeat = ends || call.command->name == "estop";
-  const auto limit = std::chrono::steady_clock::now() + kStubborn;
   Status outcome = ask_once(call, client);
+  const auto limit = std::chrono::steady_clock::now() + kStubborn;
   while (may_repeat && is_cut_off(outcome) && std::chrono::steady_clock::now() < limit) {
     std::this_thread::sleep_for(kPause);
     std::variant<Client, Failure> again = Client::connect(call);
