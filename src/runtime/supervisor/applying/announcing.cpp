@@ -1,10 +1,48 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "applying/announcing.hpp"
 
-#include "applying/component_steps.hpp"
-#include "applying/newcomers.hpp"
+#include <algorithm>
 
 namespace orca::supervisor {
+namespace {
+
+// Returns the components of processes which begin anew that the others do not know yet, or know elsewhere.
+std::vector<graph::ComponentNode> newcomers_in(const std::set<std::string>& processes,
+                                               const graph::Graph& running, const graph::Graph& wanted) {
+  std::vector<graph::ComponentNode> newcomers;
+  for (const graph::ComponentNode& node : wanted.components) {
+    const graph::ComponentNode* const before = running.find_component(node.name);
+    const bool is_known_there = before != nullptr && before->process == node.process;
+    if (processes.contains(node.process) && !is_known_there) newcomers.push_back(node);
+  }
+  return newcomers;
+}
+
+// Returns the processes that stay while others begin anew.
+Members staying(const Members& all, const std::set<std::string>& renewed) {
+  Members members = all;
+  std::erase_if(members, [&](const Member* member) { return renewed.contains(member->name()); });
+  return members;
+}
+
+// Tells processes of components that others have, so that connections to them can be made. A process that is just coming
+// up has not heard of it.
+Status announce(const std::vector<AddComponent>& components, const std::vector<Member*>& all) {
+  const auto coming = std::ranges::find(all, Member::Phase::coming_up, &Member::phase);
+  if (coming != all.end())
+    return fail(Code::unavailable, "process " + (*coming)->name() + " is just coming up; try again later");
+  for (const AddComponent& component : components)
+    for (Member* const member : all)
+      if (member->name() != component.node.process) member->tell(component);
+  return ok();
+}
+
+}  // namespace
+
+void announce_end(const std::string& component, const std::string& process, const std::vector<Member*>& all) {
+  for (Member* const member : all)
+    if (member->name() != process && member->is_built()) member->tell(RemoveComponent{component});
+}
 
 Result<std::vector<AddComponent>> Announcing::begin(const graph::GraphPlan& plan,
                                                     const graph::Graph& wanted) {

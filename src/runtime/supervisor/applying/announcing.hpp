@@ -15,6 +15,9 @@
 
 namespace orca::supervisor {
 
+/// Tells processes that a component, which another one has, is gone.
+void announce_end(const std::string& component, const std::string& process, const Members& all);
+
 /// What the processes that stay hear of components and processes which come, go or begin anew.
 ///
 /// Thread contract: the supervisor's thread.

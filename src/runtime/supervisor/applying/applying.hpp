@@ -42,7 +42,6 @@ class Applying {
     std::function<void(const CheckedSystem&)> accept;
     /// Returns why no processes can begin anew at present, if that is so.
     std::function<Status()> can_renew;
-    std::function<void()> wake;  ///< Lets the conductor go on soon. It is called on other threads.
   };
   /// What it works with. All of it outlives the object.
   struct Place {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "applying/change.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <ranges>
 #include <utility>
 
-#include "applying/component_steps.hpp"
 #include "applying/edge_steps.hpp"
-#include "applying/newcomers.hpp"
-#include "applying/system_reading.hpp"
 #include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
+#include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 
 namespace orca::supervisor {
@@ -16,6 +17,43 @@ namespace {
 
 Error with(const Error& reason, const std::string& what, const Error& obstacle) {
   return fail(reason.code, reason.text() + "; and " + what + " could not go back: " + obstacle.text());
+}
+
+std::string effect_on(const Member* member, bool stays) {
+  if (member == nullptr) return "begins";
+  if (!stays) return "ends";
+  const std::optional<Duration>& time = member->starts().time;
+  return "is started again" +
+         (time ? ", which took " + seconds_text(*time) + " the last time" : std::string());
+}
+
+// Tells of each process that begins, ends or begins anew what becomes of it, for people.
+std::vector<Record> records_of(const std::set<std::string>& renewed, const Members& all,
+                               const graph::Graph& wanted) {
+  const std::vector<graph::ProcessNode> after = graph::processes_of(wanted);
+  std::vector<Record> records;
+  for (const std::string& name : renewed) {
+    const auto member = std::ranges::find(all, name, &Member::name);
+    const bool stays = std::ranges::find(after, name, &graph::ProcessNode::name) != after.end();
+    records.push_back({{"part", "= process " + name},
+                       {"field", ""},
+                       {"before", ""},
+                       {"after", ""},
+                       {"effect", effect_on(member == all.end() ? nullptr : *member, stays)}});
+  }
+  return records;
+}
+
+// Returns the steps that construct components in their processes, unconnected.
+std::vector<JointStep> arrival_steps(const std::vector<AddComponent>& components) {
+  std::vector<JointStep> steps;
+  for (const AddComponent& component : components) {
+    const auto make = [component]() -> std::optional<ThereAndBack> {
+      return ThereAndBack{component, RemoveComponent{component.node.name}};
+    };
+    steps.push_back({component.node.name, make, [](bool) {}});
+  }
+  return steps;
 }
 
 }  // namespace
@@ -56,11 +94,11 @@ Error Applying::Change::go_back(Error reason) {
 }
 
 Status Applying::Change::read(const GraphSource& source) {
-  SystemReading reading(owner_.levers_.read, source, owner_.levers_.wake);
-  if (!place_.conductor.wait([&] { return reading.is_done(); }))
-    return fail(Code::unavailable, "the run ends before the graph was read");
-  if (!reading.outcome()) return reading.outcome().error();
-  wanted_ = std::move(reading.outcome()).value();
+  // It loads plugins, and takes its time.
+  Result<CheckedSystem> read = fail(Code::internal, "the graph was not read");
+  place_.conductor.run_aside("reading", [&](const auto&) { read = owner_.levers_.read(source); });
+  if (!read) return read.error();
+  wanted_ = std::move(read).value();
   plan_ = graph::plan_of(is_edit_ ? place_.graph : owner_.present(), wanted_.graph, wanted_.facts.contracts,
                          {true, owner_.levers_.executor});
   lost_.clear();  // nothing was changed before

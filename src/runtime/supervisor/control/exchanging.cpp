@@ -224,11 +224,11 @@ Result<bool> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& 
                                  plugin::PluginImage& image) {
   std::vector<WatchedPort> ports;
   if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, member);
-  Tryout tryout(order, std::move(image), {std::move(ports), lines_to_servers_of(wish.component)}, wake_);
-  if (!conductor_.wait([&] { return tryout.is_done(); }))
-    return fail(Code::unavailable, "the run ends before the new code was tried out", wish.component);
-  image = tryout.take_plugin();
-  const Result<host::ShadowReport>& tried = tryout.outcome();
+  TryoutLines lines{std::move(ports), lines_to_servers_of(wish.component)};
+  Result<host::ShadowReport> tried = host::ShadowReport{};
+  conductor_.run_aside("tryout", [&](const std::function<bool()>& give_up) {
+    tried = supervisor::try_out(order, image, std::move(lines), give_up);
+  });
   if (!tried)
     return fail(tried.error().code,
                 "the new one was tried out beside the one that runs, and not taken: " + tried.error().text(),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -49,15 +48,9 @@ struct SwapWish {
 class Exchanging {
  public:
   /// All of these outlive the object.
-  /// @param wake  lets the conductor go on soon. It is called on other threads.
   Exchanging(Conductor& conductor, const graph::Graph& graph, const SystemFacts& facts,
-             const SystemNames& names, Operating& operating, std::function<void()> wake)
-      : conductor_(conductor),
-        graph_(graph),
-        facts_(facts),
-        names_(names),
-        operating_(operating),
-        wake_(std::move(wake)) {}
+             const SystemNames& names, Operating& operating)
+      : conductor_(conductor), graph_(graph), facts_(facts), names_(names), operating_(operating) {}
 
   /// Exchanges a component's code, after it was tried out, or a driver. A job of the conductor waits until the old code, or
   /// the new one if it was refused, is gone.
@@ -114,7 +107,6 @@ class Exchanging {
   const SystemFacts& facts_;
   const SystemNames& names_;
   Operating& operating_;
-  const std::function<void()> wake_;
   std::set<std::string> busy_;     // components of which an exchange has been begun and has not ended
   std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
   std::map<std::string, std::map<std::string, std::string>> builds_;  // build ids by process, then by type

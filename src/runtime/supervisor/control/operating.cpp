@@ -346,7 +346,11 @@ void Operating::restart(const std::string& name, const ReplyPtr& reply) {
   if (!member) return reply->refuse(member.error());
   log::info(kLogName, "an operator restarts process " + (*member)->name());
   if (const Status begun = levers_.restart(**member); !begun.ok()) return reply->refuse(begun.error());
-  awaited_.emplace(*member, reply);
+  const auto is_back = [&process = **member, start = (*member)->starts().count] {
+    return process.phase() == Member::Phase::up && process.starts().count > start;
+  };
+  if (conductor_.wait(is_back))
+    reply->add(Record{{"process", (*member)->name()}, {"restarts", (*member)->restarts()}});
 }
 
 void Operating::stop(const ReplyPtr& reply) {
@@ -372,10 +376,6 @@ void Operating::came_up(const std::vector<Member*>& members) {
       if (node.process == member->name()) changed_.erase(node.name);
     for (const graph::HardwareNode& node : graph_.hardware)
       if (node.process == member->name()) changed_.erase(node.name);
-    const auto [begin, end] = awaited_.equal_range(member);
-    for (auto waiting = begin; waiting != end; ++waiting)
-      waiting->second->add(Record{{"process", member->name()}, {"restarts", member->restarts()}});
-    awaited_.erase(begin, end);
   }
 }
 

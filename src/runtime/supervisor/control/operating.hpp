@@ -25,7 +25,6 @@ struct RunLevers {
   std::function<Status(Member&)> restart;  ///< Ends a process and starts it again.
   /// Returns the edges in use of those that ports choose from.
   std::function<std::vector<const graph::Edge*>()> edges_in_use;
-  std::function<void()> wake;  ///< Lets the supervisor's thread look at once. From any thread.
 };
 
 /// Carries out what an operator orders: pauses, new parameters, restarts, the end. Jobs of the conductor call whatever says
@@ -71,7 +70,7 @@ class Operating {
   void forget_changes() { changed_.clear(); }
   /// Returns the present values of a component's parameters.
   [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
-  /// Starts a process again, which is named by itself or by one of its components. The answer ends when it is back.
+  /// Starts a process again, which is named by itself or by one of its components. It waits until it is back.
   void restart(const std::string& name, const ReplyPtr& reply);
   /// Ends the run. The answer does not end before.
   void stop(const ReplyPtr& reply);
@@ -121,9 +120,8 @@ class Operating {
   const SystemNames& names_;
   const host::Reports reports_;
   const RunLevers levers_;
-  std::map<std::string, graph::Params> changed_;    // by component or driver: what is not as in the graph
-  std::map<std::string, std::string> comers_;       // see expect()
-  std::multimap<const Member*, ReplyPtr> awaited_;  // restarts
+  std::map<std::string, graph::Params> changed_;  // by component or driver: what is not as in the graph
+  std::map<std::string, std::string> comers_;     // see expect()
   std::vector<ReplyPtr> until_end_;
   JointOrders joint_orders_;
 };

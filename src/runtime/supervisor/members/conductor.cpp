@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "members/conductor.hpp"
 
-#include <algorithm>
+#include <pthread.h>
+
+#include <atomic>
 #include <exception>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace orca::supervisor {
@@ -33,7 +36,8 @@ struct Conductor::Job {
   std::unique_ptr<Task> task;  // the last member: it uses the others
 };
 
-Conductor::Conductor() : executive_(make_one_task_at_a_time()), loop_turn_(executive_->make_event()) {}
+Conductor::Conductor(std::function<void()> wake)
+    : wake_(std::move(wake)), executive_(make_one_task_at_a_time()), loop_turn_(executive_->make_event()) {}
 
 Conductor::~Conductor() = default;
 
@@ -137,6 +141,26 @@ std::optional<Answer> Conductor::ask(Member& member, Order order) {
   const PendingAnswer pending(member, std::move(order));
   wait([&] { return pending.is_over(); });
   return pending.answer();
+}
+
+void Conductor::run_aside(const char* name,
+                          const std::function<void(const std::function<bool()>& give_up)>& work) {
+  std::atomic<bool> is_done{false};
+  std::atomic<bool> gives_up{false};
+  std::exception_ptr failure;
+  std::jthread thread([&] {
+    pthread_setname_np(pthread_self(), name);
+    try {
+      work([&] { return gives_up.load(); });
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    is_done = true;
+    wake_();
+  });
+  gives_up = !wait([&] { return is_done.load(); });
+  thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 PendingAnswer::PendingAnswer(Member& member, Order order)

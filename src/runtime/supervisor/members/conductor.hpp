@@ -21,7 +21,8 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread, inside run().
 class Conductor {
  public:
-  Conductor();
+  /// @param wake  lets the supervisor's loop call go_on() soon. It is called on other threads.
+  explicit Conductor(std::function<void()> wake);
   ~Conductor();
   Conductor(const Conductor&) = delete;
   Conductor& operator=(const Conductor&) = delete;
@@ -43,12 +44,18 @@ class Conductor {
   /// Sends an order to a process, and blocks the calling job until the answer is there.
   /// @return nothing: the process has ended without an answer.
   std::optional<Answer> ask(Member& member, Order order);
+  /// Runs something that takes long on a thread of its own, and blocks the calling job until it has returned. Meanwhile it
+  /// may use what the supervisor's thread does not.
+  /// @param work  gets a function that returns true when it had better give up: all jobs are to end. What it throws is thrown
+  ///              here.
+  void run_aside(const char* name, const std::function<void(const std::function<bool()>& give_up)>& work);
 
  private:
   struct Job;
   void resume(Job& job);
   void reap();
 
+  const std::function<void()> wake_;
   const std::unique_ptr<Executive> executive_;
   const std::unique_ptr<Event> loop_turn_;
   std::vector<std::unique_ptr<Job>> jobs_;

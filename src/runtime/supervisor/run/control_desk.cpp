@@ -22,8 +22,8 @@ const std::set<std::string, std::less<>> kOfThisMachine{"ps",     "plugins",  "c
                                                         "alarms", "missions", "log"};
 
 // These wait for the system, so each is a job of its own.
-const std::set<std::string, std::less<>> kJobs{"suspend", "resume",     "swap", "diff", "apply",
-                                               "connect", "disconnect", "move", "set"};
+const std::set<std::string, std::less<>> kJobs{"suspend",    "resume", "swap", "diff",    "apply", "connect",
+                                               "disconnect", "move",   "set",  "restart", "line"};
 
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
@@ -60,7 +60,7 @@ ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const 
       ledger_(ledger),
       names_(whole, here, facts.ports, members),
       operating_(conductor, here, facts, names_, ledger.reports(), levers),
-      exchanging_(conductor, here, facts, names_, operating_, levers.wake),
+      exchanging_(conductor, here, facts, names_, operating_),
       applying_({conductor, here, facts, members, operating_, exchanging_, starter, renewal, ledger},
                 std::move(applying)),
       showing_(whole, here, facts, members, ledger, exchanging_, levers.edges_in_use),
@@ -128,7 +128,7 @@ void ControlDesk::built(const std::vector<Member*>& members) {
 void ControlDesk::came_up(const std::vector<Member*>& members) {
   applying_.came_up(members);
   exchanging_.came_up(members);
-  operating_.came_up(members);  // the last: it answers whoever has waited for this
+  operating_.came_up(members);
 }
 
 const ControlDesk::Handlers& ControlDesk::handlers() {
@@ -229,13 +229,12 @@ void ControlDesk::open_line(const Ask& ask, const ReplyPtr& reply) {
   Result<SocketPair> pair = make_socket_pair();
   if (!pair) return reply->refuse(pair.error());
   const PortContract& contract = (*port)->contract;
-  auto answer = std::make_shared<LineAnswer>(LineAnswer{std::move(pair->supervisor), contract.type.name,
-                                                        contract.reply ? contract.reply->name : ""});
+  LineAnswer answer{std::move(pair->supervisor), contract.type.name,
+                    contract.reply ? contract.reply->name : ""};
   OpenLine order{ref.component, ref.port, has(ask, "--tap"), has(ask, "--objects"), std::move(pair->host)};
-  (*member)->ask(std::move(order), [reply, answer](const Status& opened) {
-    if (!opened.ok()) return reply->refuse(opened.error());
-    reply->add(std::move(*answer));
-  });
+  const std::optional<Answer> opened = conductor_.ask(**member, std::move(order));
+  if (opened && !opened->outcome.ok()) return reply->refuse(opened->outcome.error());
+  if (opened) reply->add(std::move(answer));
 }
 
 }  // namespace orca::supervisor

@@ -122,12 +122,12 @@ class SupervisedRun {
       losses_.end(member);
       return ok();
     };
-    return {stop, restart, [this] { return trading_.in_use(); }, [this] { poller_.wake(); }};
+    return {stop, restart, [this] { return trading_.in_use(); }};
   }
 
   Applying::Levers applying() {
     return {options_.read, options_.executor, [this](const CheckedSystem& wanted) { accept(wanted); },
-            [this] { return works(); }, [this] { poller_.wake(); }};
+            [this] { return works(); }};
   }
 
   [[nodiscard]] Status works() const {
@@ -389,7 +389,7 @@ class SupervisedRun {
   Trading trading_{graph_, roster_.all(), reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
-  Conductor conductor_;
+  Conductor conductor_{[this] { poller_.wake(); }};
   std::map<std::size_t, std::pair<pid_t, std::optional<ProcessorWait>>> waits_;  // by place
   Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;

@@ -126,14 +126,14 @@ class StagedSystem {
   Ledger ledger_{graph_, listener_, TimePoint{}};
   RestartPolicy policy_{graph::processes_on(graph_, ""), graph_.supervision};
   const std::string log_name_ = "test";
-  Conductor conductor_;
+  Conductor conductor_{[] {}};
   Renewal renewal_{conductor_,
                    {roster_, policy_, starter_, [](Member&, bool) {}, [](const std::string&) {},
                     [] { return false; }, log_name_}};
   const SystemNames names_{graph_, graph_, facts_.ports, roster_.all()};
   Operating operating_{
       conductor_, graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
-  Exchanging exchanging_{conductor_, graph_, facts_, names_, operating_, [] {}};
+  Exchanging exchanging_{conductor_, graph_, facts_, names_, operating_};
   Applying applying_{
       {conductor_, graph_, facts_, roster_.all(), operating_, exchanging_, starter_, renewal_, ledger_},
       {[this](const GraphSource&) -> Result<CheckedSystem> {
@@ -144,7 +144,7 @@ class StagedSystem {
          graph::go_over(graph_, system.graph);
          is_accepted = true;
        },
-       [] { return ok(); }, [] {}}};
+       [] { return ok(); }}};
   StagedProcess a_{*roster_.all()[0]};
   StagedProcess b_{*roster_.all()[1]};
   const std::array<StagedProcess*, 2> processes_{&a_, &b_};

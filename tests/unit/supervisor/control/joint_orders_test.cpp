@@ -28,7 +28,7 @@ class Components {
     return end.ok() ? "ok" : end.error().text();
   }
 
-  Conductor conductor;
+  Conductor conductor{[] {}};
   Answers answers;
   bool is_quick = true;  // else they answer when there is an answer
   Words asked;           // "suspend a", "resume a"

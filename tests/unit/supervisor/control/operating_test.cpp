@@ -111,7 +111,7 @@ class Desk {
   Member q_{graph::ProcessNode{.name = "q"}, 1, 1};
   const Members members_{&p_, &q_};
   const SystemNames names_{graph_, graph_, facts_.ports, members_};
-  Conductor conductor_;
+  Conductor conductor_{[] {}};
   Operating operating_{
       conductor_, graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
 };

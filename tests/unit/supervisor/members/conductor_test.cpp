@@ -2,8 +2,10 @@
 // The jobs of a supervisor, with a clock by hand and a process that the test plays.
 #include "members/conductor.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <stdexcept>
+#include <thread>
 
 #include "staged_process.hpp"
 
@@ -19,7 +21,7 @@ constexpr Moment kNow = Moment(10s);
 }  // namespace
 
 TEST_CASE("a job runs at once until it waits, and goes on when that is so", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   Words said;
   bool is_there = false;
   conductor.run([&] {
@@ -37,7 +39,7 @@ TEST_CASE("a job runs at once until it waits, and goes on when that is so", "[su
 }
 
 TEST_CASE("a wait ends at its deadline, and not before", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   std::optional<bool> came;
   conductor.run([&] {
     conductor.begin("job", [&] { came = conductor.wait([] { return false; }, kNow + 1s); });
@@ -49,7 +51,7 @@ TEST_CASE("a wait ends at its deadline, and not before", "[supervisor][conductor
 }
 
 TEST_CASE("what one job does lets another one go on in the same turn", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   int done = 0;
   conductor.run([&] {
     conductor.begin("last", [&] {
@@ -70,7 +72,7 @@ TEST_CASE("what one job does lets another one go on in the same turn", "[supervi
 }
 
 TEST_CASE("the end of the loop ends all waits, present and later ones", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   std::vector<bool> came;
   conductor.run([&] {
     conductor.begin("job", [&] {
@@ -83,7 +85,7 @@ TEST_CASE("the end of the loop ends all waits, present and later ones", "[superv
 
 TEST_CASE("what a job throws, the loop throws, and what the loop throws, run() does",
           "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   bool goes_on = false;
   bool has_ended = false;
   const auto loop = [&] {
@@ -104,12 +106,12 @@ TEST_CASE("what a job throws, the loop throws, and what the loop throws, run() d
 }
 
 TEST_CASE("the loop itself cannot wait", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   CHECK_THROWS_AS(conductor.run([&] { conductor.wait([] { return false; }); }), std::logic_error);
 }
 
 TEST_CASE("a job waits for the answer of a process, or its end", "[supervisor][conductor]") {
-  Conductor conductor;
+  Conductor conductor{[] {}};
   StagedProcess process("main");
   process.start();
   std::optional<std::optional<Answer>> answer;
@@ -130,5 +132,28 @@ TEST_CASE("a job waits for the answer of a process, or its end", "[supervisor][c
       REQUIRE(answer.has_value());
       CHECK_FALSE(answer->has_value());
     }
+  });
+}
+
+TEST_CASE("what takes long runs on a thread of its own while a job waits, and is given up at the end",
+          "[supervisor][conductor]") {
+  std::atomic<bool> is_awake{false};
+  Conductor conductor([&] { is_awake = true; });
+  Words said;
+  conductor.run([&] {
+    conductor.begin("quick", [&] {
+      conductor.run_aside("quick", [&](const auto& give_up) { said.push_back(give_up() ? "late" : "done"); });
+      said.emplace_back("goes on");
+    });
+    while (!is_awake) std::this_thread::yield();
+    conductor.go_on(kNow);
+    CHECK(said == Words{"done", "goes on"});
+    conductor.begin("endless", [&] {
+      conductor.run_aside("endless", [](const std::function<bool()>& give_up) {
+        while (!give_up()) std::this_thread::yield();
+        throw std::runtime_error("given up");
+      });
+      FAIL("what was thrown is lost");
+    });
   });
 }

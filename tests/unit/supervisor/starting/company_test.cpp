@@ -48,7 +48,7 @@ class TwoThatComeUp {
     said.emplace_back("over");
   }
 
-  Conductor conductor_;
+  Conductor conductor_{[] {}};
 };
 
 }  // namespace

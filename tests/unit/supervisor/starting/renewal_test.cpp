@@ -81,7 +81,7 @@ class RenewedRun {
   Starter starter_{graph_, options_, run_, roster_};
   RestartPolicy policy_{graph::processes_on(graph_, ""), graph_.supervision};
   const std::string log_name_ = "test";
-  Conductor conductor_;
+  Conductor conductor_{[] {}};
 
  public:
   StagedProcess a{*roster_.all()[0]};

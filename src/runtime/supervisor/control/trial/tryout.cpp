@@ -2,7 +2,6 @@
 #include "control/trial/tryout.hpp"
 
 #include <poll.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <chrono>
@@ -60,52 +59,38 @@ class Listener {
   bool is_open_ = true;
 };
 
-}  // namespace
-
-Tryout::Tryout(host::ShadowOrder order, plugin::PluginImage plugin, Lines lines, std::function<void()> done)
-    : order_(std::move(order)), plugin_(std::move(plugin)), tell_(std::move(done)) {
-  thread_ = std::thread([this, lines = std::move(lines)]() mutable {
-    pthread_setname_np(pthread_self(), "tryout");
-    work(std::move(lines));
-  });
-}
-
-Tryout::~Tryout() {
-  given_up_.store(true);
-  thread_.join();
-}
-
-void Tryout::work(Lines lines) {
-  std::vector<SeenObject> seen = watch(std::move(lines.ports));
-  std::ranges::stable_sort(seen, {}, &SeenObject::time);
-  const auto give_up = [this] { return given_up_.load(); };
-  Questioner questioner(std::move(lines.servers), give_up);
-  order_.answer = [&](const graph::PortRef& server, ObjectLoan question) {
-    return questioner.ask(server, std::move(question));
-  };
-  outcome_.emplace(host::run_in_shadow(order_, plugin_, seen, give_up));
-  order_.answer = {};
-  // A failure without an answer says nothing about the code.
-  if (!*outcome_ && outcome_->error().code == Code::failed_precondition && !questioner.silence().empty())
-    outcome_.emplace(host::ShadowReport{questioner.silence() + "; then " + outcome_->error().text(), 0, 0});
-  done_.store(true, std::memory_order_release);
-  tell_();
-}
-
-std::vector<SeenObject> Tryout::watch(std::vector<WatchedPort> ports) const {
+// Returns what reaches ports within a time, in the order of the times.
+std::vector<SeenObject> watch(std::vector<WatchedPort> ports, Duration span,
+                              const std::function<bool()>& give_up) {
   std::vector<std::unique_ptr<Listener>> listeners;
   for (WatchedPort& port : ports) listeners.push_back(std::make_unique<Listener>(std::move(port)));
   std::vector<SeenObject> seen;
   std::size_t bytes = 0;
-  for (const auto end = Clock::now() + order_.span;
-       Clock::now() < end && bytes < kMostBytes && !given_up_.load();) {
+  for (const auto end = Clock::now() + span; Clock::now() < end && bytes < kMostBytes && !give_up();) {
     std::vector<pollfd> all;
     for (const auto& listener : listeners) all.push_back(listener->waits_for());
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
     poll(all.data(), all.size(), static_cast<int>(std::clamp<long>(left, 0, kLookMs)));
     for (const auto& listener : listeners) listener->take(seen, bytes);
   }
+  std::ranges::stable_sort(seen, {}, &SeenObject::time);
   return seen;
+}
+
+}  // namespace
+
+Result<host::ShadowReport> try_out(host::ShadowOrder order, plugin::PluginImage& plugin, TryoutLines lines,
+                                   const std::function<bool()>& give_up) {
+  std::vector<SeenObject> seen = watch(std::move(lines.ports), order.span, give_up);
+  Questioner questioner(std::move(lines.servers), give_up);
+  order.answer = [&](const graph::PortRef& server, ObjectLoan question) {
+    return questioner.ask(server, std::move(question));
+  };
+  Result<host::ShadowReport> outcome = host::run_in_shadow(order, plugin, seen, give_up);
+  // A failure without an answer says nothing about the code.
+  if (!outcome && outcome.error().code == Code::failed_precondition && !questioner.silence().empty())
+    return host::ShadowReport{questioner.silence() + "; then " + outcome.error().text(), 0, 0};
+  return outcome;
 }
 
 }  // namespace orca::supervisor
