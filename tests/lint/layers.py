@@ -142,7 +142,7 @@ LAYERS = (
           "host_trial", "host_system", "host_reporting", "host_recording", "host", "host_containment", "plugin", "graph",
           "patterns_dds", "patterns_shm", "patterns_endpoints", "idl", "base"), module=HOST),
     Layer("host_judging", (f"{HOST}/run/judging",), ("orca/host/edge_choice.hpp", "orca/host/idleness.hpp",
-          "orca/host/robot_finder.hpp", "orca/host/verdict.hpp"), ("host", "graph", "base"), module=HOST),
+          "orca/host/conclusion.hpp", "orca/host/robot_finder.hpp"), ("host", "graph", "base"), module=HOST),
     Layer("host_run", (f"{HOST}/run",), ("orca/host/run_system.hpp",), ("host_judging", "host_swap", "host_trial",
           "host_system", "host_recording", "host", "host_containment", "graph", "hw_link", "base"), module=HOST),
     Layer("supervisor_channel", (f"{SUPERVISOR}/channel",), ("orca/supervisor/channel.hpp", "orca/supervisor/control.hpp",

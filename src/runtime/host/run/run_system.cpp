@@ -2,7 +2,6 @@
 #include "orca/host/run_system.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -13,11 +12,11 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/host/conclusion.hpp"
 #include "orca/host/edge_choice.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/host/robot_finder.hpp"
-#include "orca/host/verdict.hpp"
 #include "recording/run_files.hpp"
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
@@ -73,8 +72,7 @@ class Run {
       return refuse_output(opened.error());
     if (options_.looks_on) reporter().look_on(sightings_);
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
-    if (const Status built = watched_.build(); !built.ok())
-      return fail_with(RunOutcome::not_started, built.error());
+    if (const Status built = watched_.build(); !built.ok()) return conclusion_.report_failure(built.error());
     reporter().introduce(find_robots(graph_, system().robots()));
     if (options_.looks_on)
       listener_.built(view_.emplace(executive_, start_, system(), reporter(), sightings_));
@@ -86,7 +84,8 @@ class Run {
 
   void refuse_output(const Error& error) {
     const bool wrong = error.code == Code::invalid_argument;
-    fail_with(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
+    reporter().log_error(error.text());
+    conclusion_.conclude(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
   }
 
   void close_outputs() {
@@ -96,29 +95,7 @@ class Run {
   // What people asked for is not there, so the run has failed, however well it went.
   void fail_output(const Error& error) {
     reporter().log_error(error.text());
-    if (!error_) conclude(RunOutcome::failed, error);
-  }
-
-  // A component that has failed has said itself why.
-  void refuse_start(const Error& error) {
-    const ComponentInstance* const component = system().component(error.where);
-    if (component == nullptr || !component->has_failed()) reporter().log_error(error.text());
-    conclude(RunOutcome::not_started, error);
-  }
-
-  void fail_with(RunOutcome outcome, const Error& error) {
-    reporter().log_error(error.text());
-    conclude(outcome, error);
-  }
-
-  void conclude(RunOutcome outcome, const Error& error) {
-    outcome_ = outcome;
-    error_ = error;
-    if (is_in_graph(error.where)) culprit_ = error.where;
-  }
-
-  [[nodiscard]] bool is_in_graph(const std::string& name) const {
-    return graph_.find_component(name) != nullptr || graph_.find_hardware(name) != nullptr;
+    conclusion_.fail_late(error);
   }
 
   void main() {
@@ -126,16 +103,15 @@ class Run {
     stop_.on_crash([this] { stop_motors(); });
     const Status up = bring_up();
     if (!up.ok() && !stop_.requested()) {
-      refuse_start(up.error());
-      reporter().log_error("not everything came up; taking all down again");
+      conclusion_.refuse_start(up.error());
     } else {
       // After a request to stop, some components may not be up, and others would fail for want of them.
       LastWords::catch_exit();
       const bool opens = up.ok() && !stop_.requested();
-      if (opens) came_up_.store(true);
+      if (opens) conclusion_.came_up();
       if (opens) system().open_gates();
       supervise();
-      if (has_ended() && !stop_.requested()) wait_for_rest();
+      if (conclusion_.has_closing_phase() && !stop_.requested()) wait_for_rest();
       if (opens) sum_up();
     }
     take_down();
@@ -166,16 +142,12 @@ class Run {
     while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait)) {
       choose_edges();
       const Result<TimePoint> next = changes_.go_on();
-      if (!next) return fail_with(RunOutcome::failed, next.error());
+      if (!next) return conclusion_.report_failure(next.error());
       const TimePoint until = std::min(end, *next);
       all_wait = !watched_.changed().wait_until(until) && until == kForever && executive_.is_virtual();
     }
-    if (error_ || has_ended()) return;
-    outcome_ = stop_.requested() ? RunOutcome::stopped : RunOutcome::time_is_up;
-    if (outcome_ == RunOutcome::time_is_up && !graph_.ends.empty()) report_time_limit();
-    if (const std::string signal = stop_.failure(); !signal.empty())
-      fail_with(RunOutcome::failed,
-                fail(Code::failed_precondition, "the signal " + signal + " ended the run"));
+    if (has_ended()) return;
+    stop_.requested() ? conclusion_.stop(stop_.failure()) : conclusion_.run_out_of_time();
   }
 
   // Moves ports whose server is not up any more to another one.
@@ -193,49 +165,35 @@ class Run {
     const std::vector<std::string> restless = executive_.restless_tasks();
     stands_still_ = all_wait;
     if (!restless.empty()) {
-      fail_with(RunOutcome::failed,
-                fail(Code::deadline_exceeded, restless_text(restless, executive_.now() - start_)));
+      conclusion_.report_failure(
+          fail(Code::deadline_exceeded, restless_text(restless, executive_.now() - start_)));
     } else if (all_wait) {
-      fail_with(RunOutcome::failed,
-                fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
+      conclusion_.report_failure(
+          fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
     }
     return all_wait || !restless.empty();
   }
 
-  // Returns whether the run has come to its end. Keeps the reason if a component has failed that may not.
+  // Returns whether the run has come to its end.
   bool has_ended() {
-    const std::optional<Status> end = ending(graph_, reports_);
-    if (end && !end->ok()) conclude(RunOutcome::failed, end->error());
-    return end.has_value();
-  }
-
-  // Says what the time limit has cut short.
-  void report_time_limit() {
-    reporter().log_info("the time limit has ended the run before these were done: " +
-                        listed(unfinished(graph_, reports_)));
+    if (!conclusion_.is_over()) conclusion_.look_at_ends();
+    return conclusion_.is_over();
   }
 
   // Says what did not happen, and decides whether the run has failed. To be called before it is taken down, which
   // makes other components fail.
   void sum_up() {
     counters_ = collect_counters(graph_, system());
-    if (const Status changed = changes_.finish(); !changed.ok() && !error_)
-      fail_with(RunOutcome::failed, changed.error());
-    if (stands_still_ || (!error_ && executive_.now() - start_ >= kShortRun)) report_idleness();
-    judge();
+    if (const Status changed = changes_.finish(); !changed.ok() && !conclusion_.has_failed())
+      conclusion_.report_failure(changed.error());
+    if (stands_still_ || (!conclusion_.has_failed() && executive_.now() - start_ >= kShortRun))
+      report_idleness();
+    conclusion_.judge();
   }
 
   void report_idleness() {
     for (const auto& [who, text] : find_idleness(graph_, reports_, *counters_))
       reporter().log(log::Level::warning, who.empty() ? options_.log_name : who, text);
-  }
-
-  // Makes the run a failure if a component has ended in WORK_FAILED that the graph does not allow to.
-  void judge() {
-    if (error_) return;
-    const std::vector<std::string> failed = failed_components(graph_, reports_);
-    for (const std::string& name : failed) reporter().log(log::Level::error, name, kMayFailHint);
-    if (!failed.empty()) conclude(RunOutcome::failed, failure_of(failed, reports_));
   }
 
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
@@ -256,22 +214,17 @@ class Run {
     if (stuck.empty()) return;
     for (const std::string& name : stuck)
       reporter().log_error(name + " does not end; the process is ended without it");
-    conclude(failed_outcome(), fail(Code::deadline_exceeded,
-                                    listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
+    conclusion_.fail_with(
+        fail(Code::deadline_exceeded, listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
-  }
-
-  // Returns the outcome of a run that must be given up.
-  [[nodiscard]] RunOutcome failed_outcome() const {
-    return came_up_.load() ? RunOutcome::failed : RunOutcome::not_started;
   }
 
   // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
   void stand_still(const std::string& component, const std::string& text) {
     reporter().log(log::Level::error, component, text);
     RunResult ended = result();
-    ended.outcome = failed_outcome();
+    ended.outcome = conclusion_.has_come_up() ? RunOutcome::failed : RunOutcome::not_started;
     ended.culprit = component;
     ended.error = fail(Code::deadline_exceeded, text, component);
     ended.trace_hash.reset();  // it would depend on the moment at which the standstill was noticed
@@ -295,11 +248,9 @@ class Run {
 
   [[nodiscard]] RunResult result() const {
     RunResult result;
-    result.outcome = outcome_;
-    result.culprit = culprit_;
-    result.error = error_;
+    conclusion_.fill(result);
     // Without a start there is nothing to compare.
-    const bool ran = outcome_ != RunOutcome::not_started && outcome_ != RunOutcome::bad_options;
+    const bool ran = result.outcome != RunOutcome::not_started && result.outcome != RunOutcome::bad_options;
     if (ran && executive_.is_virtual()) result.trace_hash = files_.trace().hash();
     watched_.reporter().fill(result);
     result.end = end_.value_or(executive_.now());
@@ -317,20 +268,20 @@ class Run {
   RunListener& listener_;
   RunFiles files_;
   Sightings sightings_;
-  std::atomic<bool> came_up_{false};  // whether the whole system has been up
   WatchedSystem watched_;
   const TimePoint start_ = watched_.start();
   const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
+  Conclusion conclusion_{graph_, reports_, options_.log_name,
+                         [this](log::Level level, const std::string& who, const std::string& text) {
+                           reporter().log(level, who, text);
+                         }};
   EdgeChoice choice_{graph_};
   TimedChanges changes_{graph_, watched_, catalogue_, executive_, options_.changes};
   std::optional<Scene> scene_;           // after the end
   std::optional<LiveView> view_;         // of the system
   std::optional<TimePoint> end_;         // when the taking down began
   std::optional<RunCounters> counters_;  // of the run until it was taken down
-  RunOutcome outcome_ = RunOutcome::finished;
-  std::string culprit_;
-  std::optional<Error> error_;
-  bool stands_still_ = false;  // nothing could ever happen again
+  bool stands_still_ = false;            // nothing could ever happen again
 };
 
 RunResult refuse_options(const Error& error, const RunOptions& options) {

@@ -18,7 +18,6 @@
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
 #include "orca/host/run_view.hpp"
-#include "orca/host/verdict.hpp"
 #include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 

@@ -27,8 +27,7 @@ void Arrivals::start(const Members& members) {
     if (!is_first) {
       place_.could_not_start(*member, error);
     } else if (!place_.conclusion.is_over()) {
-      log::error(place_.log_name, error.text());
-      place_.conclusion.fail_with(error);
+      place_.conclusion.report_failure(error);
     }
   }
 }

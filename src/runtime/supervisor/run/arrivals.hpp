@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "conclusion.hpp"
 #include "control_desk.hpp"
 #include "machines/neighbours.hpp"
 #include "machines/trading.hpp"
 #include "members/conductor.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
+#include "orca/host/conclusion.hpp"
 #include "orca/supervisor/heartbeats.hpp"
 #include "starting/company.hpp"
 #include "starting/starter.hpp"
@@ -32,7 +32,7 @@ class Arrivals {
     Heartbeats& beats;
     Ledger& ledger;
     ControlDesk& control;
-    Conclusion& conclusion;
+    host::Conclusion& conclusion;
     std::optional<Neighbours>& neighbours;
     Trading& trading;
     const graph::Supervision& rules;

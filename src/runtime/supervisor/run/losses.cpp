@@ -42,7 +42,7 @@ void Losses::lose(Member& member, const std::string& how, const Loss& loss) {
   place_.ledger.lose(member.name(), "its process " + how);
   for (const Wiring::Outer& outer : place_.starter.wiring().edges_at(member.name())) cut(outer, member, how);
   const std::string text = "process " + member.name() + " " + how;
-  Conclusion& conclusion = place_.conclusion;
+  host::Conclusion& conclusion = place_.conclusion;
   if (conclusion.is_over()) return lose_late(text, loss);
   if (!place_.policy.is_dozing(member.index())) place_.control.distrust(member);
   if (place_.renewal.lose(member, loss.is_normal, how)) return;

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "conclusion.hpp"
 #include "control_desk.hpp"
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "members/roster.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/host/conclusion.hpp"
 #include "orca/host/stop_signal.hpp"
 #include "orca/supervisor/exit_reason.hpp"
 #include "orca/supervisor/heartbeats.hpp"
@@ -38,7 +38,7 @@ class Losses {
     RestartPolicy& policy;
     Heartbeats& beats;
     ControlDesk& control;
-    Conclusion& conclusion;
+    host::Conclusion& conclusion;
     OnDemand& on_demand;
     Renewal& renewal;
   };

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "arrivals.hpp"
-#include "conclusion.hpp"
 #include "control_desk.hpp"
 #include "losses.hpp"
 #include "machines/neighbours.hpp"
@@ -27,6 +26,7 @@
 #include "orca/graph/placement.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/host/alarm.hpp"
+#include "orca/host/conclusion.hpp"
 #include "orca/host/idleness.hpp"
 #include "orca/supervisor/heartbeats.hpp"
 #include "orca/supervisor/meeting_place.hpp"
@@ -181,11 +181,6 @@ class SupervisedRun {
     return missing;
   }
 
-  void refuse(const Error& error) {
-    log::error(options_.log_name, error.text());
-    conclusion_.fail_with(error);
-  }
-
   // ---- Watching
 
   void turn(Moment until) {
@@ -297,7 +292,7 @@ class SupervisedRun {
       return true;
     } else if (!conclusion_.has_come_up()) {
       if (began_at_ && steady_now() >= *began_at_ + kStartLimit)
-        refuse(fail(Code::deadline_exceeded, "not everything came up in time"));
+        conclusion_.report_failure(fail(Code::deadline_exceeded, "not everything came up in time"));
     } else if (options_.until && steady_now() >= *arrivals_.up_since() + *options_.until) {
       conclusion_.run_out_of_time();
     } else if (!renewal_.is_under_way()) {  // what goes back has not failed
@@ -325,7 +320,8 @@ class SupervisedRun {
     }
     if (neighbours_->have_gathered() || steady_now() < called_at_ + graph_.supervision.machine_wait)
       return false;
-    refuse(fail(Code::deadline_exceeded, neighbours_->awaited() + " did not come in time"));
+    conclusion_.report_failure(
+        fail(Code::deadline_exceeded, neighbours_->awaited() + " did not come in time"));
     return true;
   }
 
@@ -393,7 +389,7 @@ class SupervisedRun {
   std::map<std::size_t, std::pair<pid_t, std::optional<ProcessorWait>>> waits_;  // by place
   Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;
-  Conclusion conclusion_{here_, reports_, options_.log_name};
+  host::Conclusion conclusion_{here_, reports_, options_.log_name};
   Arrivals arrivals_{{conductor_, starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
                       graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
                         losses_.could_not_start(member, error);

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/component_report.hpp"
 #include "orca/host/run_result.hpp"
 
-namespace orca::supervisor {
+namespace orca::host {
 
-/// How a supervised run ends, and why. What is worth a line goes to the log.
+/// How a run ends, and why. The policy is the same in one process and in several. What is worth a line goes to the log.
 ///
-/// Thread contract: the supervisor's thread.
+/// Thread contract: one thread; has_come_up() from any.
 class Conclusion {
  public:
+  /// Takes a line for the log, and for whoever listens to the run.
+  using Say = std::function<void(log::Level, const std::string& who, const std::string& text)>;
+
   /// @param graph     outlives the object.
   /// @param log_name  name in the log for what concerns the run as a whole.
-  Conclusion(const graph::Graph& graph, host::Reports reports, std::string log_name)
-      : graph_(graph), reports_(std::move(reports)), log_name_(std::move(log_name)) {}
+  Conclusion(const graph::Graph& graph, Reports reports, std::string log_name, Say say = log::write)
+      : graph_(graph), reports_(std::move(reports)), log_name_(std::move(log_name)), say_(std::move(say)) {}
 
   [[nodiscard]] bool is_over() const { return is_over_; }
   /// Returns whether the components that the graph names in `ends` have ended the run, well or not. Then the others still
@@ -34,14 +39,16 @@ class Conclusion {
   [[nodiscard]] bool has_come_up() const { return came_up_; }
 
   /// Sets a function that learns of each end of the run, and why if it fails.
-  void on_end(std::function<void(host::RunOutcome, const std::string& why)> told) { told_ = std::move(told); }
+  void on_end(std::function<void(RunOutcome, const std::string& why)> told) { told_ = std::move(told); }
 
   /// Ends the run.
   /// @param status  the reason if it fails.
-  void conclude(host::RunOutcome outcome, const Status& status);
+  void conclude(RunOutcome outcome, const Status& status);
   /// Ends the run because something has failed: before everything has come up, it has not started.
   void fail_with(const Error& error);
-  /// Ends the run because of an error that a host process has reported while everything came up.
+  /// Does the same, and reports the error.
+  void report_failure(const Error& error);
+  /// Ends the run because of an error while everything came up.
   void refuse_start(const Error& error);
   /// Ends the run because a stop was requested.
   /// @param signal  the signal that did, if it is not one for that purpose.
@@ -58,18 +65,19 @@ class Conclusion {
   /// never came up is none.
   void fail_late(const Error& error);
 
-  void fill(host::RunResult& result) const;
+  void fill(RunResult& result) const;
 
  private:
   const graph::Graph& graph_;
-  const host::Reports reports_;
+  const Reports reports_;
   const std::string log_name_;
-  bool came_up_ = false;
+  const Say say_;
+  std::atomic<bool> came_up_{false};
   bool is_over_ = false;
   bool by_components_ = false;  // those of `ends` have ended the run
-  host::RunOutcome outcome_ = host::RunOutcome::finished;
+  RunOutcome outcome_ = RunOutcome::finished;
   std::optional<Error> error_;
-  std::function<void(host::RunOutcome, const std::string& why)> told_;
+  std::function<void(RunOutcome, const std::string& why)> told_;
 };
 
-}  // namespace orca::supervisor
+}  // namespace orca::host
