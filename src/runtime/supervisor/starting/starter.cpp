@@ -85,14 +85,9 @@ HostStart Starter::plain_start(const std::string& name) const {
 }
 
 Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
-  const RunWishes wishes{options_.seed.value_or(1),
-                         options_.log_level,
-                         steady_epoch(),
-                         run_.start,
-                         options_.executor,
-                         options_.planned_failures,
-                         outputs_for(member),
-                         run_.name};
+  const RunWishes wishes{
+      options_.seed.value_or(1), options_.log_level,        steady_epoch(),      run_.start,
+      options_.executor,         options_.planned_failures, outputs_for(member), run_.name};
   return {member.name(),    graph::print(graph_), to_pairs(wishes),   run_.page.descriptor(),
           std::move(edges), doorbells_,           states_for(member), roster_.places()};
 }
