@@ -201,7 +201,7 @@ class Gauged {
 
   Client& client() {
     if (!client_) {
-      auto connected = Client::connect("");
+      auto connected = Client::connect(orca::apps::Call{});
       REQUIRE(std::holds_alternative<Client>(connected));
       client_.emplace(std::move(std::get<Client>(connected)));
     }

@@ -15,3 +15,7 @@ inline void on_patient_executives(const std::function<void(Executive&)>& body) {
 }
 
 }  // namespace orca::test
+
+/// As EXECUTIVE_CASE, for those.
+#define PATIENT_CASE(title, tags) \
+  CASE_IN(orca::test::on_patient_executives, (orca::Executive & executive), title, tags)
