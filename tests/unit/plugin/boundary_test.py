@@ -26,9 +26,9 @@ VIRTUAL = "  virtual void added() {}\n"
 INSIDE = (
     (f"{PORTS}/endpoints/endpoint.hpp", "  PortContract contract_;\n"),
     (f"{PORTS}/endpoints/push_server_endpoint.hpp", "  std::atomic<std::size_t> subscribers_{0};\n"),
-    (f"{PORTS}/endpoints/push_edge.hpp", "  std::uint32_t first_ = 0;\n"),
+    (f"{PORTS}/endpoints/push_edge.hpp", "  std::uint32_t first_ ORCA_GUARDED_BY(mutex_) = 0;\n"),
     (f"{PORTS}/endpoints/request_client.hpp", "  Pending pending_;\n"),
-    (f"{PORTS}/endpoints/send_server_endpoint.hpp", "  std::deque<Accepted> waiting_;\n"),
+    (f"{PORTS}/endpoints/send_server_endpoint.hpp", "  std::deque<Accepted> waiting_ ORCA_GUARDED_BY(mutex_);\n"),
     ("src/runtime/host/run/component/parts/port_set.hpp", "  PortHome& home_;\n"),
 )
 
