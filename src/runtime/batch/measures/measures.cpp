@@ -28,7 +28,7 @@ constexpr double kBestSpeed = 2.0;  // [m/s]
 
 constexpr std::array kMeasures{
     Measure{"way", "m", "True way of all robots.", &Measures::way},
-    Measure{"way_ratio", "", "That way by the world's reference; 1 is best.", &Measures::way_ratio},
+    Measure{"way_ratio", "", "The way divided by the world's reference; 1 is best.", &Measures::way_ratio},
     Measure{"spl", "", "Success weighted by path length: 1 / way_ratio, at most 1, and 0 without success.",
             &Measures::spl},
     Measure{"barn_score", "", "Score of the BARN benchmark: of the reference at 2 m/s, 0.5 at best.",
