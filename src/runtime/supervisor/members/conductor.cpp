@@ -60,7 +60,7 @@ void Conductor::begin(const std::string& name, std::function<void()> job) {
   Job& begun = *made;
   begun.body = std::move(job);
   begun.turn = executive_->make_event();
-  jobs_.push_back(std::move(made));
+  jobs_.reserve(jobs_.size() + 1);  // a job without a task, for want of memory, would never end
   begun.task = executive_->spawn({name, 0}, [this, &begun] {
     begun.turn->wait_until(kForever);
     try {
@@ -71,6 +71,7 @@ void Conductor::begin(const std::string& name, std::function<void()> job) {
     begun.has_ended = true;
     begun.resumer->notify();
   });
+  jobs_.push_back(std::move(made));
   resume(begun);
   reap();
 }
