@@ -142,8 +142,8 @@ class Line {
   std::uint32_t silent_ ORCA_GUARDED_BY(mutex_) = 0;  // since the peer was heard
   std::uint32_t quiet_ ORCA_GUARDED_BY(mutex_) = 0;   // since anything was written
   std::uint32_t alone_ ORCA_GUARDED_BY(mutex_) = 0;   // since there is no peer
-  std::uint32_t unanswered_ ORCA_GUARDED_BY(mutex_) =
-      0;                                              // since the oldest parcel became it, or was repeated
+  // Since the oldest parcel became it, or was repeated.
+  std::uint32_t unanswered_ ORCA_GUARDED_BY(mutex_) = 0;
   std::uint32_t patience_ ORCA_GUARDED_BY(mutex_);    // after which it is repeated
   std::uint64_t oldest_ ORCA_GUARDED_BY(mutex_) = 0;  // the sequence number of that parcel
 };
