@@ -3,6 +3,7 @@
 #include "manual.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace orca::apps {
 namespace {
@@ -41,19 +42,24 @@ std::string text_of(const OptionSpec& option) {
   return std::string(option.text) + (option.repeats ? "; may be repeated" : "");
 }
 
-// Returns a line of two columns. A long text goes on in the second one.
-std::string row(const std::string& what, const std::string& text) {
+// Returns a text in lines, the first of which begins with `line` and all others with `indent` blanks.
+std::string wrapped(std::string line, std::size_t indent, std::string_view text) {
   std::string result;
-  std::string line = "  " + what;
-  line.resize(std::max(kColumn, line.size() + 2), ' ');
   for (const std::string& word : split(text, ' ')) {
     if (line.size() + word.size() > kWidth) {
       result += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-      line = std::string(kColumn, ' ');
+      line = std::string(indent, ' ');
     }
     line += word + " ";
   }
   return result + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+}
+
+// Returns a line of two columns. A long text goes on in the second one.
+std::string row(const std::string& what, const std::string& text) {
+  std::string line = "  " + what;
+  line.resize(std::max(kColumn, line.size() + 2), ' ');
+  return wrapped(std::move(line), kColumn, text);
 }
 
 std::string rows(const std::vector<OptionSpec>& options) {
@@ -209,8 +215,8 @@ std::string help_text(const Program& program) {
 
 std::string help_text(const Program& program, const Command& command) {
   std::string text =
-      std::string(program.name) + " " + usage_of(command) + "      " + std::string(command.text) + "\n";
-  if (!command.details.empty()) text += "\n" + std::string(command.details) + "\n";
+      wrapped(std::string(program.name) + " " + usage_of(command) + "      ", kColumn, command.text);
+  if (!command.details.empty()) text += "\n" + wrapped("", 0, command.details);
   if (!command.options.empty()) text += "\nOptions\n" + rows(command.options);
   return text;
 }

@@ -28,21 +28,18 @@ std::vector<OptionSpec> running_options() {
        "What to run"},
       {"--set", "ARG=VALUE",
        "set an <arg> of the graph; or, with NAME.PARAM=VALUE, a parameter of the component or hardware NAME, "
-       "whatever "
-       "the graph says",
+       "whatever the graph says",
        true},
       {"--plugins", "FOLDER", "look for plugins here too, after Orca's own", true},
       {"--until", "DURATION", "end after this time of the run's clock, e.g. 60s"},
       {"--seed", "N", "seed of all random streams (default 1)", false, {}, 0},
       {"--fail", "NAME=HOW@TIME",
        "rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or slow "
-       "(each lap "
-       "nine periods late)",
+       "(each lap nine periods late)",
        true},
       {"--change", "GRAPH@TIME",
        "with --clock virtual or --in-process: at this time of the run go over to another graph, as with "
-       "orcactl apply, "
-       "e.g. other.xml@20s",
+       "orcactl apply, e.g. other.xml@20s",
        true},
       {"--clock", "steady|virtual",
        "steady: real time (default); virtual: simulated time, bit-identical for the same seed", false,
@@ -52,17 +49,14 @@ std::vector<OptionSpec> running_options() {
        "the machine of the graph that this is; start the deployer on each of them, in any order"},
       {"--in-process", "",
        "everything in this process, for a debugger, instead of host processes below it; the virtual clock "
-       "always does "
-       "so"},
+       "always does so"},
       {"--hold", "",
        "nothing moves before orcactl estop --release: for a first motion, and for a deployer that a service "
        "starts"},
       {"--watch", "",
        "while you develop: when the plugin of a component is built anew, its code is exchanged while the "
-       "system runs; "
-       "if it fails when it is tried out, the log says why and the old one goes on. A graph that is saved is "
-       "carried "
-       "out like with orcactl apply"},
+       "system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph "
+       "that is saved is carried out like with orcactl apply"},
   };
 }
 
@@ -76,20 +70,17 @@ std::vector<OptionSpec> writing_options() {
        "number"},
       {"--record", "FILE.csv=PORT,...",
        "a table of all objects that a PushServer pushes, a SendProxy sends, or that arrive at another port, "
-       "for a "
-       "spreadsheet or pandas; --list-ports lists the ports; each time with another file",
+       "for a spreadsheet or pandas; --list-ports lists the ports; each time with another file",
        true},
       {"--picture", "FILE", "draws the run, in the end, if it was simulated: .svg or .png"},
       {"--view", "world|robot|film",
        "of the picture: world (default), around the first robot, ahead is up, or key moments: start, "
-       "arrivals, "
-       "contacts, end"},
+       "arrivals, contacts, end"},
       {"--hide", "LAYER,...",
        "of the picture, e.g. sonar,track; layers: walls, track, robot, sonar, laser, motion, marks, places"},
       {"--progress", "",
        "one line on stderr that shows time, who is not well, distance to the goal and the last alarm, and a "
-       "summary in "
-       "the end; by default if stderr is a terminal"},
+       "summary in the end; by default if stderr is a terminal"},
       {"--no-progress", "", "neither of them"},
       {"--stats", "", "in the end, on stderr: what each connection carried, dropped and delivered late"},
       {"--log", "debug|info|warning|error|off",
@@ -101,8 +92,7 @@ std::vector<OptionSpec> other_options() {
   return {
       {"--check", "",
        "only check the graph against the plugins, and what the components say to their parameters, in a "
-       "trial that "
-       "leaves no trace; all errors at once",
+       "trial that leaves no trace; all errors at once",
        false, "Instead of running"},
       {"--print", "", "the graph as it is: files, arguments and profiles merged, defaults filled in, in SI"},
       {"--list-ports", "", "every port of every component: pattern, role, type, and what it is connected to"},
@@ -113,8 +103,7 @@ std::vector<OptionSpec> other_options() {
       {"--types", "", "all types of components and hardware, each with its plugin file"},
       {"--describe", "",
        "ports and parameters, with units, ranges and defaults, of a type such as orca.Goto, or of all types "
-       "of a "
-       "plugin file: --describe PLUGIN.so"},
+       "of a plugin file: --describe PLUGIN.so"},
       {"--schema", "", "the graph's language as an XML schema, for editors"},
       {"--strict", "", "warnings are errors: nothing starts with one", false, "How to check"},
       {"--json", "", "for programs; with --check, --print, --list-ports, --diff, --describe and --types"},

@@ -19,8 +19,8 @@ const OptionSpec kTimeout{"--timeout", "DURATION", "longest wait for the answer 
 
 constexpr std::string_view kSendDetails =
     "XML is the text form of the object, one element named after its type; what is not mentioned keeps its "
-    "default. With - it is read from stdin. The framework stamps the header; an object "
-    "that is sent begins a mission of its own, a question does not.";
+    "default. With - it is read from stdin. The framework stamps the header; an object that is sent begins a "
+    "mission of its own, a question does not.";
 
 constexpr std::string_view kLatencyDetails =
     "The age counts from the moment at which the object was made, by the clock that all processes of the "
@@ -29,41 +29,28 @@ constexpr std::string_view kLatencyDetails =
     "with a line for each way that such data have taken. A component names as the cause of what it sends the "
     "object that it took last. A way that begins with ? goes back to an object that left before orcactl "
     "looked; one without times begins elsewhere. \"--to wheels\" is the port MotionCommandSend, and names "
-    "may "
-    "lack their Push or Send: --from base.odometry.";
+    "may lack their Push or Send: --from base.odometry.";
 
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
-    "deployer's command "
-    "line, and compared with what runs now: what was changed with set and swap counts. Other types of "
-    "components, and "
-    "parameters that cannot change while a component runs, are exchanged like with swap, one after the "
-    "other; then "
-    "all other parameters change between two laps. If a step fails, everything goes back. A process that is "
-    "started again "
-    "begins with the new graph. New components come up before connections are made, removed and given other "
-    "policies; components that the file does not have end at last. What cannot change in a process that "
-    "runs - its "
-    "hardware, its executor, a component that comes from another process, a connection over DDS - is there "
-    "when the "
-    "process begins anew: it ends, and is started with the new graph, while the others run on; components go "
-    "on from "
-    "what their save_state() wrote. The last lines say which processes that concerns. What needs more - "
-    "machines, "
-    "processes on demand - is refused before anything changes.";
+    "deployer's command line, and compared with what runs now: what was changed with set and swap counts. "
+    "Other types of components, and parameters that cannot change while a component runs, are exchanged like "
+    "with swap, one after the other; then all other parameters change between two laps. If a step fails, "
+    "everything goes back. A process that is started again begins with the new graph. New components come up "
+    "before connections are made, removed and given other policies; components that the file does not have "
+    "end at last. What cannot change in a process that runs - its hardware, its executor, a component that "
+    "comes from another process, a connection over DDS - is there when the process begins anew: it ends, and "
+    "is started with the new graph, while the others run on; components go on from what their save_state() "
+    "wrote. The last lines say which processes that concerns. What needs more - machines, processes on "
+    "demand - is refused before anything changes.";
 
 constexpr std::string_view kRewireDetails =
     "The graph with that change is checked as a whole, so that the order is refused if a port that must be "
-    "connected "
-    "would not be. It is carried out between two laps of the components at both ends; no other connection "
-    "notices. An "
-    "object that waits at a port whose connection is removed is dropped, a request that was not answered "
-    "gets an error, "
-    "and what a server has accepted it still handles. A process that is started again has the same "
-    "connections; "
-    "orcactl graph shows the graph with them. Connections over DDS, and those of processes that run on "
-    "demand, cannot "
-    "change while the system runs.";
+    "connected would not be. It is carried out between two laps of the components at both ends; no other "
+    "connection notices. An object that waits at a port whose connection is removed is dropped, a request "
+    "that was not answered gets an error, and what a server has accepted it still handles. A process that is "
+    "started again has the same connections; orcactl graph shows the graph with them. Connections over DDS, "
+    "and those of processes that run on demand, cannot change while the system runs.";
 
 // What a system is and does.
 std::vector<Command> showing_commands() {
@@ -74,8 +61,7 @@ std::vector<Command> showing_commands() {
       {.name = "plugins",
        .text = "the plugin files, and who uses them",
        .details = "A file counts as pinned if it, or a copy of it that was exchanged, stays in memory "
-                  "although nothing uses "
-                  "it: the alarm PLUGIN_PINNED, which was not acknowledged, says why."},
+                  "although nothing uses it: the alarm PLUGIN_PINNED, which was not acknowledged, says why."},
   };
 }
 
@@ -89,13 +75,11 @@ std::vector<Command> port_commands() {
                    {"--field", "NAME",
                     "only this field of each object, as the columns of a recording are named"}},
        .text = "the objects that pass a port, one per line",
-       .details = "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at "
-                  "any other port, "
-                  "when it arrives. Looking makes no component work: one that nobody uses pushes nothing; "
-                  "but one that "
-                  "works and makes something only for whoever takes it makes it for whoever looks. "
-                  "Objects that "
-                  "come faster than they can be printed are left out, and counted on stderr."},
+       .details =
+           "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at any other "
+           "port, when it arrives. Looking makes no component work: one that nobody uses pushes nothing; but "
+           "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
+           "that come faster than they can be printed are left out, and counted on stderr."},
       {.name = "hz",
        .arguments = {kPort},
        .options = {kFor},
@@ -148,8 +132,7 @@ std::vector<Command> history_commands() {
        .watches = true,
        .text = "the alarms that nobody has acknowledged",
        .details = "An alarm stays until it is acknowledged, even if its source has been started again: "
-                  "alarms ack N takes "
-                  "out the one with that number, alarms ack all takes out all."},
+                  "alarms ack N takes out the one with that number, alarms ack all takes out all."},
       {.name = "missions",
        .arguments = {{"MISSION", Names::none, true}},
        .text = "what happened in each mission, in order"},
@@ -163,13 +146,11 @@ std::vector<Command> operating_commands() {
        .options = {{"--release", "", "let the motors obey commands again"}},
        .text = "stop all motors now, and hold them until estop --release",
        .details =
-           "The order goes to each process over its control channel, not over a connection of the "
-           "graph. A held base "
-           "refuses commands to move; a process that is started meanwhile is held, too. After the "
-           "release nothing "
-           "moves before the next command. Both orders are for the whole system: where it runs on several "
-           "machines, each of them is asked, and has a line in the answer; if one does not confirm within "
-           "2 s, the exit status is 1, and the error names it."},
+           "The order goes to each process over its control channel, not over a connection of the graph. A "
+           "held base refuses commands to move; a process that is started meanwhile is held, too. After the "
+           "release nothing moves before the next command. Both orders are for the whole system: where it "
+           "runs on several machines, each of them is asked, and has a line in the answer; if one does not "
+           "confirm within 2 s, the exit status is 1, and the error names it."},
       {.name = "stop",
        .text = "end the system: motors first, then everything else",
        .details = "Processes that go on after their deployer was killed obey this and estop themselves."},
@@ -208,23 +189,16 @@ std::vector<Command> exchanging_commands() {
        .text = "exchange the code of a component, or a driver, while it runs",
        .details =
            "For two seconds, what reaches the component is collected; then the new code is tried with that "
-           "in a "
-           "process of its own, where it can do no harm. "
-           "If it crashes, hangs or fails there, nothing changes, and neither if it cannot be tried out, "
-           "because it "
-           "would write a file, for example. Otherwise the new object is made and "
-           "configured beside the old one, which works on meanwhile. Between two "
-           "laps it takes over the old one's state, ports and subscriptions; nothing that waits in queues is "
-           "lost. "
-           "The order ends when the probation is over and the old code is out of memory. Without TYPE it is "
-           "the type "
-           "that runs; another type is taken if its ports fit, and begins afresh. A process that is started "
-           "again begins with the code of the graph. "
-           "With the name of hardware instead of a component, its driver is exchanged: the base stops and is "
-           "held, the "
-           "device is closed and opened anew, and the old driver is back if the new one is not ready within "
-           "5 s. There "
-           "is no trial and no probation then."},
+           "in a process of its own, where it can do no harm. If it crashes, hangs or fails there, nothing "
+           "changes, and neither if it cannot be tried out, because it would write a file, for example. "
+           "Otherwise the new object is made and configured beside the old one, which works on meanwhile. "
+           "Between two laps it takes over the old one's state, ports and subscriptions; nothing that waits "
+           "in queues is lost. The order ends when the probation is over and the old code is out of memory. "
+           "Without TYPE it is the type that runs; another type is taken if its ports fit, and begins "
+           "afresh. A process that is started again begins with the code of the graph. With the name of "
+           "hardware instead of a component, its driver is exchanged: the base stops and is held, the device "
+           "is closed and opened anew, and the old driver is back if the new one is not ready within 5 s. "
+           "There is no trial and no probation then."},
       {.name = "connect",
        .arguments = {kPort, kPort, {"ATTRIBUTE=VALUE", Names::none, true, true}},
        .text = "make a connection while the system runs, or give it another policy",

@@ -37,18 +37,14 @@ is no result: it is made again. --resume and join refuse results of other plugin
 
 constexpr std::string_view kDiffDetails =
     "It makes the first run that differs again, as both batches did, and watches all that its components "
-    "receive: it "
-    "names the time, the component, the port and the values that differ. Exit status 0: the same, 1: "
-    "different.";
+    "receive: it names the time, the component, the port and the values that differ. Exit status 0: the "
+    "same, 1: different.";
 
 constexpr std::string_view kSubmitDetails =
     "It queues an array with a part of the experiment in each task, and a job that joins them when all have "
-    "ended, and "
-    "shows how far they are. A task that is cut off goes on where it was. Ctrl-C ends the looking on; with "
-    "--resume it "
-    "queues what is missing. sbatch reads its own settings, such as SBATCH_PARTITION; programs, experiment "
-    "and folder "
-    "must be at the same place on all nodes.";
+    "ended, and shows how far they are. A task that is cut off goes on where it was. Ctrl-C ends the looking "
+    "on; with --resume it queues what is missing. sbatch reads its own settings, such as SBATCH_PARTITION; "
+    "programs, experiment and folder must be at the same place on all nodes.";
 
 const apps::Argument kExperiment{"EXPERIMENT.xml", apps::Names::file};
 
