@@ -7,7 +7,9 @@
 namespace orca {
 
 std::string kind_text(idl::AlarmKind kind) {
-  return std::string(EnumReflection<idl::AlarmKind>::names.at(static_cast<std::size_t>(kind)));
+  constexpr auto& kNames = EnumReflection<idl::AlarmKind>::names;
+  const auto index = static_cast<std::size_t>(kind);
+  return index < kNames.size() ? std::string(kNames[index]) : "unknown " + std::to_string(index);
 }
 
 std::string kind_text(const idl::Alarm& alarm) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "all_objects.hpp"
+#include "orca/idl/system.hpp"
 
 using orca::ElementKind;
 using orca::EnumValue;
@@ -98,4 +99,16 @@ TEST_CASE("a sequence can be resized, an array cannot, and both know what their 
   const auto covariance = Fields(pose).as<ListValue>("covariance");
   CHECK(covariance.resize == nullptr);
   CHECK(covariance.size(covariance.list) == 9);
+}
+
+TEST_CASE("the kind of an alarm is a word, whatever number stands there", "[idl][alarm]") {
+  namespace idl = orca::idl;
+  idl::Alarm alarm;
+  alarm.kind(idl::SIGNAL_MASK);
+  CHECK(kind_text(alarm) == "SIGNAL_MASK");
+  alarm.kind(idl::OWN_KIND);
+  alarm.own_kind("GRIPPER_WORN");
+  CHECK(kind_text(alarm) == "GRIPPER_WORN");
+  alarm.kind(static_cast<idl::AlarmKind>(99));
+  CHECK(kind_text(alarm) == "unknown 99");
 }

@@ -11,7 +11,7 @@
 
 namespace orca {
 
-/// Returns the kind of an alarm in capitals: "SIGNAL_MASK", or the name that a component gave to its own.
+/// Returns the kind of an alarm in capitals: "SIGNAL_MASK", the name of a component's own, or "unknown 99" for no kind.
 /// @thread  pure function, as the next; any thread.
 [[nodiscard]] std::string kind_text(const idl::Alarm& alarm);
 [[nodiscard]] std::string kind_text(idl::AlarmKind kind);
