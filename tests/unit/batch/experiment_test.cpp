@@ -96,6 +96,46 @@ TEST_CASE("everything that is wrong with an experiment is reported at once, each
   CHECK_THAT(faults, Contains("error E002: ") && Contains("did you mean \"world\""));
 }
 
+TEST_CASE("an experiment says where robots have to be, and a world may say it instead", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(with(kEnough, R"(<goal x="4.2 m" y="980 cm" radius="0.3 m"/>
+    <goal robot="Huey" place="desk" radius="1 m" heading="90 deg" hold="0.5 s"/>
+    <variant name="a"/>
+    <world name="w"/>
+    <worlds name="n" arg="world" file="f" numbers="1-2"><goal place="goal" radius="2 m"/></worlds>)"),
+                                          "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  const std::vector<Goal>& goals = experiment->goals_of({0, 0, 1});
+  REQUIRE(goals.size() == 2);
+  CHECK(goal_text(goals[0]) == "the robot within 0.3 m of 4.2 9.8");
+  CHECK(goals[0].hold == 0s);
+  CHECK(goals[1].robot == "Huey");
+  CHECK(goals[1].place == "desk");
+  CHECK(goals[1].heading.value() == Approx(1.5708).epsilon(1e-4));
+  CHECK(goals[1].heading_tolerance == Approx(0.34907).epsilon(1e-4));
+  CHECK(goals[1].hold == 500ms);
+  REQUIRE(experiment->worlds.size() == 3);
+  for (const std::size_t world : {1U, 2U}) {
+    REQUIRE(experiment->goals_of({0, world, 1}).size() == 1);
+    CHECK(goal_text(experiment->goals_of({0, world, 1})[0]) == "the robot within 2 m of goal");
+  }
+}
+
+TEST_CASE("a goal has one place, a radius, and a tolerance only of a heading", "[batch]") {
+  const auto faults = [](const std::string& goal) {
+    return faults_of(with(kEnough, "<goal " + goal + "/>" + kVariantAndWorld));
+  };
+  const auto no_place = Contains("error E013: <goal> needs either the name of a place, or x and y");
+  CHECK_THAT(faults("radius=\"1 m\""), no_place);
+  CHECK_THAT(faults("radius=\"1 m\" x=\"1 m\""), no_place);
+  CHECK_THAT(faults("radius=\"1 m\" x=\"1 m\" y=\"1 m\" place=\"goal\""), no_place);
+  CHECK_THAT(faults("place=\"goal\""), Contains("error E004: ") && Contains("radius"));
+  CHECK_THAT(faults("place=\"goal\" radius=\"0 m\""), Contains("error E005: ") && Contains("radius"));
+  CHECK_THAT(faults("place=\"goal\" radius=\"1 m\" heading_tolerance=\"5 deg\""),
+             Contains("error E013: a tolerance needs the heading"));
+}
+
 TEST_CASE("an experiment needs a variant, a world, seeds and a limit of time", "[batch]") {
   CHECK_THAT(faults_of(with(kEnough, "<world name=\"w\"/>")), Contains("needs a <variant>"));
   CHECK_THAT(faults_of(with(kEnough, "<variant name=\"a\"/>")), Contains("needs a <world>"));

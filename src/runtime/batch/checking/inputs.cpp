@@ -38,6 +38,7 @@ std::optional<std::string> content_of(const fs::path& path) {
 std::string hash_of(const World& world, const fs::path& folder) {
   Fnv1a hash;
   for (const Setting& setting : world.settings) hash.add_text(setting.text_from(folder.string()));
+  for (const Goal& goal : world.goals) hash.add_text(goal_text(goal));
   if (world.reference) hash.add_text(xml::number_text(*world.reference));
   return std::to_string(hash.value());
 }

@@ -15,6 +15,11 @@ void add_settings(const std::vector<Setting>& settings, const std::string& folde
   hash.add_text("");
 }
 
+void add_goals(const std::vector<Goal>& goals, Fnv1a& hash) {
+  for (const Goal& goal : goals) hash.add_text(goal_text(goal));
+  hash.add_text("");
+}
+
 }  // namespace
 
 std::string Setting::text_from(const std::string& folder) const {
@@ -28,6 +33,7 @@ std::string identity_of(const Experiment& experiment) {
   hash.add_u64(static_cast<std::uint64_t>(experiment.until.count()));
   const std::string folder = std::filesystem::absolute(experiment.file).lexically_normal().parent_path();
   add_settings(experiment.settings, folder, hash);
+  add_goals(experiment.goals, hash);
   for (const Variant& variant : experiment.variants) {
     hash.add_text(variant.name);
     const Result<std::string> graph = xml::read_bytes(variant.graph);

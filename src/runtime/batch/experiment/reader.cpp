@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -22,8 +23,9 @@ namespace {
 using xml::Attributes;
 
 constexpr std::size_t kMostRuns = 10'000'000;
-constexpr double kDefaultLimit = 300.0;   // [s]
-constexpr double kDefaultMemory = 8.0e9;  // [bytes]
+constexpr double kDefaultLimit = 300.0;                       // [s]
+constexpr double kDefaultMemory = 8.0e9;                      // [bytes]
+constexpr double kDefaultTolerance = std::numbers::pi / 9.0;  // [rad]
 
 class ExperimentReader {
  public:
@@ -38,6 +40,7 @@ class ExperimentReader {
     for (const auto& [element, rule] : attributes.children()) {
       const Attributes child = attributes.of_child(*element, *rule);
       if (rule == &kSetRule) set(child, experiment_.settings);
+      if (rule == &kGoalRule) goal(child, experiment_.goals);
       if (rule == &kVariantRule) variant(child);
       if (rule == &kWorldRule) world(child);
       if (rule == &kWorldsRule) worlds(child);
@@ -78,7 +81,7 @@ class ExperimentReader {
   void world(const Attributes& element) {
     World world{element.name("name").value_or(""), {}, element.element().position()};
     if (element.has("reference")) world.reference = element.number("reference");
-    settings(element, world.settings);
+    parts(element, world.settings, world.goals);
     remember(element, "world", world.name);
     experiment_.worlds.push_back(std::move(world));
   }
@@ -88,11 +91,15 @@ class ExperimentReader {
     const std::string arg = element.text("arg").value_or("");
     const std::string file = path(element.text("file").value_or(""));
     std::vector<Setting> more;
-    settings(element, more);
+    std::vector<Goal> goals;
+    parts(element, more, goals);
     const std::map<std::uint64_t, double> lengths = references(element);
     const xml::Position& position = element.element().position();
     for (const std::uint64_t number : numbers_of_worlds(element, lengths)) {
-      World world{name + "_" + std::to_string(number), more, position};
+      World world{.name = name + "_" + std::to_string(number),
+                  .settings = more,
+                  .position = position,
+                  .goals = goals};
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
       if (const auto length = lengths.find(number); length != lengths.end()) world.reference = length->second;
@@ -122,6 +129,33 @@ class ExperimentReader {
     if (read) return std::move(read).value();
     element.error_at("references", codes::kReferences, read.error().message);
     return {};
+  }
+
+  // Reads what stands in a world.
+  void parts(const Attributes& element, std::vector<Setting>& settings, std::vector<Goal>& goals) {
+    for (const auto& [child, rule] : element.children()) {
+      const Attributes part = element.of_child(*child, *rule);
+      if (rule == &kSetRule) set(part, settings);
+      if (rule == &kGoalRule) goal(part, goals);
+    }
+  }
+
+  void goal(const Attributes& element, std::vector<Goal>& to) {
+    const bool has_position = element.has("x") && element.has("y");
+    if (element.has("place") ? element.has("x") || element.has("y") : !has_position)
+      element.error(codes::kGoalPlace, "<goal> needs either the name of a place, or x and y");
+    if (element.has("heading_tolerance") && !element.has("heading"))
+      element.error_at("heading_tolerance", codes::kGoalPlace,
+                       "a tolerance needs the heading that it is for");
+    Goal goal{.robot = element.text("robot").value_or(""), .place = element.text("place").value_or("")};
+    if (has_position) goal.position = {element.number("x").value_or(0.0), element.number("y").value_or(0.0)};
+    goal.radius = element.number("radius").value_or(0.0);
+    if (element.has("heading")) {
+      goal.heading = element.number("heading");
+      goal.heading_tolerance = element.number_or("heading_tolerance", kDefaultTolerance).value_or(0.0);
+    }
+    goal.hold = element.duration_or("hold", Duration{0}).value_or(Duration{0});
+    to.push_back(std::move(goal));
   }
 
   void settings(const Attributes& element, std::vector<Setting>& to) {
@@ -245,6 +279,11 @@ std::vector<std::string> Experiment::settings_of(const Run& run) const {
        {&settings, &worlds[run.world].settings, &variants[run.variant].settings})
     for (const Setting& setting : *some) texts.push_back(setting.text());
   return texts;
+}
+
+const std::vector<Goal>& Experiment::goals_of(const Run& run) const {
+  const std::vector<Goal>& of_world = worlds[run.world].goals;
+  return of_world.empty() ? goals : of_world;
 }
 
 std::optional<Experiment> read_experiment(const std::string& file, xml::Diagnostics& diagnostics) {

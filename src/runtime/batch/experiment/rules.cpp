@@ -2,6 +2,7 @@
 #include "rules.hpp"
 
 #include <array>
+#include <numbers>
 
 namespace orca::batch {
 namespace {
@@ -11,11 +12,17 @@ using xml::ElementRule;
 using xml::ValueRule;
 
 constexpr double kDay = 86400.0;
+constexpr double kTurn = 2.0 * std::numbers::pi;  // [rad]
 constexpr ValueRule kName{.form = ValueRule::Form::name};
 constexpr ValueRule kSeconds{
     .form = ValueRule::Form::number, .unit = "s", .min = 0.0, .max = kDay, .above_min = true};
+constexpr ValueRule kHold{.form = ValueRule::Form::number, .unit = "s", .min = 0.0, .max = kDay};
 constexpr ValueRule kMetres{
     .form = ValueRule::Form::number, .unit = "m", .min = 0.0, .max = 1e6, .above_min = true};
+constexpr ValueRule kCoordinate{.form = ValueRule::Form::number, .unit = "m", .min = -1e6, .max = 1e6};
+constexpr ValueRule kAngle{.form = ValueRule::Form::number, .unit = "rad", .min = -kTurn, .max = kTurn};
+constexpr ValueRule kTolerance{
+    .form = ValueRule::Form::number, .unit = "rad", .min = 0.0, .max = 0.5 * kTurn, .above_min = true};
 constexpr ValueRule kBytes{.form = ValueRule::Form::number, .unit = "B", .min = 1e8, .max = 1e15};
 
 constexpr std::array kExperiment{
@@ -33,6 +40,15 @@ constexpr std::array kSet{
     AttributeRule{"arg", true, "Argument of the graph, or COMPONENT.PARAM."},
     AttributeRule{"value", false, "Its value."},
     AttributeRule{"file", false, "Instead of value: a file, whose path starts at the experiment's folder."}};
+constexpr std::array kGoal{
+    AttributeRule{"robot", false, "Robot that has to get there; the only one if not given.", kName},
+    AttributeRule{"place", false, "Place of the world, by its name, instead of x and y.", kName},
+    AttributeRule{"x", false, "Place in the world frame.", kCoordinate},
+    AttributeRule{"y", false, "Place in the world frame.", kCoordinate},
+    AttributeRule{"radius", true, "Largest distance of the robot from there.", kMetres},
+    AttributeRule{"heading", false, "Direction that the robot faces there; any if not given.", kAngle},
+    AttributeRule{"heading_tolerance", false, "Largest difference from it; 20 deg if not given.", kTolerance},
+    AttributeRule{"hold", false, "Time that it has to stay there; 0 if not given.", kHold}};
 constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
                               AttributeRule{"graph", false, "Its graph, if it is not that of all."},
                               AttributeRule{"profile", false, "Its profile, if it is not that of all."}};
@@ -53,9 +69,14 @@ constexpr std::array kWorlds{
 constexpr ElementRule kSetRule{
     .name = "set", .attributes = kSet, .text = "Something that is set in the graph."};
 
+constexpr ElementRule kGoalRule{.name = "goal",
+                                .attributes = kGoal,
+                                .text = "Where a robot has to be, by its true pose, for the run to succeed."};
+
 namespace {
 
 constexpr std::array kSettings{&kSetRule};
+constexpr std::array kInWorld{&kSetRule, &kGoalRule};
 
 }  // namespace
 
@@ -65,16 +86,16 @@ constexpr ElementRule kVariantRule{.name = "variant",
                                    .text = "One of the things that are compared."};
 constexpr ElementRule kWorldRule{.name = "world",
                                  .attributes = kWorld,
-                                 .children = kSettings,
+                                 .children = kInWorld,
                                  .text = "A place in which each variant is tried."};
 constexpr ElementRule kWorldsRule{.name = "worlds",
                                   .attributes = kWorlds,
-                                  .children = kSettings,
+                                  .children = kInWorld,
                                   .text = "Many such places, by their numbers in a file."};
 
 namespace {
 
-constexpr std::array kInExperiment{&kSetRule, &kVariantRule, &kWorldRule, &kWorldsRule};
+constexpr std::array kInExperiment{&kSetRule, &kGoalRule, &kVariantRule, &kWorldRule, &kWorldsRule};
 
 }  // namespace
 
@@ -85,7 +106,8 @@ constexpr ElementRule kExperimentRule{.name = "experiment",
 
 namespace {
 
-constexpr std::array kElements{&kExperimentRule, &kSetRule, &kVariantRule, &kWorldRule, &kWorldsRule};
+constexpr std::array kElements{&kExperimentRule, &kSetRule,   &kGoalRule,
+                               &kVariantRule,    &kWorldRule, &kWorldsRule};
 
 }  // namespace
 

@@ -18,6 +18,7 @@ inline constexpr const char* kValueOrFile = "E009";
 inline constexpr const char* kNoGraph = "E010";
 inline constexpr const char* kTooMany = "E011";
 inline constexpr const char* kReferences = "E012";
+inline constexpr const char* kGoalPlace = "E013";
 
 }  // namespace orca::batch::codes
 
@@ -25,6 +26,7 @@ namespace orca::batch {
 
 extern const xml::ElementRule kExperimentRule;
 extern const xml::ElementRule kSetRule;
+extern const xml::ElementRule kGoalRule;
 extern const xml::ElementRule kVariantRule;
 extern const xml::ElementRule kWorldRule;
 extern const xml::ElementRule kWorldsRule;

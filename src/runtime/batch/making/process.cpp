@@ -140,7 +140,8 @@ Outcome RunProcess::outcome(Cost& cost) {
   was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
   std::optional<Outcome> read = read_outcome(text_);
   const bool is_good = read && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
-  return is_good ? *std::move(read) : Outcome{.ending = Ending::crash, .reason = reason_of(status)};
+  return is_good ? *std::move(read)
+                 : Outcome{.ending = Ending::crash, .reason = reason_of(status), .failure = Failure::crash};
 }
 
 }  // namespace orca::batch

@@ -19,9 +19,11 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/batch/referee.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_system.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca::batch {
 namespace {
@@ -77,35 +79,82 @@ void scramble_heap() {
   (void)mmap(nullptr, kMovedBy, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
 }
 
-Ending ending_of(const host::RunResult& result) {
+// Returns what components said of their goals, in the order of the times.
+std::vector<Claim> claims_of(const host::RunResult& result) {
+  std::vector<Claim> claims;
+  for (const idl::Arrived& arrived : result.arrivals)
+    claims.push_back({result.robots.of(arrived.origin()), to_time_point(arrived.creation_time()), true});
+  for (const idl::GoalFailed& failed : result.failures)
+    claims.push_back({result.robots.of(failed.origin()), to_time_point(failed.creation_time()), false});
+  std::ranges::stable_sort(claims, {}, &Claim::time);
+  return claims;
+}
+
+// Returns the judgement of a run without goals: what components say.
+Judgement own_word(const host::RunResult& result) {
+  Judgement judgement{.reached = static_cast<std::uint32_t>(result.arrivals.size()),
+                      .missed = static_cast<std::uint32_t>(result.failures.size())};
+  judgement.claimed = judgement.reached;
+  if (result.outcome == host::RunOutcome::finished && judgement.missed == 0)
+    judgement.done =
+        result.arrivals.empty() ? result.end : to_time_point(result.arrivals.back().creation_time());
+  return judgement;
+}
+
+Result<Judgement> judgement_of(const host::RunResult& result, const std::vector<Goal>& goals) {
+  if (goals.empty()) return own_word(result);
+  return judge_goals(goals, result.scene.value_or(Scene{}), claims_of(result), result.end);
+}
+
+// A component fails, too, if it has given a goal up; that is no crash.
+Ending ending_of(const host::RunResult& result, const Judgement& judgement) {
   if (result.outcome == host::RunOutcome::not_started) return Ending::failed;
   if (!result.contacts.empty()) return Ending::collision;
-  if (!result.failures.empty()) return Ending::goal_failed;
-  if (result.outcome == host::RunOutcome::finished) return Ending::success;
-  return result.outcome == host::RunOutcome::time_is_up ? Ending::time_out : Ending::failed;
+  if (result.outcome == host::RunOutcome::failed && result.failures.empty()) return Ending::failed;
+  if (judgement.done) return Ending::success;
+  if (judgement.missed > 0 || judgement.claimed_wrongly > 0) return Ending::goal_failed;
+  if (result.outcome == host::RunOutcome::time_is_up) return Ending::time_out;
+  return result.outcome == host::RunOutcome::finished ? Ending::goal_failed : Ending::failed;
 }
 
 std::string reason_of(const host::RunResult& result) {
   return result.error ? result.error->text() : result.culprit;
 }
 
-Outcome outcome_of(const host::RunResult& result, const std::optional<double>& reference) {
+void add_scene(const host::RunResult& result, const RunEnd& end, Outcome& outcome) {
+  Measures measures = measure(*result.scene, end);
+  measures.claimed = outcome.measures.claimed;
+  measures.claimed_wrongly = outcome.measures.claimed_wrongly;
+  measures.not_claimed = outcome.measures.not_claimed;
+  outcome.measures = measures;
+  if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
+  outcome.sketch = sketch_of(*result.scene);
+}
+
+Outcome outcome_of(const host::RunResult& result, const std::vector<Goal>& goals,
+                   const std::optional<double>& reference) {
   Outcome outcome;
-  outcome.ending = ending_of(result);
-  if (outcome.ending == Ending::failed) outcome.reason = reason_of(result);
-  const bool arrives = outcome.ending == Ending::success && !result.arrivals.empty();
+  const Result<Judgement> judged = judgement_of(result, goals);
+  const Judgement judgement = judged ? *judged : Judgement{};
+  outcome.ending = judged ? ending_of(result, judgement) : Ending::failed;
+  if (outcome.ending == Ending::failed) {
+    outcome.reason = judged || result.error ? reason_of(result) : judged.error().message;
+    outcome.failure = Failure::crash;
+  }
   RunEnd end{.succeeded = outcome.ending == Ending::success, .end = result.end, .reference = reference};
-  if (arrives) end.end = to_time_point(result.arrivals.back().creation_time());
+  end.lost = judgement.claimed_wrongly > 0;
+  if (end.succeeded) end.end = *judgement.done;
   if (!result.contacts.empty()) end.first_contact = to_time_point(result.contacts.front().stamp());
   outcome.time = to_seconds(end.end - result.start);
-  outcome.goals = static_cast<std::uint32_t>(result.arrivals.size());
-  outcome.failed_goals = static_cast<std::uint32_t>(result.failures.size());
+  outcome.goals = judgement.reached;
+  outcome.failed_goals = judgement.missed;
   outcome.contacts = static_cast<std::uint32_t>(result.contacts.size());
-  if (result.scene) {
-    outcome.measures = measure(*result.scene, end);
-    if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
-    outcome.sketch = sketch_of(*result.scene);
+  outcome.measures.claimed = judgement.claimed;
+  if (!goals.empty()) {
+    outcome.measures.claimed_wrongly = judgement.claimed_wrongly;
+    outcome.measures.not_claimed = judgement.not_claimed;
   }
+  if (result.scene) add_scene(result, end, outcome);
   if (result.trace_hash) outcome.trace_hash = hexadecimal(*result.trace_hash);
   return outcome;
 }
@@ -113,10 +162,12 @@ Outcome outcome_of(const host::RunResult& result, const std::optional<double>& r
 // Hands the outcome over as soon as it is known.
 class Reporter final : public host::RunListener {
  public:
+  /// @param goals      that the run is judged by.
   /// @param reference  [m] of the world.
-  Reporter(int to, const std::optional<double>& reference) : to_(to), reference_(reference) {}
+  Reporter(int to, const std::vector<Goal>& goals, const std::optional<double>& reference)
+      : to_(to), goals_(goals), reference_(reference) {}
   void ended(const host::RunResult& result) override {
-    write_all(to_, to_text(outcome_of(result, reference_)));
+    write_all(to_, to_text(outcome_of(result, goals_, reference_)));
   }
   [[noreturn]] void abandon(const host::RunResult& result) override {
     ended(result);
@@ -125,6 +176,7 @@ class Reporter final : public host::RunListener {
 
  private:
   const int to_;
+  const std::vector<Goal> goals_;
   const std::optional<double> reference_;
 };
 
@@ -172,12 +224,12 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
   const std::optional<graph::Graph> graph =
       graph::load_file(experiment.variants[run.variant].graph, load, catalogue, diagnostics);
   if (!graph) {
-    Outcome outcome{.ending = Ending::failed, .reason = diagnostics.text()};
+    const Outcome outcome{.ending = Ending::failed, .reason = diagnostics.text(), .failure = Failure::crash};
     write_all(plan.to, to_text(outcome));
     _exit(EXIT_SUCCESS);
   }
   if (plan.elsewhere) go_elsewhere();  // not before: relative paths of the graph start at the current folder
-  Reporter reporter(plan.to, experiment.worlds[run.world].reference);
+  Reporter reporter(plan.to, experiment.goals_of(run), experiment.worlds[run.world].reference);
   (void)host::run_system(*graph, catalogue, run_options(experiment, run, options, plan), stop, reporter);
   _exit(EXIT_SUCCESS);
 }

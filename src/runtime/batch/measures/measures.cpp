@@ -27,6 +27,10 @@ constexpr double kHasMoved = 0.1;   // [m]
 constexpr double kBestSpeed = 2.0;  // [m/s]
 
 constexpr std::array kMeasures{
+    Measure{"claimed", "", "Goals that components said were reached.", &Measures::claimed},
+    Measure{"claimed_wrongly", "", "Those that they said while the robot was not there.",
+            &Measures::claimed_wrongly},
+    Measure{"not_claimed", "", "Goals that robots reached and no component said so.", &Measures::not_claimed},
     Measure{"way", "m", "True way of all robots.", &Measures::way},
     Measure{"way_ratio", "", "The way divided by the world's reference; 1 is best.", &Measures::way_ratio},
     Measure{"spl", "", "Success weighted by path length: 1 / way_ratio, at most 1, and 0 without success.",
@@ -41,11 +45,13 @@ constexpr std::array kMeasures{
     Measure{"reversals", "1/m", "Changes between turning left and right, per metre.", &Measures::reversals},
     Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed}};
 
-constexpr std::array<std::pair<Failure, const char*>, 5> kFailures{{{Failure::none, ""},
-                                                                    {Failure::collision, "collision"},
+constexpr std::array<std::pair<Failure, const char*>, 7> kFailures{{{Failure::none, ""},
+                                                                    {Failure::crash, "crash"},
+                                                                    {Failure::contact, "contact"},
+                                                                    {Failure::lost, "lost"},
                                                                     {Failure::trap, "trap"},
                                                                     {Failure::oscillation, "oscillation"},
-                                                                    {Failure::deadline, "deadline"}}};
+                                                                    {Failure::timeout, "timeout"}}};
 
 std::vector<Steps> motions_of(const Scene& scene) {
   std::vector<Steps> motions;
@@ -111,12 +117,13 @@ Measures measure(const Scene& scene, const RunEnd& end) {
 }
 
 Failure failure_in(const Scene& scene, const RunEnd& end) {
-  if (end.first_contact) return Failure::collision;
+  if (end.first_contact) return Failure::contact;
   if (end.succeeded) return Failure::none;
+  if (end.lost) return Failure::lost;
   bool turned = false;
   for (const Steps& steps : motions_of(scene)) {
     const Steps last = since(steps, end.end - kEndOfRun);
-    if (extent_of(last) > kSmallArea) return Failure::deadline;
+    if (extent_of(last) > kSmallArea) return Failure::timeout;
     turned = turned || reversals_in(stretches_of(last)) >= kManyReversals;
   }
   if (motions_of(scene).empty()) return Failure::none;

@@ -70,6 +70,8 @@ Result<VariantResult> result_of(const std::string& name, const Runs& runs) {
   for (const auto& [place, outcome] : runs) {
     ++result.endings[outcome->ending];
     ++result.failures[outcome->failure];
+    if (outcome->measures.claimed_wrongly.value_or(0.0) > 0.0) ++result.claim_wrongly;
+    if (outcome->measures.not_claimed.value_or(0.0) > 0.0) ++result.do_not_claim;
   }
   const Result<Interval> rate = wilson_interval(result.endings[Ending::success], runs.size());
   if (!rate) return rate.error();

@@ -29,6 +29,8 @@ struct VariantResult {
   std::size_t runs = 0;
   std::map<Ending, std::size_t> endings;
   std::map<Failure, std::size_t> failures;
+  std::size_t claim_wrongly = 0;             ///< Runs in which a goal was claimed where the robot was not.
+  std::size_t do_not_claim = 0;              ///< Runs in which a goal that was reached was not claimed.
   Interval success_rate;                     ///< Wilson's, which takes all runs for independent.
   std::map<std::string, Summary> metrics{};  ///< By name; without those that no run has.
 };

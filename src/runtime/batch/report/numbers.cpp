@@ -44,6 +44,18 @@ std::string title_of(const Metric& metric) {
   return metric.unit.empty() ? metric.name : metric.name + " [" + metric.unit + "]";
 }
 
+std::string false_words_of(const VariantResult& variant) {
+  const auto in_runs = [](std::size_t count) {
+    return " in " + std::to_string(count) + (count == 1 ? " run" : " runs");
+  };
+  std::string text;
+  if (variant.claim_wrongly > 0) text = "claims goals wrongly" + in_runs(variant.claim_wrongly);
+  if (variant.do_not_claim > 0)
+    text += (text.empty() ? "" : ", ") + std::string("does not claim goals that it reached") +
+            in_runs(variant.do_not_claim);
+  return text;
+}
+
 std::string line_of(const VariantResult& variant) {
   const Metric& success = *find_metric("success");
   std::string text =
@@ -51,6 +63,7 @@ std::string line_of(const VariantResult& variant) {
       estimate_text(variant.metrics.at("success").mean, success) + " succeed (95 % over worlds and seeds)";
   for (const auto& [ending, count] : variant.endings)
     if (ending != Ending::success) text += ", " + std::to_string(count) + " " + name_of(ending);
+  if (const std::string words = false_words_of(variant); !words.empty()) text += "; " + words;
   return text;
 }
 

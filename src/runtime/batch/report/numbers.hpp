@@ -18,6 +18,9 @@ namespace orca::batch {
 [[nodiscard]] std::string p_text(double p);
 /// Returns "time [s]".
 [[nodiscard]] std::string title_of(const Metric& metric);
+/// Returns what a variant's components said of its goals and was not so, for instance "claims goals wrongly in 3 runs"; empty: all
+/// they said was so.
+[[nodiscard]] std::string false_words_of(const VariantResult& variant);
 /// Returns a line for the terminal on a variant, and one on a difference.
 [[nodiscard]] std::string line_of(const VariantResult& variant);
 [[nodiscard]] std::string line_of(const Difference& difference);

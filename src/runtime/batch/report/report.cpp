@@ -68,7 +68,9 @@ class Writer {
 
   void success() {
     document_.add(Heading{"Success"});
-    Table table{{"variant", "runs", "success (95 % over worlds and seeds)", "95 % (Wilson)", "others"}, {}};
+    Table table{
+        {"variant", "runs", "success (95 % over worlds and seeds)", "95 % (Wilson)", "others", "false words"},
+        {}};
     const Metric& metric = *find_metric("success");
     for (const VariantResult& variant : result_.variants) {
       std::string others;
@@ -79,12 +81,32 @@ class Writer {
                             estimate_text(variant.metrics.at("success").mean, metric),
                             value_text(variant.success_rate.low, metric) + " to " +
                                 value_text(variant.success_rate.high, metric),
-                            others});
+                            others, false_words_of(variant)});
     }
     document_.add(std::move(table));
-    document_.add(Paragraph{
-        "A success reaches all goals and touches nothing. The first interval draws worlds and then seeds "
-        "(hierarchical bootstrap, 10,000 draws); Wilson's takes all runs for independent."});
+    judge();
+    document_.add(
+        Paragraph{"The first interval draws worlds and then seeds "
+                  "(hierarchical bootstrap, 10,000 draws); Wilson's takes all runs for independent."});
+  }
+
+  // Adds who judges, and by which goals.
+  void judge() {
+    const bool own = std::ranges::any_of(experiment_.worlds, [](const World& w) { return !w.goals.empty(); });
+    if (experiment_.goals.empty() && !own) {
+      document_.add(Paragraph{
+          "The experiment declares no goals, so a success is the components' own word: they said that "
+          "all goals were reached, and no robot touched anything."});
+      return;
+    }
+    std::vector<std::string> goals;
+    for (const Goal& goal : experiment_.goals) goals.push_back(goal_text(goal));
+    if (own) goals.emplace_back("some worlds have goals of their own instead");
+    document_.add(
+        Paragraph{"A success reaches all goals of the experiment by the true poses of its robots, whatever "
+                  "components say of "
+                  "them, and touches nothing. Goals: " +
+                  joined(goals, "; ") + "."});
   }
 
   void claims() {

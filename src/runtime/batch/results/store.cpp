@@ -39,7 +39,7 @@ constexpr const char* kSchema = R"(
 constexpr const char* kBetweenFolders = "\n";
 
 // Changes with each change of the tables.
-constexpr std::uint32_t kLayout = 4;
+constexpr std::uint32_t kLayout = 5;
 
 // Returns the schema, with a column for each measure.
 std::string schema() {

@@ -89,7 +89,9 @@ Status Crew::conclude(Running& one, RunProcess::Lateness lateness, const Take& t
   one.process.kill_late(cost);
   if (lateness == RunProcess::Lateness::hang)
     return take(one.task,
-                {.ending = Ending::hang, .reason = "it did not end within the limit of the experiment"},
+                {.ending = Ending::hang,
+                 .reason = "it did not end within the limit of the experiment",
+                 .failure = Failure::crash},
                 cost);
   lose(one.task, kNoProcessor);
   return ok();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/time.hpp"
+#include "orca/batch/referee.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::batch {
@@ -40,6 +41,7 @@ struct World {
   std::vector<Setting> settings;
   xml::Position position;
   std::optional<double> reference{};  ///< [m] Length of the way that a run in it is compared with.
+  std::vector<Goal> goals{};          ///< Instead of those of the experiment; empty: those.
 };
 
 /// One run of an experiment: a variant in a world with a seed.
@@ -54,6 +56,8 @@ struct Experiment {
   std::string name;
   std::string file;               ///< Path.
   std::vector<Setting> settings;  ///< For all runs.
+  std::vector<Goal>
+      goals{};  ///< Of robots, in their order; none: what components say of their own goals counts.
   std::vector<Variant> variants;
   std::vector<World> worlds;
   std::vector<std::uint64_t> seeds;
@@ -72,6 +76,8 @@ struct Experiment {
                                                      std::uint64_t seed) const;
   /// Returns the settings of a run, the more special ones last: of all, of the world, of the variant.
   [[nodiscard]] std::vector<std::string> settings_of(const Run& run) const;
+  /// Returns the goals that a run is judged by.
+  [[nodiscard]] const std::vector<Goal>& goals_of(const Run& run) const;
 };
 
 /// Reads an experiment. It does not look at the graphs.

@@ -15,14 +15,16 @@ struct Scene;
 
 namespace orca::batch {
 
-/// Why a run did not succeed, as far as the motion of its robots shows. The names are those of the table of results, and never
-/// change.
+/// Why a run did not succeed, by the true motion of its robots: the first of these that holds. The names are those of the table of
+/// results, and never change.
 enum class Failure : std::uint8_t {
   none,         ///< It succeeded, or what ended it says nothing of its motion.
-  collision,    ///< A robot touched something.
+  crash,        ///< Its process or a component failed, or did not answer any more.
+  contact,      ///< A robot touched something.
+  lost,         ///< A component claimed a goal while its robot was not there.
   trap,         ///< In the last 20 s no robot left an area of 1 m, and none turned to and fro there.
   oscillation,  ///< No robot left it, and one turned to and fro ten times or more.
-  deadline      ///< A robot was still on its way.
+  timeout       ///< A robot was still on its way.
 };
 
 [[nodiscard]] const char* name_of(Failure failure);
@@ -31,6 +33,9 @@ enum class Failure : std::uint8_t {
 
 /// The motion of the robots of a run, all together. Unknown measures are missing: without a simulated robot all. A plain value.
 struct Measures {
+  std::optional<double> claimed{};
+  std::optional<double> claimed_wrongly{};
+  std::optional<double> not_claimed{};
   std::optional<double> way{};
   std::optional<double> way_ratio{};
   std::optional<double> spl{};
@@ -59,6 +64,7 @@ struct RunEnd {
   bool succeeded = false;
   TimePoint end{};                                 ///< By the run's clock: the last arrival of a success.
   std::optional<TimePoint> first_contact{};        ///< By the same clock.
+  bool lost = false;                               ///< A goal was claimed wrongly.
   std::optional<double> reference = std::nullopt;  ///< [m] Length of the way that the world names.
 };
 

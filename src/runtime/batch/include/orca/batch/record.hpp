@@ -14,7 +14,7 @@ namespace orca::batch {
 enum class Ending : std::uint8_t {
   success,      ///< All goals were reached, and nothing was touched.
   collision,    ///< A robot touched something.
-  goal_failed,  ///< A goal was given up.
+  goal_failed,  ///< A goal was given up, or claimed where the robot was not.
   time_out,     ///< The experiment's time was up before.
   failed,       ///< A component failed, or something did not start.
   crash,        ///< The process of the run died.
@@ -32,7 +32,8 @@ struct Outcome {
   double time =
       0.0;  ///< [s] simulated, from the start to the last arrival of a success, otherwise to the end.
   std::uint32_t goals = 0;  ///< Number that were reached.
-  std::uint32_t failed_goals = 0;
+  std::uint32_t failed_goals =
+      0;  ///< Number that were given up, or claimed wrongly, before they were reached.
   std::uint32_t contacts = 0;
   Failure failure = Failure::none;
   Measures measures{};

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The referee of a batch from outside: what a component claims of its goals is not what the run is worth.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "batches.hpp"
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+constexpr const char* kOfficeGoals = R"(
+  <goal x="4.2 m" y="9.8 m" radius="0.3 m" hold="0.5 s"/>
+  <goal x="9 m" y="2 m" radius="0.3 m" hold="0.5 s"/>
+  <goal x="13 m" y="10.4 m" radius="0.3 m" hold="0.5 s"/>)";
+
+// Runs in the office: an honest robot, one that says that it has arrived from anywhere near, and one that says so at once.
+std::string liars(const TempFolder& folder, const std::string& goals) {
+  return folder.write(
+      "liars.xml",
+      R"(<experiment name="liars" seeds="1-2" until="120 s" metrics="success spl barn_score" graph=")" +
+          source_file("graphs/pioneer_laser_goto.xml") + "\">" + goals + R"(
+  <variant name="honest"/>
+  <variant name="vague"><set arg="command.reach_radius" value="9.9 m"/></variant>
+  <variant name="at_once"><set arg="command.reach_radius" value="1000 m"/></variant>
+  <world name="office" reference="45 m"/>
+</experiment>)");
+}
+
+// The rows of a table by the names of its columns.
+using Rows = std::vector<std::map<std::string, std::string>>;
+Rows rows_of(const std::string& table) {
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> found;
+    std::istringstream words(line);
+    for (std::string cell; std::getline(words, cell, ',');) found.push_back(cell);
+    return found;
+  };
+  const std::vector<std::string> lines = split_lines(table);
+  const std::vector<std::string> names = cells(lines.at(0));
+  Rows rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> values = cells(lines[i]);
+    auto& row = rows.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = k < values.size() ? values[k] : "";
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("a variant that claims success where it is not scores nothing, and is named", "[system][batch]") {
+  const TempFolder folder;
+  const Run run = run_simbatch({liars(folder, kOfficeGoals), "--out", folder.file("out")});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("honest: 2 runs, 100.0 %"));
+  CHECK_THAT(run.out, !Contains("honest claims"));
+  for (const std::string liar : {"vague", "at_once"}) {
+    CHECK_THAT(run.out, Contains(liar + ": 2 runs, 0.0 %"));
+    CHECK_THAT(run.out, Contains("2 goal_failed; claims goals wrongly in 2 runs"));
+  }
+  for (const auto& row : rows_of(exported(folder.file("out")))) {
+    INFO(row.at("variant"));
+    const bool honest = row.at("variant") == "honest";
+    CHECK(row.at("ending") == (honest ? "success" : "goal_failed"));
+    CHECK(row.at("failure") == (honest ? "" : "lost"));
+    CHECK(row.at("claimed") == "3");
+    CHECK((row.at("claimed_wrongly") == "0") == honest);
+    CHECK((std::stod(row.at("barn_score")) > 0.0) == honest);
+    CHECK((std::stod(row.at("spl")) > 0.0) == honest);
+  }
+  CHECK_THAT(text_in(folder.file("out") + "/report.md"),
+             Contains("| claims goals wrongly in 2 runs |") &&
+                 Contains("the robot within 0.3 m of 4.2 9.8, for 0.5 s"));
+}
+
+TEST_CASE("without goals the components' own word counts, and the report says so", "[system][batch]") {
+  const TempFolder folder;
+  const Run run = run_simbatch({liars(folder, ""), "--out", folder.file("out")});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("at_once: 2 runs, 100.0 %"));
+  CHECK_THAT(text_in(folder.file("out") + "/report.md"), Contains("a success is the components' own word"));
+}
+
+TEST_CASE("a goal that no robot or place can meet is said with what there is", "[system][batch]") {
+  const TempFolder folder;
+  const Run run =
+      run_simbatch({liars(folder, "<goal place=\"cellar\" radius=\"0.3 m\"/>"), "--out", folder.file("out")});
+  INFO(run.err);
+  CHECK_THAT(run.out, Contains("honest: 2 runs, 0.0 %") && Contains("2 failed"));
+  CHECK_THAT(
+      text_in(folder.file("out") + "/runs.csv"),
+      Contains("a goal is at the place \"\"cellar\"\", which this world does not have; it has: start,"));
+}
