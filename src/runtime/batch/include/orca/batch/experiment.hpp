@@ -56,8 +56,7 @@ struct Experiment {
   std::string name;
   std::string file;               ///< Path.
   std::vector<Setting> settings;  ///< For all runs.
-  std::vector<Goal>
-      goals{};  ///< Of robots, in their order; none: what components say of their own goals counts.
+  std::vector<Goal> goals{};      ///< Each robot's in their order; none: components' own word counts.
   std::vector<Variant> variants;
   std::vector<World> worlds;
   std::vector<std::uint64_t> seeds;
