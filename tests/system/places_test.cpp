@@ -57,6 +57,27 @@ TEST_CASE("a route by places passes them, in a world of rooms", "[system][places
   CHECK(is_near(run.arrivals()[1], 17.0, 6.0));
 }
 
+TEST_CASE("a robot without a map knows from where it starts", "[system][places]") {
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--profile", "sim",
+                                     "--profile", "odometry", "--set", "realism=ideal", "--set",
+                                     "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"} +
+                               virtual_clock());
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 0);
+  REQUIRE(run.arrivals().size() == 1);
+  CHECK(is_near(run.arrivals()[0], 4.2, 9.8));
+}
+
+TEST_CASE("a start that is no place of the world is refused", "[system][places]") {
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--profile", "sim",
+                                     "--profile", "odometry", "--set", "localizer.start_place=dock"} +
+                               virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == kRefusedByComponent);
+  CHECK(run.says("\"dock\""));
+  CHECK(run.says("start_place"));
+}
+
 TEST_CASE("the robot drives to the place of a drawn world", "[system][places]") {
   for (const char* seed : {"1", "3"}) {
     const Run run =

@@ -8,7 +8,9 @@
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/odometry_trust.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
 
 namespace {
 
@@ -26,6 +28,27 @@ class OdometryLocalizer final : public orca::Component {
  private:
   orca::Status configure() override {
     lap_on("odometry");
+    return start_place_->empty() ? orca::ok() : find_start();
+  }
+
+  // Asks where the place is at which the robot starts.
+  orca::Status find_start() {
+    if (!places_.connected())
+      return start_place_.refuse(orca::fail(orca::Code::failed_precondition,
+                                            "nobody says where that place is: connect the port \"places\" to "
+                                            "a PlaceServer, or set start_x, start_y "
+                                            "and start_yaw instead"));
+    auto question = places_.loan();
+    question->about() = *start_place_;
+    const auto answer = places_.query(std::move(question));
+    if (!answer && answer.error().code == orca::Code::not_found) return start_place_.refuse(answer.error());
+    if (!answer)
+      return orca::fail(answer.error().code,
+                        "cannot ask where its start_place is: " + answer.error().message +
+                            "; let it come up after the PlaceServer, with start_after");
+    const orca::idl::GoalPoint& place = **answer;
+    start_ = {place.coordinate().point().x(), place.coordinate().point().y(),
+              place.orientation().orientation().yaw()};
     return orca::ok();
   }
 
@@ -103,7 +126,7 @@ class OdometryLocalizer final : public orca::Component {
   orca::OdometryTrust trust_;
   orca::SenderLife base_;
   bool lost_ = false;
-  std::optional<orca::Pose2> start_;  // as somebody has said since; nothing: as the parameters say
+  std::optional<orca::Pose2> start_;  // as somebody has said; nothing: as the parameters say
   orca::SendServer<RobotPose> where_{
       *this,
       "RobotPoseSend",
@@ -113,6 +136,17 @@ class OdometryLocalizer final : public orca::Component {
       *this, "odometry", {.text = "Odometry of the base, from the robot's start on."}};
   orca::PushServer<RobotPose> poses_{
       *this, "RobotPosePush", {.text = "Pose of the robot in the frame of the world, once per lap."}};
+  orca::QueryProxy<orca::idl::Ask, orca::idl::GoalPoint> places_{
+      *this,
+      "places",
+      {.text = "Asked once, before the start, where the place is at which the robot starts: a PlaceServer.",
+       .optional = true}};
+  orca::Param<std::string> start_place_{
+      *this,
+      "start_place",
+      "",
+      {.fixed = true,
+       .text = "Place at which the robot starts, by its name, instead of the start that the numbers give."}};
   orca::Param<double> start_x_{
       *this, "start_x", 0.0, {.unit = "m", .text = "Start of the robot in the world."}};
   orca::Param<double> start_y_{

@@ -96,6 +96,20 @@ TEST_CASE("everything that is wrong with an experiment is reported at once, each
   CHECK_THAT(faults, Contains("error E002: ") && Contains("did you mean \"world\""));
 }
 
+TEST_CASE("a variant has the profiles of the experiment, merged in their order, or its own", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment =
+      read_experiment(with(std::string(kEnough) + " profile=\"sim odometry\"",
+                           "<variant name=\"a\"/><variant name=\"b\" profile=\"sim\"/><variant name=\"c\" "
+                           "profile=\"\"/><world name=\"w\"/>"),
+                      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  CHECK(experiment->variants[0].profiles == std::vector<std::string>{"sim", "odometry"});
+  CHECK(experiment->variants[1].profiles == std::vector<std::string>{"sim"});
+  CHECK(experiment->variants[2].profiles.empty());
+}
+
 TEST_CASE("an experiment says where robots have to be, and a world may say it instead", "[batch]") {
   xml::Diagnostics diagnostics;
   const auto experiment = read_experiment(with(kEnough, R"(<goal x="4.2 m" y="980 cm" radius="0.3 m"/>

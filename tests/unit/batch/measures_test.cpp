@@ -125,7 +125,7 @@ TEST_CASE("the speed before the first contact is that of the impact", "[batch][m
 
 TEST_CASE("a run that did not succeed was stuck, went to and fro, or was on its way", "[batch][measures]") {
   const RunEnd end{.end = at(60.0)};
-  CHECK(failure_in(straight(60.0, 0.5), end) == Failure::timeout);
+  CHECK(failure_in(straight(60.0, 0.5), end) == Failure::time_out);
   const auto stops = [](double t) { return t < 30.0 ? 0.5 : 0.0; };
   CHECK(failure_in(driven(60.0, stops, [](double) { return 0.0; }), end) == Failure::trap);
   const auto to_and_fro = [](double t) { return static_cast<int>(t + 0.01) % 2 == 0 ? 0.5 : -0.5; };

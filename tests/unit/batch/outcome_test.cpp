@@ -41,12 +41,12 @@ TEST_CASE("an outcome that was cut off anywhere is none", "[batch]") {
 }
 
 TEST_CASE("endings have names that read back", "[batch]") {
-  for (const Ending ending : {Ending::success, Ending::collision, Ending::goal_failed, Ending::time_out,
+  for (const Ending ending : {Ending::success, Ending::contact, Ending::goal_failed, Ending::time_out,
                               Ending::failed, Ending::crash, Ending::hang})
     CHECK(ending_of(name_of(ending)) == ending);
   CHECK_FALSE(ending_of("good"));
   for (const Failure failure : {Failure::none, Failure::crash, Failure::contact, Failure::lost, Failure::trap,
-                                Failure::oscillation, Failure::timeout})
+                                Failure::oscillation, Failure::time_out})
     CHECK(failure_of(name_of(failure)) == failure);
   CHECK_FALSE(failure_of("bad luck"));
 }

@@ -23,8 +23,7 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       if (watch) watch(world * experiment.variants.size() + variant, all);
       host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
       graph::LoadOptions load;
-      if (const std::string& profile = experiment.variants[variant].profile; !profile.empty())
-        load.profiles = {profile};
+      load.profiles = experiment.variants[variant].profiles;
       load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});
       load.try_components = true;
       load.any_link = true;

@@ -38,7 +38,8 @@ std::string identity_of(const Experiment& experiment) {
     hash.add_text(variant.name);
     const Result<std::string> graph = xml::read_bytes(variant.graph);
     hash.add_text(graph ? *graph : variant.graph);
-    hash.add_text(variant.profile);
+    for (const std::string& profile : variant.profiles) hash.add_text(profile);
+    hash.add_text("");
     add_settings(variant.settings, folder, hash);
   }
   return std::to_string(hash.value());

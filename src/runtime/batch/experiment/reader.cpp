@@ -27,6 +27,11 @@ constexpr double kDefaultLimit = 300.0;                       // [s]
 constexpr double kDefaultMemory = 8.0e9;                      // [bytes]
 constexpr double kDefaultTolerance = std::numbers::pi / 9.0;  // [rad]
 
+std::vector<std::string> words_of(const std::string& text) {
+  const std::vector<std::string_view> words = xml::words(text);
+  return {words.begin(), words.end()};
+}
+
 class ExperimentReader {
  public:
   ExperimentReader(const std::string& file, xml::Reporter& reporter)
@@ -57,7 +62,7 @@ class ExperimentReader {
       experiment.error_at("version", codes::kBadValue,
                           "version " + in_quotes(*version) + " is not known; the only one is \"1\"");
     if (experiment.has("graph")) graph_ = path(experiment.text("graph").value_or(""));
-    profile_ = experiment.text("profile").value_or("");
+    profiles_ = words_of(experiment.text("profile").value_or(""));
     experiment_.seeds = numbers(experiment, "seeds");
     experiment_.metrics = metrics(experiment);
     experiment_.until = experiment.duration("until").value_or(Duration{0});
@@ -67,8 +72,8 @@ class ExperimentReader {
   }
 
   void variant(const Attributes& element) {
-    Variant variant{element.name("name").value_or(""), graph_, {}, element.element().position(), profile_};
-    if (element.has("profile")) variant.profile = element.text("profile").value_or("");
+    Variant variant{element.name("name").value_or(""), graph_, {}, element.element().position(), profiles_};
+    if (element.has("profile")) variant.profiles = words_of(element.text("profile").value_or(""));
     if (element.has("graph")) variant.graph = path(element.text("graph").value_or(""));
     if (variant.graph.empty())
       element.error(codes::kNoGraph, "variant " + in_quotes(variant.name) +
@@ -229,8 +234,8 @@ class ExperimentReader {
   const std::filesystem::path folder_;
   xml::Reporter& reporter_;
   Experiment experiment_;
-  std::string graph_;    // of variants that name none
-  std::string profile_;  // likewise
+  std::string graph_;                  // of variants that name none
+  std::vector<std::string> profiles_;  // likewise
   std::map<std::pair<std::string, std::string>, xml::Position> names_;
 };
 

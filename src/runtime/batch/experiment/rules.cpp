@@ -30,7 +30,8 @@ constexpr std::array kExperiment{
     AttributeRule{"version", false, "Version of the format; the only one is 1."},
     AttributeRule{"graph", false, "Graph of all variants that name none themselves."},
     AttributeRule{"profile", false,
-                  "Profile of the graph, as with deployer --profile; its default_profile if not given."},
+                  "Profiles of the graph, as with deployer --profile, merged in this order; its "
+                  "default_profile if not given."},
     AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
     AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
     AttributeRule{"metrics", false, "In which variants are compared; \"success time\" if not given."},
@@ -51,7 +52,7 @@ constexpr std::array kGoal{
     AttributeRule{"hold", false, "Time that it has to stay there; 0 if not given.", kHold}};
 constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
                               AttributeRule{"graph", false, "Its graph, if it is not that of all."},
-                              AttributeRule{"profile", false, "Its profile, if it is not that of all."}};
+                              AttributeRule{"profile", false, "Its profiles, if they are not those of all."}};
 constexpr std::array kWorld{
     AttributeRule{"name", true, "Name of the world.", kName},
     AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres}};

@@ -109,7 +109,7 @@ Result<Judgement> judgement_of(const host::RunResult& result, const std::vector<
 // A component fails, too, if it has given a goal up; that is no crash.
 Ending ending_of(const host::RunResult& result, const Judgement& judgement) {
   if (result.outcome == host::RunOutcome::not_started) return Ending::failed;
-  if (!result.contacts.empty()) return Ending::collision;
+  if (!result.contacts.empty()) return Ending::contact;
   if (result.outcome == host::RunOutcome::failed && result.failures.empty()) return Ending::failed;
   if (judgement.done) return Ending::success;
   if (judgement.missed > 0 || judgement.claimed_wrongly > 0) return Ending::goal_failed;
@@ -216,8 +216,7 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
   host::StopSignal stop(EXIT_SUCCESS, EXIT_FAILURE, host::StopSignal::Terminal::ignored);
   host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
   graph::LoadOptions load;
-  if (const std::string& profile = experiment.variants[run.variant].profile; !profile.empty())
-    load.profiles = {profile};
+  load.profiles = experiment.variants[run.variant].profiles;
   load.settings = experiment.settings_of(run);
   load.any_link = true;
   xml::Diagnostics diagnostics;

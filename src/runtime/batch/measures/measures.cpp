@@ -51,7 +51,7 @@ constexpr std::array<std::pair<Failure, const char*>, 7> kFailures{{{Failure::no
                                                                     {Failure::lost, "lost"},
                                                                     {Failure::trap, "trap"},
                                                                     {Failure::oscillation, "oscillation"},
-                                                                    {Failure::timeout, "timeout"}}};
+                                                                    {Failure::time_out, "time_out"}}};
 
 std::vector<Steps> motions_of(const Scene& scene) {
   std::vector<Steps> motions;
@@ -123,7 +123,7 @@ Failure failure_in(const Scene& scene, const RunEnd& end) {
   bool turned = false;
   for (const Steps& steps : motions_of(scene)) {
     const Steps last = since(steps, end.end - kEndOfRun);
-    if (extent_of(last) > kSmallArea) return Failure::timeout;
+    if (extent_of(last) > kSmallArea) return Failure::time_out;
     turned = turned || reversals_in(stretches_of(last)) >= kManyReversals;
   }
   if (motions_of(scene).empty()) return Failure::none;

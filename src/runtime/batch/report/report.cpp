@@ -20,8 +20,9 @@ constexpr std::size_t kShownWorlds = 6;
 constexpr std::size_t kListedWorlds = 12;  // as many as a reader looks at one by one
 constexpr std::size_t kShownFailures = 3;  // of a variant and kind
 
-std::string settings_text(const std::vector<Setting>& settings, const std::string& profile = "") {
-  std::string text = profile.empty() ? "" : "profile " + profile;
+std::string settings_text(const std::vector<Setting>& settings,
+                          const std::vector<std::string>& profiles = {}) {
+  std::string text = profiles.empty() ? "" : "profile " + joined(profiles, " ");
   for (const Setting& setting : settings) text += (text.empty() ? "" : ", ") + setting.text();
   return text;
 }
@@ -54,7 +55,7 @@ class Writer {
         "simulator: they belong beside others of the same simulator, not beside those of another one."});
     Table table{{"variant", "graph", "settings"}, {}};
     for (const Variant& variant : experiment_.variants)
-      table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings, variant.profile)});
+      table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings, variant.profiles)});
     document_.add(std::move(table));
     for (const RepeatRow& row : store_.repeats())
       if (!row.repeat.difference.empty())
@@ -326,11 +327,11 @@ class Writer {
 }  // namespace
 
 std::string replay_command(const Experiment& experiment, const Run& run) {
-  const std::string& profile = experiment.variants[run.variant].profile;
-  std::string text = "deployer " + in_shell_quotes(experiment.variants[run.variant].graph) +
-                     (profile.empty() ? "" : " --profile " + in_shell_quotes(profile)) +
-                     " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
-                     in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
+  const Variant& variant = experiment.variants[run.variant];
+  std::string text = "deployer " + in_shell_quotes(variant.graph);
+  for (const std::string& profile : variant.profiles) text += " --profile " + in_shell_quotes(profile);
+  text += " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
+          in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
   for (const std::string& setting : experiment.settings_of(run)) text += " --set " + in_shell_quotes(setting);
   return text;
 }

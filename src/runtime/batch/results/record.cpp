@@ -15,7 +15,7 @@ namespace orca::batch {
 namespace {
 
 constexpr std::array<std::pair<Ending, const char*>, 7> kEndings{{{Ending::success, "success"},
-                                                                  {Ending::collision, "collision"},
+                                                                  {Ending::contact, "contact"},
                                                                   {Ending::goal_failed, "goal_failed"},
                                                                   {Ending::time_out, "time_out"},
                                                                   {Ending::failed, "failed"},

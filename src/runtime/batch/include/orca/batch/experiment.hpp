@@ -32,7 +32,8 @@ struct Variant {
   std::string graph;  ///< Path.
   std::vector<Setting> settings;
   xml::Position position;
-  std::string profile{};  ///< The graph's; empty: its default_profile.
+  std::vector<std::string>
+      profiles{};  ///< The graph's, in the order in which they are merged; none: its default_profile.
 };
 
 /// One of the places in which each variant is tried.

@@ -24,7 +24,7 @@ enum class Failure : std::uint8_t {
   lost,         ///< A component claimed a goal while its robot was not there.
   trap,         ///< In the last 20 s no robot left an area of 1 m, and none turned to and fro there.
   oscillation,  ///< No robot left it, and one turned to and fro ten times or more.
-  timeout       ///< A robot was still on its way.
+  time_out      ///< A robot was still on its way.
 };
 
 [[nodiscard]] const char* name_of(Failure failure);

@@ -13,7 +13,7 @@ namespace orca::batch {
 /// The end of a run. The names are those of the table of results, and never change.
 enum class Ending : std::uint8_t {
   success,      ///< All goals were reached, and nothing was touched.
-  collision,    ///< A robot touched something.
+  contact,      ///< A robot touched something.
   goal_failed,  ///< A goal was given up, or claimed where the robot was not.
   time_out,     ///< The experiment's time was up before.
   failed,       ///< A component failed, or something did not start.
