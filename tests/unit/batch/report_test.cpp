@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "approval.hpp"
-#include "orca/batch/statistics/rate.hpp"
-#include "orca/batch/statistics/wilcoxon.hpp"
 #include "orca/xml/document.hpp"
 #include "report/comparison.hpp"
 #include "report/document.hpp"
@@ -34,6 +34,14 @@ void add(std::vector<Row>& rows, const std::string& variant, int failures, doubl
     row.outcome.sketch = {"0.00 0.00,1.00 0.50", fails ? "0.50 0.25" : "",
                           "-1.00 -1.00,3.00 -1.00,3.00 2.00"};
     rows.push_back(row);
+  }
+}
+
+// Makes one world with twenty seeds of the twenty worlds.
+void move_into_one_world(std::vector<Row>& rows) {
+  for (Row& row : rows) {
+    row.seed = std::stoull(row.world.substr(1));
+    row.world = "w10";
   }
 }
 
@@ -104,30 +112,66 @@ TEST_CASE("times are compared where both succeed, by the means of worlds", "[bat
   const auto result = compare(rows, {"success", "time"});
   REQUIRE(result);
   const Difference& time = in(*result, "time");
-  CHECK(time.pairs == 15);
-  CHECK(time.by_worlds);
-  CHECK(time.difference.value == Approx(-10.0));
+  CHECK(time.finding.runs == 15);
+  CHECK(time.finding.scope.worlds == 15);
+  CHECK(time.finding.difference.value == Approx(-10.0));
   CHECK(time.improvement == 1.0);
   CHECK(time.verdict.established());
-  const std::vector<double> differences(15, -10.0);
-  CHECK(time.p == Approx(2.0 * wilcoxon(differences)->p));  // the smaller of two tests, by Holm
-  CHECK(result->variants[0].success_rate == wilson_interval(18, 20).value());
+  CHECK(time.finding.p == Approx(std::ldexp(1.0, -14)));  // two of the 2^15 choices of signs
+  CHECK(time.adjusted_p == 2.0 * time.finding.p);         // the smaller of two tests, by Holm
   CHECK(result->variants[0].metrics.at("time").runs == 18);
   CHECK(result->matrix.at({"slow", "w12"}) == std::pair<std::size_t, std::size_t>(0, 1));
 }
 
-TEST_CASE("with few worlds runs are compared, and the report says so", "[batch][report]") {
+TEST_CASE("in one world runs are compared, and the claim is about this world", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad", 0, 50.0);
   add(rows, "good", 0, 60.0);
-  for (Row& row : rows) {
-    row.seed = std::stoull(row.world.substr(1));
-    row.world = "w10";
-  }
+  move_into_one_world(rows);
+  const Report report = report_on(rows);
+  CHECK_THAT(report.markdown, Contains("(sign flips, 20 runs)") && !Contains("worlds)"));
+  CHECK_THAT(report.summary,
+             Contains("20 runs, 100.0 % (83.9 % to 100.0 %) succeed (95 % over seeds, in this world)"));
+  CHECK_THAT(report.summary,
+             Contains("time [s]: -10.0 (-10.0 to -10.0), difference established in this world"));
+}
+
+TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "fast", 0, 50.0);
+  add(rows, "slow", 0, 60.0);
+  move_into_one_world(rows);
+  for (Row& row : rows) row.outcome.trace_hash = row.variant;  // as without errors
+  const auto same = compare(rows, {"success", "time"});
+  REQUIRE(same);
+  CHECK(in(*same, "time").finding.runs == 1);
+  CHECK_FALSE(in(*same, "time").verdict.established());
+  CHECK(same->variants[0].runs == 1);
+  CHECK(same->matrix.at({"fast", "w10"}) == std::pair<std::size_t, std::size_t>(1, 1));
+  for (const std::string& text : {report_on(rows).summary, report_on(rows).markdown})
+    CHECK_THAT(text, Contains("20 seeds gave 1 run in world w10: without errors a seed changes nothing"));
+  CHECK_THAT(report_on(rows).summary,
+             Contains("time [s]: -10.0 (of one), not established: too few runs (1 of each"));
+  CHECK_THAT(report_on(rows).summary, Contains("fast: 1 run, 100.0 % (0.0 % to 100.0 %)"));
+}
+
+TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "fixed", 0, 50.0);
+  add(rows, "noisy", 0, 60.0);
+  move_into_one_world(rows);
+  for (Row& row : rows)
+    row.outcome.trace_hash = row.variant == "fixed" ? "f" : "n" + std::to_string(row.seed / 2);
   const auto result = compare(rows, {"time"});
   REQUIRE(result);
-  CHECK_FALSE(in(*result, "time").by_worlds);
-  CHECK_THAT(report_on(rows).markdown, Contains("(runs)") && !Contains("(worlds)"));
+  CHECK(in(*result, "time").finding.runs == 10);
+  CHECK(result->variants[0].runs == 1);
+  CHECK(result->variants[1].runs == 10);
+  REQUIRE(result->same_runs.size() == 2);
+  CHECK(line_of(result->same_runs[0], 2) ==
+        "20 seeds gave 1 run of fixed in world w10: without errors a seed changes nothing");
+  CHECK(line_of(result->same_runs[1], 2) ==
+        "20 seeds gave 10 runs of noisy in world w10: the other seeds repeat these");
 }
 
 TEST_CASE("a metric that there is not is refused", "[batch][report]") {
@@ -246,8 +290,7 @@ TEST_CASE("where there are few worlds each shows how far its seeds are apart", "
   std::vector<Row> rows;
   add(rows, "bad", 0, 20.0);
   CHECK_THAT(report_on(rows).markdown, !Contains("world: time"));  // twenty worlds
-  for (Row& row : rows) row.seed = std::stoull(row.world.substr(1));
-  for (Row& row : rows) row.world = "w10";
+  move_into_one_world(rows);
   CHECK_THAT(report_on(rows).markdown,
              Contains("| world: time [s] | bad |\n| --- | --- |\n| w10 | 21.9 (21.0 to 22.9) |"));
 }

@@ -4,20 +4,30 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "orca/batch/statistics/holm.hpp"
-#include "orca/batch/statistics/mcnemar.hpp"
-#include "orca/batch/statistics/rate.hpp"
 #include "orca/batch/statistics/summary.hpp"
-#include "orca/batch/statistics/wilcoxon.hpp"
 
 namespace orca::batch {
 namespace {
 
+constexpr Interval kShares{0.0, 1.0};
+
 using Values = std::vector<std::vector<double>>;                               // by world
 using Runs = std::map<std::pair<std::string, std::uint64_t>, const Outcome*>;  // by world and seed
 using RunsOfVariants = std::map<std::string, Runs>;
+
+// Returns the runs without those that repeat an earlier seed of their world: they say nothing new.
+Runs distinct(const Runs& runs) {
+  std::set<std::pair<std::string, std::string>> seen;  // worlds and trace hashes
+  Runs some;
+  for (const auto& [place, outcome] : runs)
+    if (outcome->trace_hash.empty() || seen.emplace(place.first, outcome->trace_hash).second)
+      some.emplace(place, outcome);
+  return some;
+}
 
 Values values_of(const Runs& runs, const Metric& metric) {
   std::map<std::string, std::vector<double>> worlds;
@@ -31,14 +41,19 @@ Values values_of(const Runs& runs, const Metric& metric) {
 // The values of two variants at the places where both have one.
 struct Paired {
   Values first, second;
-  std::vector<double> all_first, all_second;
 };
 
+// A place is left out where both variants repeat what they did in that world with an earlier seed.
 Paired paired(const Runs& some, const Runs& others, const Metric& metric) {
+  std::set<std::tuple<std::string, std::string, std::string>> seen;  // worlds and both trace hashes
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> worlds;
   for (const auto& [place, outcome] : some) {
     const auto other = others.find(place);
     if (other == others.end()) continue;
+    const std::string& one_hash = outcome->trace_hash;
+    const std::string& other_hash = other->second->trace_hash;
+    const bool is_known = !one_hash.empty() && !other_hash.empty();
+    if (is_known && !seen.emplace(place.first, one_hash, other_hash).second) continue;
     const std::optional<double> one = metric.of(*outcome);
     const std::optional<double> two = metric.of(*other->second);
     if (!one || !two) continue;
@@ -47,67 +62,41 @@ Paired paired(const Runs& some, const Runs& others, const Metric& metric) {
   }
   Paired pairs;
   for (auto& [world, values] : worlds) {
-    std::ranges::copy(values.first, std::back_inserter(pairs.all_first));
-    std::ranges::copy(values.second, std::back_inserter(pairs.all_second));
     pairs.first.push_back(std::move(values.first));
     pairs.second.push_back(std::move(values.second));
   }
   return pairs;
 }
 
-Result<Summary> summary_of(const Values& values) {
+Result<Summary> summary_of(const Values& values, const Metric& metric) {
   std::vector<double> all;
   for (const std::vector<double>& of_world : values) std::ranges::copy(of_world, std::back_inserter(all));
-  Result<Estimate> mean = bootstrap_mean(values);
-  if (!mean) return mean.error();
+  const Result<Sample> sample = sample_of(values);
+  if (!sample) return sample.error();
+  const Result<Estimate> mean =
+      metric.is_success() ? estimate_share(sample->values, kShares) : estimate_mean(sample->values);
   const Result<double> middle = interquartile_mean(all);
-  if (!middle) return middle.error();
-  return Summary{all.size(), *mean, *middle};
+  if (!mean || !middle) return (mean ? middle.error() : mean.error());
+  return Summary{all.size(), sample->scope, *mean, *middle};
 }
 
-Result<VariantResult> result_of(const std::string& name, const Runs& runs) {
-  VariantResult result{.name = name, .runs = runs.size(), .endings = {}, .failures = {}, .success_rate = {}};
+Result<VariantResult> result_of(const std::string& name, const Runs& made) {
+  const Runs runs = distinct(made);
+  VariantResult result{.name = name, .runs = runs.size(), .endings = {}, .failures = {}};
   for (const auto& [place, outcome] : runs) {
     ++result.endings[outcome->ending];
     ++result.failures[outcome->failure];
     if (outcome->measures.claimed_wrongly.value_or(0.0) > 0.0) ++result.claim_wrongly;
     if (outcome->measures.not_claimed.value_or(0.0) > 0.0) ++result.do_not_claim;
   }
-  const Result<Interval> rate = wilson_interval(result.endings[Ending::success], runs.size());
-  if (!rate) return rate.error();
-  result.success_rate = *rate;
   for (const Metric& metric : all_metrics()) {
     const Values values = values_of(runs, metric);
     if (values.empty()) continue;
-    Result<Summary> summary = summary_of(values);
+    Result<Summary> summary = summary_of(values, metric);
     if (!summary) return summary.error();
     result.metrics[metric.name] = *summary;
   }
   return result;
-}
-
-// Returns the p-value of McNemar's test of two lists of 0 and 1.
-double p_of_success(const Paired& pairs) {
-  std::uint64_t only_first = 0;
-  std::uint64_t only_second = 0;
-  for (std::size_t i = 0; i < pairs.all_first.size(); ++i) {
-    if (pairs.all_first[i] > pairs.all_second[i]) ++only_first;
-    if (pairs.all_first[i] < pairs.all_second[i]) ++only_second;
-  }
-  return mcnemar(only_first, only_second).p;
-}
-
-Result<double> p_of(const Paired& pairs, const Metric& metric, bool by_worlds) {
-  if (metric.is_success()) return p_of_success(pairs);
-  if (!by_worlds) {
-    const Result<Wilcoxon> test = wilcoxon(pairs.all_first, pairs.all_second);
-    return test ? Result<double>(test->p) : test.error();
-  }
-  const Result<std::vector<double>> first = world_means(pairs.first);
-  const Result<std::vector<double>> second = world_means(pairs.second);
-  if (!first || !second) return (first ? second : first).error();
-  const Result<Wilcoxon> test = wilcoxon(*first, *second);
-  return test ? Result<double>(test->p) : test.error();
 }
 
 // Returns nothing where the two have no pair.
@@ -115,31 +104,29 @@ Result<std::optional<Difference>> difference_of(const RunsOfVariants& runs, cons
                                                 const std::string& second, const Metric& metric) {
   const Paired pairs = paired(runs.at(first), runs.at(second), metric);
   if (pairs.first.empty()) return std::optional<Difference>();
-  Difference found{.first = first, .second = second, .metric = metric.name, .difference = {}, .verdict = {}};
-  found.pairs = pairs.all_first.size();
-  found.by_worlds = !metric.is_success() && pairs.first.size() >= kLeastWorlds;
-  const Result<Estimate> difference = bootstrap_difference(pairs.first, pairs.second);
-  if (!difference) return difference.error();
-  found.difference = *difference;
-  const Result<double> p = p_of(pairs, metric, found.by_worlds);
-  if (!p) return p.error();
-  found.p = *p;
+  const Quantity quantity = metric.is_success() ? Quantity::success : Quantity::number;
+  const Result<Finding> finding = find_difference(pairs.first, pairs.second, quantity);
+  if (!finding) return finding.error();
+  Difference found{
+      .first = first, .second = second, .metric = metric.name, .finding = *finding, .verdict = {}};
+  found.adjusted_p = finding->p;
   const Result<double> larger = probability_of_improvement(pairs.first, pairs.second);
   if (!larger) return larger.error();
   found.improvement = metric.more_is_better ? *larger : 1.0 - *larger;
   return std::optional(found);
 }
 
-// Adjusts the p-values for their number, and judges.
+// Adjusts the p-values for the number of tests that could find something, and judges.
 Status judge_all(std::vector<Difference>& differences) {
   std::vector<double> p_values;
-  for (const Difference& one : differences) p_values.push_back(one.p);
+  for (const Difference& one : differences)
+    if (is_enough(one.finding)) p_values.push_back(one.finding.p);
   const Result<std::vector<double>> adjusted = holm(p_values);
   if (!adjusted) return adjusted.error();
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    Difference& one = differences[i];
-    one.p = (*adjusted)[i];
-    Result<Verdict> verdict = judge({one.pairs, one.pairs, one.p, one.difference.interval});
+  auto next = adjusted->begin();
+  for (Difference& one : differences) {
+    one.adjusted_p = is_enough(one.finding) ? *next++ : one.finding.p;
+    Result<Verdict> verdict = judge(one.finding, one.adjusted_p);
     if (!verdict) return verdict.error();
     one.verdict = *std::move(verdict);
   }
@@ -164,6 +151,42 @@ Result<std::vector<Difference>> differences_of(const RunsOfVariants& runs,
   return differences;
 }
 
+// Returns in which worlds how many seeds of a variant gave fewer runs.
+std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> repeated_worlds(const Runs& runs) {
+  std::map<std::string, std::size_t> seeds;
+  std::map<std::string, std::size_t> different;
+  for (const auto& [place, outcome] : runs) ++seeds[place.first];
+  for (const auto& [place, outcome] : distinct(runs)) ++different[place.first];
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> worlds;
+  for (const auto& [world, count] : seeds)
+    if (different[world] < count) worlds[{count, different[world]}].push_back(world);
+  return worlds;
+}
+
+std::vector<SameRuns> same_runs_of(const RunsOfVariants& runs) {
+  std::vector<SameRuns> all;
+  for (const auto& [name, its] : runs) {
+    for (auto& [counts, worlds] : repeated_worlds(its)) {
+      const SameRuns one{{}, worlds, counts.first, counts.second};
+      const auto known = std::ranges::find_if(all, [&](const SameRuns& other) {
+        return other.worlds == one.worlds && other.seeds == one.seeds && other.runs == one.runs;
+      });
+      (known == all.end() ? all.emplace_back(one) : *known).variants.push_back(name);
+    }
+  }
+  return all;
+}
+
+void count_successes(const RunsOfVariants& runs, BatchResult& result) {
+  for (const auto& [name, its] : runs) {
+    for (const auto& [place, outcome] : distinct(its)) {
+      auto& [successes, count] = result.matrix[{name, place.first}];
+      ++count;
+      if (outcome->ending == Ending::success) ++successes;
+    }
+  }
+}
+
 }  // namespace
 
 Result<BatchResult> compare(const std::vector<Row>& rows, const std::vector<std::string>& compared) {
@@ -173,11 +196,10 @@ Result<BatchResult> compare(const std::vector<Row>& rows, const std::vector<std:
   for (const Row& row : rows) {
     runs[row.variant][{row.world, row.seed}] = &row.outcome;
     worlds.insert(row.world);
-    auto& [successes, count] = result.matrix[{row.variant, row.world}];
-    ++count;
-    if (row.outcome.ending == Ending::success) ++successes;
   }
   result.worlds.assign(worlds.begin(), worlds.end());
+  count_successes(runs, result);
+  result.same_runs = same_runs_of(runs);
   for (const auto& [name, its] : runs) {
     Result<VariantResult> variant = result_of(name, its);
     if (!variant) return variant.error();

@@ -3,13 +3,10 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "orca/base/result.hpp"
-#include "orca/batch/statistics/bootstrap.hpp"
 #include "orca/batch/statistics/verdict.hpp"
 #include "orca/batch/store.hpp"
 #include "results/metric.hpp"
@@ -19,11 +16,12 @@ namespace orca::batch {
 /// A metric of a variant's runs.
 struct Summary {
   std::size_t runs = 0;      ///< Those that have it.
-  Estimate mean;             ///< With an interval over worlds and seeds.
+  Scope scope;               ///< Their worlds.
+  Estimate mean;             ///< With an interval over worlds, or over the seeds of one or two.
   double middle_half = 0.0;  ///< Mean of the middle half of the runs.
 };
 
-/// The outcomes of the runs of a variant.
+/// The outcomes of the runs of a variant. Runs of a world with equal trace hashes are one run.
 struct VariantResult {
   std::string name;
   std::size_t runs = 0;
@@ -31,7 +29,6 @@ struct VariantResult {
   std::map<Failure, std::size_t> failures;
   std::size_t claim_wrongly = 0;             ///< Runs in which a goal was claimed where the robot was not.
   std::size_t do_not_claim = 0;              ///< Runs in which a goal that was reached was not claimed.
-  Interval success_rate;                     ///< Wilson's, which takes all runs for independent.
   std::map<std::string, Summary> metrics{};  ///< By name; without those that no run has.
 };
 
@@ -39,27 +36,30 @@ struct VariantResult {
 struct Difference {
   std::string first, second;  ///< Variants.
   std::string metric;
-  std::size_t pairs = 0;   ///< Pairs of runs in the same world with the same seed.
-  bool by_worlds = false;  ///< Whether the test compares worlds, and not runs.
-  Estimate difference;     ///< first - second, with an interval over worlds and seeds.
-  double p =
-      1.0;  ///< By McNemar's test for success, by Wilcoxon's for others; adjusted for all tests by Holm's method.
+  Finding finding;          ///< Over pairs of runs in the same world with the same seed.
+  double adjusted_p = 1.0;  ///< For all tests that could find something, by Holm's method.
   double improvement =
       0.5;  ///< Probability that a run of the first is better than one of the second in the same world.
   Verdict verdict;
+};
+
+/// Seeds that gave fewer runs than there are seeds: the trace hashes of some are equal.
+struct SameRuns {
+  std::vector<std::string> variants;
+  std::vector<std::string> worlds;  ///< In each of them.
+  std::size_t seeds = 0;
+  std::size_t runs = 0;
 };
 
 /// The results of a batch, and what may be claimed of them.
 struct BatchResult {
   std::vector<VariantResult> variants;  ///< By name.
   std::vector<std::string> worlds;      ///< By name.
+  std::vector<SameRuns> same_runs;
   /// Number of successes and runs by variant and world.
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
   std::vector<Difference> differences;  ///< One for each pair of variants in each metric that is compared.
 };
-
-/// The fewest worlds whose means are compared instead of their runs: the smallest p-value of five is 0.0625.
-inline constexpr std::size_t kLeastWorlds = 6;
 
 /// @param compared  names of metrics.
 /// @errors  those of the statistics, if there are no rows.

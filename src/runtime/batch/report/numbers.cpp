@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "orca/base/text.hpp"
 #include "orca/batch/statistics/summary.hpp"
 
 namespace orca::batch {
@@ -20,6 +21,10 @@ std::string span_text(const Interval& interval, const Metric& metric) {
   return value_text(interval.low, metric) + " to " + value_text(interval.high, metric);
 }
 
+std::string counted(std::size_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 }  // namespace
 
 std::string value_text(double value, const Metric& metric) {
@@ -28,6 +33,7 @@ std::string value_text(double value, const Metric& metric) {
 }
 
 std::string estimate_text(const Estimate& estimate, const Metric& metric) {
+  if (std::isinf(estimate.interval.low)) return value_text(estimate.value, metric) + " (of one)";
   return value_text(estimate.value, metric) + " (" + span_text(estimate.interval, metric) + ")";
 }
 
@@ -56,11 +62,30 @@ std::string false_words_of(const VariantResult& variant) {
   return text;
 }
 
+std::string scope_text(const Scope& scope) {
+  return scope.over_worlds() ? "over worlds" : "over seeds," + scope.text();
+}
+
+std::string test_text(const Finding& finding) {
+  const std::string test = finding.test == Test::student ? "t" : "sign flips";
+  return test + ", " +
+         (finding.scope.over_worlds() ? counted(finding.scope.worlds, "world")
+                                      : counted(finding.runs, "run"));
+}
+
+std::string line_of(const SameRuns& same, std::size_t variants) {
+  const std::string worlds =
+      same.worlds.size() == 1 ? "world " + same.worlds.front() : "each of the worlds " + listed(same.worlds);
+  return counted(same.seeds, "seed") + " gave " + counted(same.runs, "run") +
+         (same.variants.size() == variants ? "" : " of " + listed(same.variants)) + " in " + worlds +
+         (same.runs == 1 ? ": without errors a seed changes nothing" : ": the other seeds repeat these");
+}
+
 std::string line_of(const VariantResult& variant) {
-  const Metric& success = *find_metric("success");
-  std::string text =
-      variant.name + ": " + std::to_string(variant.runs) + (variant.runs == 1 ? " run, " : " runs, ") +
-      estimate_text(variant.metrics.at("success").mean, success) + " succeed (95 % over worlds and seeds)";
+  const Summary& success = variant.metrics.at("success");
+  std::string text = variant.name + ": " + counted(variant.runs, "run") + ", " +
+                     estimate_text(success.mean, *find_metric("success")) + " succeed (95 % " +
+                     scope_text(success.scope) + ")";
   for (const auto& [ending, count] : variant.endings)
     if (ending != Ending::success) text += ", " + std::to_string(count) + " " + name_of(ending);
   if (const std::string words = false_words_of(variant); !words.empty()) text += "; " + words;
@@ -70,7 +95,7 @@ std::string line_of(const VariantResult& variant) {
 std::string line_of(const Difference& difference) {
   const Metric& metric = *find_metric(difference.metric);
   return difference.first + " - " + difference.second + ", " + title_of(metric) + ": " +
-         estimate_text(difference.difference, metric) + ", " + difference.verdict.text;
+         estimate_text(difference.finding.difference, metric) + ", " + difference.verdict.text;
 }
 
 }  // namespace orca::batch

@@ -10,7 +10,7 @@ namespace orca::batch {
 
 /// Returns a value of a metric for people, to three digits or more: success as "98.3 %", others without their unit.
 [[nodiscard]] std::string value_text(double value, const Metric& metric);
-/// Returns "80.4 (79.9 to 81.0)".
+/// Returns "80.4 (79.9 to 81.0)", or "80.4 (of one)" of a value that has no interval.
 [[nodiscard]] std::string estimate_text(const Estimate& estimate, const Metric& metric);
 /// Returns the mean with the smallest and the largest value, "80.4 (78.1 to 83.0)"; nothing if there are none.
 [[nodiscard]] std::string spread_text(const std::vector<double>& values, const Metric& metric);
@@ -21,6 +21,12 @@ namespace orca::batch {
 /// Returns what a variant's components said of its goals and was not so, for instance "claims goals wrongly in 3 runs"; empty: all
 /// they said was so.
 [[nodiscard]] std::string false_words_of(const VariantResult& variant);
+/// Returns "over worlds", or over which runs where there are few.
+[[nodiscard]] std::string scope_text(const Scope& scope);
+/// Returns "sign flips, 20 worlds".
+[[nodiscard]] std::string test_text(const Finding& finding);
+/// Returns the sentence about seeds that change nothing.
+[[nodiscard]] std::string line_of(const SameRuns& same, std::size_t variants);
 /// Returns a line for the terminal on a variant, and one on a difference.
 [[nodiscard]] std::string line_of(const VariantResult& variant);
 [[nodiscard]] std::string line_of(const Difference& difference);

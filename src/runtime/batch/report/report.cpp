@@ -69,9 +69,7 @@ class Writer {
 
   void success() {
     document_.add(Heading{"Success"});
-    Table table{
-        {"variant", "runs", "success (95 % over worlds and seeds)", "95 % (Wilson)", "others", "false words"},
-        {}};
+    Table table{{"variant", "runs", "success (95 %)", "others", "false words"}, {}};
     const Metric& metric = *find_metric("success");
     for (const VariantResult& variant : result_.variants) {
       std::string others;
@@ -79,16 +77,14 @@ class Writer {
         if (ending != Ending::success && count > 0)
           others += (others.empty() ? "" : ", ") + std::to_string(count) + " " + name_of(ending);
       table.rows.push_back({variant.name, std::to_string(variant.runs),
-                            estimate_text(variant.metrics.at("success").mean, metric),
-                            value_text(variant.success_rate.low, metric) + " to " +
-                                value_text(variant.success_rate.high, metric),
-                            others, false_words_of(variant)});
+                            estimate_text(variant.metrics.at("success").mean, metric), others,
+                            false_words_of(variant)});
     }
     document_.add(std::move(table));
+    for (const SameRuns& same : result_.same_runs)
+      document_.add(Paragraph{line_of(same, result_.variants.size()) + ". They count as one."});
     judge();
-    document_.add(
-        Paragraph{"The first interval draws worlds and then seeds "
-                  "(hierarchical bootstrap, 10,000 draws); Wilson's takes all runs for independent."});
+    document_.add(Paragraph{intervals_text()});
   }
 
   // Adds who judges, and by which goals.
@@ -110,28 +106,38 @@ class Writer {
                   joined(goals, "; ") + "."});
   }
 
+  // Returns how the intervals of the means of variants are made.
+  [[nodiscard]] std::string intervals_text() const {
+    if (!Scope{result_.worlds.size()}.over_worlds())
+      return "Intervals of 95 % are over the seeds" + Scope{result_.worlds.size()}.text() +
+             ": they say nothing of other worlds.";
+    return "Intervals of 95 % are over worlds: each world is one value, the mean of its seeds.";
+  }
+
   void claims() {
     if (result_.differences.empty()) return;
     document_.add(Heading{"What may be claimed"});
     Table table{{"metric", "variants", "difference (95 %)", "better in", "pairs", "p", "claim"}, {}};
     for (const Difference& one : result_.differences) {
       const Metric& metric = *find_metric(one.metric);
-      table.rows.push_back({title_of(metric), one.first + " - " + one.second,
-                            estimate_text(one.difference, metric),
-                            value_text(one.improvement, *find_metric("success")), std::to_string(one.pairs),
-                            p_text(one.p) + (one.by_worlds ? " (worlds)" : " (runs)"), one.verdict.text});
+      table.rows.push_back(
+          {title_of(metric), one.first + " - " + one.second, estimate_text(one.finding.difference, metric),
+           value_text(one.improvement, *find_metric("success")), std::to_string(one.finding.runs),
+           p_text(one.adjusted_p) + " (" + test_text(one.finding) + ")", one.verdict.text});
     }
     document_.add(std::move(table));
-    document_.add(
-        Paragraph{"Paired by world and seed; time only where both succeed. p: McNemar's test for success, "
-                  "Wilcoxon's signed-rank test for others, of the "
-                  "means of worlds or, where there are fewer than " +
-                  std::to_string(kLeastWorlds) +
-                  " worlds, of runs, which says nothing of other worlds; adjusted for the number of tests by "
-                  "Holm's method. \"Better in\" is the probability that a run of the "
-                  "first is better than one of the second in the same world. A difference is called "
-                  "established only with at least 9 runs of each, p of 0.05 "
-                  "or less, and an interval without 0. \"Not established\" does not mean equal."});
+    document_.add(Paragraph{
+        "Paired by world and seed; time only where both succeed. From three worlds on a pair of variants has "
+        "one "
+        "difference for each world, the mean of its seeds; in one or two worlds it has one for each run, and "
+        "the claim "
+        "says nothing of others. The p-value is that of a permutation test that flips the signs of these "
+        "differences, or of Student's t test where there are too few for that, adjusted by Holm's "
+        "method for the number of tests with runs and worlds enough. \"Better in\" is the probability that a "
+        "run of the first is better than one of the second in the same "
+        "world. A difference is called established only with at least 9 runs of each, p of 0.05 or less, and "
+        "an "
+        "interval without 0. \"Not established\" does not mean equal."});
   }
 
   void metrics() {
@@ -151,9 +157,8 @@ class Writer {
       if (is_known) table.rows.push_back(std::move(row));
     }
     document_.add(std::move(table));
-    document_.add(
-        Paragraph{"Means with intervals of 95 % over worlds and seeds; after the semicolon the mean of the "
-                  "middle half of the runs."});
+    document_.add(Paragraph{
+        "Means with intervals of 95 %; after the semicolon the mean of the middle half of the runs."});
   }
 
   static std::string summary_text(const Summary& summary, const Metric& metric) {
@@ -346,6 +351,7 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   const Document document = Writer(experiment, store, rows, *result).write();
   std::string summary;
   for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
+  for (const SameRuns& same : result->same_runs) summary += line_of(same, result->variants.size()) + "\n";
   for (const Difference& difference : result->differences) summary += line_of(difference) + "\n";
   return Report{to_html(document), to_markdown(document), std::move(summary)};
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "input_checks.hpp"
-#include "sorted_values.hpp"
+#include "moments.hpp"
 
 namespace orca::batch {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 
 #include "orca/base/text.hpp"
 
@@ -18,49 +17,51 @@ std::string three_digits(double number) {
   return {text.data(), end};
 }
 
-Status check_comparison(const Comparison& comparison) {
-  if (!(comparison.adjusted_p >= 0.0 && comparison.adjusted_p <= 1.0))
+Status check(const Finding& finding, double adjusted_p) {
+  if (!(adjusted_p >= 0.0 && adjusted_p <= 1.0))
     return fail(Code::invalid_argument, "the adjusted p-value is not a number from 0 to 1");
-  const auto [low, high] = comparison.difference;
-  if (!std::isfinite(low) || !std::isfinite(high) || low > high)
-    return fail(Code::invalid_argument,
-                "the interval of the difference needs two finite ends, the lower one first");
+  const auto [low, high] = finding.difference.interval;
+  if (!(low <= high))
+    return fail(Code::invalid_argument, "the interval of the difference needs two ends, the lower one first");
   return ok();
 }
 
-std::vector<Doubt> doubts_of(const Comparison& comparison) {
+// Where there is too little to judge by, what it would look like is no reason more.
+std::vector<Doubt> doubts_of(const Finding& finding, double adjusted_p) {
   std::vector<Doubt> doubts;
-  if (comparison.first_runs < kLeastRuns || comparison.second_runs < kLeastRuns)
-    doubts.push_back(Doubt::too_few_runs);
-  if (comparison.difference.contains(0.0)) doubts.push_back(Doubt::interval_includes_zero);
-  if (comparison.adjusted_p > kLargestPValue) doubts.push_back(Doubt::p_value_too_large);
+  if (finding.runs < kLeastRuns) doubts.push_back(Doubt::too_few_runs);
+  if (finding.has_too_few_worlds()) doubts.push_back(Doubt::too_few_worlds);
+  if (!doubts.empty()) return doubts;
+  if (finding.difference.interval.contains(0.0)) doubts.push_back(Doubt::interval_includes_zero);
+  if (adjusted_p > kLargestPValue) doubts.push_back(Doubt::p_value_too_large);
   return doubts;
 }
 
-std::string text_of(Doubt doubt, const Comparison& comparison) {
+std::string text_of(Doubt doubt, const Finding& finding, double adjusted_p) {
   switch (doubt) {
     case Doubt::too_few_runs:
-      return "too few runs (" + std::to_string(comparison.first_runs) + " and " +
-             std::to_string(comparison.second_runs) + ", at least " + std::to_string(kLeastRuns) +
-             " of each are needed)";
-    case Doubt::interval_includes_zero:
-      return "the interval of the difference includes 0 (" + three_digits(comparison.difference.low) +
-             " to " + three_digits(comparison.difference.high) + ")";
+      return "too few runs (" + std::to_string(finding.runs) + " of each, at least " +
+             std::to_string(kLeastRuns) + " are needed)";
+    case Doubt::too_few_worlds:
+      return "too few worlds (" + std::to_string(finding.scope.worlds) + ", at least " +
+             std::to_string(kFewestFlipped) + " are needed)";
+    case Doubt::interval_includes_zero: return "the interval includes 0";
     case Doubt::p_value_too_large:
-      return "the adjusted p-value " + three_digits(comparison.adjusted_p) + " is above " +
-             three_digits(kLargestPValue);
+      return "the adjusted p-value " + three_digits(adjusted_p) + " is above " + three_digits(kLargestPValue);
   }
   return "?";
 }
 
 }  // namespace
 
-Result<Verdict> judge(const Comparison& comparison) {
-  if (const Status status = check_comparison(comparison); !status) return status.error();
-  const std::vector<Doubt> doubts = doubts_of(comparison);
-  if (doubts.empty()) return Verdict{doubts, "difference established"};
+bool is_enough(const Finding& finding) { return finding.runs >= kLeastRuns && !finding.has_too_few_worlds(); }
+
+Result<Verdict> judge(const Finding& finding, double adjusted_p) {
+  if (const Status status = check(finding, adjusted_p); !status) return status.error();
+  const std::vector<Doubt> doubts = doubts_of(finding, adjusted_p);
+  if (doubts.empty()) return Verdict{doubts, "difference established" + finding.scope.text()};
   std::vector<std::string> reasons;
-  for (const Doubt doubt : doubts) reasons.push_back(text_of(doubt, comparison));
+  for (const Doubt doubt : doubts) reasons.push_back(text_of(doubt, finding, adjusted_p));
   return Verdict{doubts, "not established: " + joined(reasons, "; ")};
 }
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 #include <thread>
 
 #include "barn_like.hpp"
-#include "orca/batch/statistics/bootstrap.hpp"
-#include "orca/batch/statistics/mcnemar.hpp"
+#include "orca/batch/statistics/finding.hpp"
 #include "orca/batch/statistics/rate.hpp"
-#include "orca/batch/statistics/wilcoxon.hpp"
 
 using namespace orca;
 using namespace orca::batch;
@@ -31,26 +31,49 @@ double wilson_coverage(double rate, std::uint64_t runs) {
   return hits / 20'000.0;
 }
 
-// Values about 0 that differ between worlds as much as between the seeds of a world.
-std::vector<std::vector<double>> drawn_worlds(std::size_t worlds, std::size_t seeds, RandomStream& random) {
-  std::vector<std::vector<double>> values(worlds);
-  for (std::vector<double>& world : values) {
-    const double centre = random.normal(0.0, 1.0);
-    for (std::size_t s = 0; s < seeds; ++s) world.push_back(random.normal(centre, 1.0));
-  }
+std::vector<double> drawn_values(std::size_t count, RandomStream& random) {
+  std::vector<double> values(count);
+  for (double& value : values) value = random.normal(0.0, 1.0);
   return values;
 }
 
 // Returns the share of 1,000 simulated experiments whose interval contains the mean.
-double bootstrap_coverage(std::size_t worlds, std::size_t seeds) {
+double mean_coverage(std::size_t count) {
   RandomStream random = stream("bootstrap");
   int hits = 0;
   for (int i = 0; i < 1000; ++i)
     hits +=
-        bootstrap_mean(drawn_worlds(worlds, seeds, random), {.draws = 1000}).value().interval.contains(0.0)
-            ? 1
-            : 0;
+        estimate_mean(drawn_values(count, random), {.draws = 1000}).value().interval.contains(0.0) ? 1 : 0;
   return hits / 1000.0;
+}
+
+// The interval of a mean by a bootstrap that was written for this test: with std::mt19937 and plain loops.
+Interval reference_interval(const std::vector<double>& values, double q) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::size_t> index(0, values.size() - 1);
+  std::vector<double> means;
+  for (int draw = 0; draw < 20'000; ++draw) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) sum += values[index(random)];
+    means.push_back(sum / static_cast<double>(values.size()));
+  }
+  std::ranges::sort(means);
+  const auto at = [&](double share) { return means[static_cast<std::size_t>(share * 20'000.0)]; };
+  return {at(q), at(1.0 - q)};
+}
+
+// The p-value of a permutation test, by its definition.
+double reference_p(const std::vector<double>& differences) {
+  const double sum = std::accumulate(differences.begin(), differences.end(), 0.0);
+  int as_far = 0;
+  const int choices = 1 << differences.size();
+  for (int signs = 0; signs < choices; ++signs) {
+    double flipped = 0.0;
+    for (std::size_t i = 0; i < differences.size(); ++i)
+      flipped += (signs >> i) % 2 == 0 ? differences[i] : -differences[i];
+    as_far += std::fabs(flipped) >= std::fabs(sum) - 1e-9 ? 1 : 0;
+  }
+  return static_cast<double>(as_far) / choices;
 }
 
 // Returns the share of 10,000 simulated experiments with equal algorithms in which p <= 0.05.
@@ -64,12 +87,6 @@ double false_findings(const char* name, Test p_of_drawn) {
 
 // Four standard errors of a share of 0.05 among 10,000.
 constexpr double kMargin = 4.0 * 0.00218;
-
-double p_of_normal_differences(std::size_t pairs, RandomStream& random) {
-  std::vector<double> differences(pairs);
-  for (double& difference : differences) difference = random.normal(0.0, 1.0);
-  return wilcoxon(differences).value().p;
-}
 
 std::vector<double> swapped(std::vector<double> differences) {
   for (double& difference : differences) difference = -difference;
@@ -87,82 +104,68 @@ TEST_CASE("Wilson's interval contains the rate in about 95 % of 20,000 experimen
     }
 }
 
-TEST_CASE(
-    "the bootstrap interval contains the mean in about 95 % of 1,000 experiments, and in fewer with 9 worlds",
-    "[batch][statistics]") {
-  const double few = bootstrap_coverage(9, 10);
-  const double usual = bootstrap_coverage(50, 10);
-  CAPTURE(few, usual);
-  CHECK(few == Approx(0.911).margin(0.036));  // bootstrap.hpp says so; four standard errors
-  CHECK(usual == Approx(0.95).margin(0.028));
+TEST_CASE("an interval contains the mean in about 95 % of 1,000 experiments, of few values and of many",
+          "[batch][statistics]") {
+  for (const std::size_t count : {3U, 9U, 10U, 20U, 100U}) {
+    const double coverage = mean_coverage(count);
+    CAPTURE(count, coverage);
+    CHECK(coverage == Approx(0.95).margin(0.028));  // four standard errors of a share of 1,000
+  }
 }
 
-TEST_CASE("the bootstrap interval knows that runs of one world resemble each other", "[batch][statistics]") {
-  RandomStream random = stream("clusters");
-  const std::vector<std::vector<double>> worlds = drawn_worlds(50, 10, random);
-  std::vector<std::vector<double>> pretended;  // as if each run had a world of its own
-  for (const std::vector<double>& world : worlds)
-    for (const double value : world) pretended.push_back({value});
-  const Interval honest = bootstrap_mean(worlds).value().interval;
-  const Interval narrow = bootstrap_mean(pretended).value().interval;
-  CHECK(honest.high - honest.low > 1.5 * (narrow.high - narrow.low));
+TEST_CASE("bootstrap and permutation test agree with others that were written for this test",
+          "[batch][statistics]") {
+  RandomStream random = stream("reference");
+  for (const std::size_t count : {10U, 14U}) {
+    const std::vector<double> values = drawn_values(count, random);
+    CHECK(sign_flips(values).value().p == reference_p(values));
+    const Interval ours = estimate_mean(values, {.draws = 100'000}).value().interval;
+    const double n = static_cast<double>(count);
+    // 2.2621571627982053 and 2.1603686564627926 are scipy.stats.t.ppf(0.975, count - 1).
+    const double reach = count == 10 ? 2.2621571627982053 : 2.1603686564627926;
+    const double q = 0.5 * std::erfc(reach * std::sqrt(n / (n - 1.0)) / std::sqrt(2.0));
+    const Interval reference = reference_interval(values, q);
+    const double margin =
+        0.05 * (ours.high - ours.low);  // of 200 means beyond each end: four standard errors
+    CHECK(ours.low == Approx(reference.low).epsilon(0.0).margin(margin));
+    CHECK(ours.high == Approx(reference.high).epsilon(0.0).margin(margin));
+  }
 }
 
 TEST_CASE("equal algorithms have p <= 0.05 in at most 5 % of 10,000 experiments", "[batch][statistics]") {
-  for (const std::size_t pairs : {6U, 9U, 25U, 26U, 100U}) {
-    const double share =
-        false_findings("wilcoxon", [&](RandomStream& r) { return p_of_normal_differences(pairs, r); });
-    CAPTURE(pairs, share);
+  constexpr SignFlipOptions kThousand{.draws = 1000};
+  for (const std::size_t count : {6U, 9U, 25U}) {
+    const double share = false_findings(
+        "flips", [&](RandomStream& r) { return sign_flips(drawn_values(count, r), kThousand).value().p; });
+    CAPTURE(count, share);
     CHECK(share <= 0.05 + kMargin);
   }
-  for (const std::size_t pairs : {10U, 100U}) {
-    const double share = false_findings("mcnemar", [&](RandomStream& random) {
-      std::vector<SuccessPair> outcomes(pairs);
-      for (SuccessPair& outcome : outcomes) outcome = {random.chance(0.7), random.chance(0.7)};
-      return mcnemar(outcomes).value().p;
-    });
-    CAPTURE(pairs, share);
-    CHECK(share <= 0.05);
+  for (const std::size_t count : {3U, 5U}) {
+    const double share =
+        false_findings("student", [&](RandomStream& r) { return student_p(drawn_values(count, r)).value(); });
+    CAPTURE(count, share);
+    CHECK(share <= 0.05 + kMargin);
   }
-}
-
-TEST_CASE("scores with many zeros and ties have p <= 0.05 in at most 5 % of 10,000 experiments",
-          "[batch][statistics]") {
-  const double share = false_findings("scores", [](RandomStream& random) {
-    const Scores scores = drawn_scores({}, {}, 50, 1, 0.7, random);
-    std::vector<double> first;
-    std::vector<double> second;
-    for (std::size_t w = 0; w < 50; ++w) {
-      first.push_back(scores.first[w][0]);
-      second.push_back(scores.second[w][0]);
-    }
-    return wilcoxon(first, second).value().p;
+  const double share = false_findings("outcomes", [&](RandomStream& random) {
+    std::vector<double> outcomes(30);
+    for (double& outcome : outcomes) outcome = int{random.chance(0.7)} - int{random.chance(0.7)};
+    return sign_flips(outcomes, kThousand).value().p;
   });
   CAPTURE(share);
   CHECK(share <= 0.05 + kMargin);
 }
 
-TEST_CASE("the normal approximation rejects too often for 5 differences and a zero", "[batch][statistics]") {
-  int found = 0;
-  for (int signs = 0; signs < 32; ++signs) {
-    std::vector<double> differences{0.0};
-    for (int bit = 0; bit < 5; ++bit) differences.push_back((signs >> bit) % 2 == 0 ? bit + 1.0 : -bit - 1.0);
-    found += wilcoxon(differences).value().p <= 0.05 ? 1 : 0;
-  }
-  CHECK(found == 2);  // 6.25 % of the 32 equally likely cases
-}
-
 TEST_CASE("swapping the algorithms changes no p-value and turns intervals over", "[batch][statistics]") {
   RandomStream random = stream("swap");
-  for (const std::size_t pairs : {8U, 25U, 60U}) {
-    std::vector<double> differences(pairs);
-    for (double& difference : differences) difference = random.normal(0.3, 1.0);
-    CHECK(wilcoxon(differences).value().p == wilcoxon(swapped(differences)).value().p);
+  for (const std::size_t count : {4U, 8U, 25U, 60U}) {
+    std::vector<double> differences = drawn_values(count, random);
+    for (double& difference : differences) difference += 0.3;
+    CHECK(sign_flips(differences).value().p == sign_flips(swapped(differences)).value().p);
+    CHECK(student_p(differences).value() == student_p(swapped(differences)).value());
   }
-  CHECK(mcnemar(12, 31).p == mcnemar(31, 12).p);
   const Scores scores = drawn_scores({}, {.slowness = 1.1}, 20, 4, 0.7, random);
-  const Estimate one = bootstrap_difference(scores.first, scores.second).value();
-  const Estimate other = bootstrap_difference(scores.second, scores.first).value();
+  const Estimate one = find_difference(scores.first, scores.second, Quantity::number).value().difference;
+  const Estimate other = find_difference(scores.second, scores.first, Quantity::number).value().difference;
   CHECK(one.value == Approx(-other.value).epsilon(1e-12));
   CHECK(one.interval.low == Approx(-other.interval.high).epsilon(1e-12));
   CHECK(one.interval.high == Approx(-other.interval.low).epsilon(1e-12));
@@ -170,13 +173,13 @@ TEST_CASE("swapping the algorithms changes no p-value and turns intervals over",
         Approx(1.0 - probability_of_improvement(scores.second, scores.first).value()).epsilon(1e-12));
 }
 
-TEST_CASE("the order of pairs changes neither tests nor summaries", "[batch][statistics]") {
+TEST_CASE("the order of worlds changes no exact test and no summary", "[batch][statistics]") {
   RandomStream random = stream("order");
-  std::vector<double> values(24);
+  std::vector<double> values(16);
   for (double& value : values) value = std::floor(random.normal(1.0, 4.0));
   std::vector<double> turned = values;
   std::ranges::reverse(turned);
-  CHECK(wilcoxon(values).value().p == wilcoxon(turned).value().p);
+  CHECK(sign_flips(values).value().p == sign_flips(turned).value().p);
   CHECK(interquartile_mean(values).value() == interquartile_mean(turned).value());
   CHECK(quantile(values, 0.3).value() == quantile(turned, 0.3).value());
 }
@@ -184,12 +187,12 @@ TEST_CASE("the order of pairs changes neither tests nor summaries", "[batch][sta
 TEST_CASE("the order of worlds changes a bootstrap interval by no more than other draws do",
           "[batch][statistics]") {
   RandomStream random = stream("worlds");
-  std::vector<std::vector<double>> worlds = drawn_worlds(30, 5, random);
-  const Interval interval = bootstrap_mean(worlds).value().interval;
-  std::ranges::reverse(worlds);
-  const Interval turned = bootstrap_mean(worlds).value().interval;
+  std::vector<double> values = drawn_values(30, random);
+  const Interval interval = estimate_mean(values).value().interval;
+  std::ranges::reverse(values);
+  const Interval turned = estimate_mean(values).value().interval;
   const double margin =
-      0.04 * (interval.high - interval.low);  // of a difference of quantiles: four standard errors
+      0.05 * (interval.high - interval.low);  // of a difference of quantiles: four standard errors
   CHECK(std::fabs(turned.low - interval.low) < margin);
   CHECK(std::fabs(turned.high - interval.high) < margin);
 }
@@ -197,22 +200,23 @@ TEST_CASE("the order of worlds changes a bootstrap interval by no more than othe
 TEST_CASE("the same seed gives the same interval, in any thread, and another seed another one",
           "[batch][statistics]") {
   RandomStream random = stream("seed");
-  const std::vector<std::vector<double>> worlds = drawn_worlds(20, 3, random);
-  const Interval here = bootstrap_mean(worlds, {.seed = 7}).value().interval;
+  const std::vector<double> values = drawn_values(20, random);
+  const Interval here = estimate_mean(values, {.seed = 7}).value().interval;
   Interval there[2];
   {
-    std::jthread one([&] { there[0] = bootstrap_mean(worlds, {.seed = 7}).value().interval; });
-    std::jthread two([&] { there[1] = bootstrap_mean(worlds, {.seed = 7}).value().interval; });
+    std::jthread one([&] { there[0] = estimate_mean(values, {.seed = 7}).value().interval; });
+    std::jthread two([&] { there[1] = estimate_mean(values, {.seed = 7}).value().interval; });
   }
   CHECK(there[0] == here);
   CHECK(there[1] == here);
-  CHECK_FALSE(bootstrap_mean(worlds, {.seed = 8}).value().interval == here);
+  CHECK_FALSE(estimate_mean(values, {.seed = 8}).value().interval == here);
 }
 
-TEST_CASE("a bootstrap of 100 worlds with 10 seeds and 10,000 draws has always the same bits",
-          "[batch][statistics]") {
+TEST_CASE("the finding in 100 worlds has always the same bits", "[batch][statistics]") {
   RandomStream random = stream("bits");
-  const Interval interval = bootstrap_mean(drawn_worlds(100, 10, random)).value().interval;
-  CHECK(interval.low == -0x1.2fe0f04e33931p-3);
-  CHECK(interval.high == 0x1.1f0aba6e8b0dcp-2);
+  const std::vector<double> values = drawn_values(100, random);
+  const Interval interval = estimate_mean(values).value().interval;
+  CHECK(interval.low == -0x1.f122d342d9154p-5);
+  CHECK(interval.high == 0x1.72f325719b47bp-2);
+  CHECK(sign_flips(values).value().p == 0x1.4b18cb191efbcp-3);
 }

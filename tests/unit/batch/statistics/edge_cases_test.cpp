@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "orca/batch/statistics/bootstrap.hpp"
+#include "orca/batch/statistics/finding.hpp"
 #include "orca/batch/statistics/holm.hpp"
-#include "orca/batch/statistics/mcnemar.hpp"
 #include "orca/batch/statistics/rate.hpp"
 #include "orca/batch/statistics/verdict.hpp"
-#include "orca/batch/statistics/wilcoxon.hpp"
 
 using namespace orca;
 using namespace orca::batch;
@@ -33,7 +31,12 @@ std::string error_of(const Result<T>& result) {
   return result.error().text();
 }
 
-Verdict verdict_of(const Comparison& comparison) { return judge(comparison).value(); }
+// What nine runs in twenty worlds found.
+Finding finding_of(const Interval& interval, std::size_t runs = 9, std::size_t worlds = 20) {
+  return {.runs = runs, .scope = {worlds}, .difference = {0.5 * (interval.low + interval.high), interval}};
+}
+
+Verdict verdict_of(const Finding& finding, double p) { return judge(finding, p).value(); }
 
 }  // namespace
 
@@ -50,20 +53,21 @@ TEST_CASE("values that are not finite or too large for sums are named by their p
     for (const auto& result :
          {mean(values), median(values), quantile(values, 0.1), interquartile_mean(values)})
       CHECK(error_of(result) == fault);
-    CHECK(error_of(wilcoxon(values)) == fault);
+    CHECK(error_of(sign_flips(values)) == fault);
+    CHECK(error_of(student_p(values)) == fault);
+    CHECK(error_of(estimate_mean(values)) == fault);
+    CHECK(error_of(estimate_share(values, {0.0, 1.0})) == fault);
     const Nested worlds{kTwo, values};
     const std::string placed = "world 2 of 2: " + fault;
     CHECK(error_of(world_means(worlds)) == placed);
-    CHECK(error_of(bootstrap_mean(worlds)) == placed);
-    CHECK(error_of(bootstrap_difference(worlds, worlds)) == placed);
+    CHECK(error_of(sample_of(worlds)) == placed);
+    CHECK(error_of(find_difference(worlds, worlds, Quantity::number)) == placed);
     CHECK(error_of(probability_of_improvement(worlds, worlds)) == placed);
   }
 }
 
 TEST_CASE("differences are checked as values are", "[batch][statistics]") {
   constexpr double most = 1e300;
-  CHECK_THAT(error_of(wilcoxon(std::vector{most}, std::vector{-most})),
-             Contains("value 1 of 1 is not finite"));
   CHECK_THAT(error_of(paired_differences(Nested{{most}}, Nested{{-most}})),
              Contains("value 1 of 1 is not finite"));
 }
@@ -74,23 +78,23 @@ TEST_CASE("a quantile needs a share", "[batch][statistics]") {
 }
 
 TEST_CASE("lists of different lengths are no pairs", "[batch][statistics]") {
-  CHECK_THAT(error_of(wilcoxon(kTwo, std::vector{1.0})), Contains("the numbers of values differ: 2 and 1"));
   CHECK_THAT(error_of(paired_differences(Nested{kTwo}, Nested{kTwo, kTwo})),
              Contains("the numbers of worlds differ: 1 and 2"));
-  CHECK_THAT(error_of(bootstrap_difference(Nested{kTwo, kTwo}, Nested{kTwo, {1.0}})),
+  CHECK_THAT(error_of(find_difference(Nested{kTwo, kTwo}, Nested{kTwo, {1.0}}, Quantity::success)),
              Contains("world 2: the numbers of values differ: 2 and 1"));
   CHECK_THAT(error_of(probability_of_improvement(Nested{kTwo}, Nested{})),
              Contains("the numbers of worlds differ: 1 and 0"));
 }
 
 TEST_CASE("no worlds and worlds without runs are refused", "[batch][statistics]") {
-  CHECK_THAT(error_of(bootstrap_mean(Nested{})), Contains("there are no worlds"));
-  CHECK_THAT(error_of(bootstrap_mean(Nested{kTwo, {}})), Contains("world 2 of 2: there are no values"));
+  CHECK_THAT(error_of(sample_of(Nested{})), Contains("there are no worlds"));
+  CHECK_THAT(error_of(sample_of(Nested{kTwo, {}})), Contains("world 2 of 2: there are no values"));
   CHECK_THAT(error_of(world_means(Nested{})), Contains("there are no worlds"));
   CHECK_THAT(error_of(paired_differences(Nested{{}}, Nested{{}})),
              Contains("world 1 of 1: there are no values"));
   CHECK_THAT(error_of(probability_of_improvement(Nested{}, Nested{})), Contains("there are no worlds"));
-  CHECK_THAT(error_of(bootstrap_mean(Nested{kTwo}, {.draws = 0})), Contains("at least one draw"));
+  CHECK_THAT(error_of(estimate_mean(kTwo, {.draws = 0})), Contains("at least one draw"));
+  CHECK_THAT(error_of(sign_flips(kTwo, {.draws = 0})), Contains("at least one draw"));
 }
 
 TEST_CASE("a rate needs runs, and no more successes than runs", "[batch][statistics]") {
@@ -100,16 +104,27 @@ TEST_CASE("a rate needs runs, and no more successes than runs", "[batch][statist
   CHECK(wilson_interval(1, 1).value().high == 1.0);
 }
 
-TEST_CASE("tests without pairs are refused, and without a difference p is 1", "[batch][statistics]") {
-  CHECK_THAT(error_of(mcnemar(std::vector<SuccessPair>{})), Contains("there are no pairs"));
-  CHECK(mcnemar(std::vector<SuccessPair>{{true, true}, {false, false}}).value().p == 1.0);
-  CHECK(mcnemar(0, 0).p == 1.0);
-  CHECK_THAT(error_of(wilcoxon(kNone)), Contains("there are no values"));
-  CHECK_THAT(error_of(wilcoxon(kNone, kNone)), Contains("there are no values"));
-  const Wilcoxon equal = wilcoxon(kTwo, kTwo).value();
-  CHECK(equal.used == 0);
-  CHECK(equal.p == 1.0);
-  CHECK(wilcoxon(std::vector{0.5}).value().p == 1.0);
+TEST_CASE("tests without differences are refused, and of zeros p is 1", "[batch][statistics]") {
+  CHECK_THAT(error_of(sign_flips(kNone)), Contains("there are no values"));
+  CHECK_THAT(error_of(student_p(kNone)), Contains("there are no values"));
+  const std::vector<double> zeros(30, 0.0);
+  CHECK(sign_flips(zeros).value().used == 0);
+  CHECK(sign_flips(zeros).value().p == 1.0);
+  CHECK(student_p(std::vector{0.0, 0.0, 0.0}).value() == 1.0);
+  CHECK(sign_flips(std::vector{0.5}).value().p == 1.0);
+  CHECK(student_p(std::vector{0.5}).value() == 1.0);
+}
+
+TEST_CASE("a few equal differences are no proof, although they have no spread", "[batch][statistics]") {
+  CHECK(student_p(std::vector{-2.0, -2.0, -2.0}).value() == 0.25);
+  const Nested first{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}};
+  Nested second = first;
+  for (std::vector<double>& world : second)
+    for (double& value : world) value += 2.0;
+  const Finding finding = find_difference(first, second, Quantity::number).value();
+  CHECK(finding.test == Test::student);
+  CHECK(finding.difference.interval == Interval{-2.0, -2.0});
+  CHECK_FALSE(judge(finding, finding.p).value().established());
 }
 
 TEST_CASE("Holm's correction wants p-values", "[batch][statistics]") {
@@ -127,54 +142,101 @@ TEST_CASE("equal values give themselves, to the last bit, and an interval of zer
   CHECK(mean(values).value() == 0.1);
   CHECK(interquartile_mean(values).value() == 0.1);
   CHECK(quantile(values, 0.3).value() == 0.1);
-  const Estimate estimate = bootstrap_mean(worlds).value();
-  CHECK(estimate.value == 0.1);
-  CHECK(estimate.interval == Interval{0.1, 0.1});
-  CHECK(bootstrap_difference(worlds, worlds).value().interval == Interval{0.0, 0.0});
+  const std::vector<double> few(4, 0.1);
+  for (const Estimate& estimate : {estimate_mean(values).value(), estimate_mean(few).value(),
+                                   estimate_mean(std::vector<double>(12, 0.1)).value()}) {
+    CHECK(estimate.value == 0.1);
+    CHECK(estimate.interval == Interval{0.1, 0.1});
+  }
   CHECK(probability_of_improvement(worlds, worlds).value() == 0.5);
 }
 
-TEST_CASE("one world is resampled by its seeds alone, and one value not at all", "[batch][statistics]") {
-  const Interval seeds = bootstrap_mean(Nested{{1.0, 2.0, 3.0}}).value().interval;
-  CHECK(seeds.low >= 1.0);
-  CHECK(seeds.high <= 3.0);
-  CHECK(seeds.low < 1.5);
-  CHECK(seeds.high > 2.5);
-  CHECK(bootstrap_mean(Nested{{4.0}}).value().interval == Interval{4.0, 4.0});
-  CHECK(bootstrap_mean(Nested{{4.0, 5.0}}, {.draws = 1}).value().interval.low >= 4.0);
+TEST_CASE("one value says nothing of others", "[batch][statistics]") {
+  CHECK(estimate_mean(std::vector{4.0}).value().interval == Interval{-kEndless, kEndless});
+  CHECK(estimate_share(std::vector{1.0}, {0.0, 1.0}).value().interval == Interval{0.0, 1.0});
 }
 
-TEST_CASE("a world counts as often as it has runs", "[batch][statistics]") {
-  CHECK(bootstrap_mean(Nested{{1.0}, {4.0, 4.0}}).value().value == 3.0);
+TEST_CASE("successes alone do not show that failures are impossible", "[batch][statistics]") {
+  const double most = wilson_interval(0, 20).value().high;  // 16 %
+  const std::vector<double> ones(20, 1.0);
+  const std::vector<double> zeros(20, 0.0);
+  CHECK(estimate_share(ones, {0.0, 1.0}).value().interval == Interval{1.0 - most, 1.0});
+  CHECK(estimate_share(zeros, {0.0, 1.0}).value().interval == Interval{0.0, most});
+  CHECK(estimate_share(zeros, {-1.0, 1.0}).value().interval == Interval{-most, most});
+  const Interval few = estimate_share(std::vector{1.0, 1.0, 0.5}, {0.0, 1.0}).value().interval;
+  CHECK(few.high == 1.0);  // Student's would end at 155 %
+  CHECK(few.low > 0.0);
+}
+
+TEST_CASE("from three worlds on each world is one value, before that each run is", "[batch][statistics]") {
+  const Sample two = sample_of(Nested{{1.0}, {3.0, 5.0}}).value();
+  CHECK(two.values == std::vector{1.0, 3.0, 5.0});
+  CHECK_FALSE(two.scope.over_worlds());
+  const Sample three = sample_of(Nested{{1.0}, {3.0, 5.0}, {2.0}}).value();
+  CHECK(three.values == std::vector{1.0, 4.0, 2.0});
+  CHECK(three.scope.over_worlds());
   CHECK(world_means(Nested{{1.0}, {3.0, 5.0}}).value() == std::vector{1.0, 4.0});
+}
+
+TEST_CASE("a claim names its worlds where they are few", "[batch][statistics]") {
+  CHECK(Scope{1}.text() == " in this world");
+  CHECK(Scope{2}.text() == " in these 2 worlds");
+  CHECK(Scope{9}.text() == " in these 9 worlds");
+  CHECK(Scope{10}.text().empty());
 }
 
 TEST_CASE("a difference is established with 9 runs, a small p-value and an interval without 0",
           "[batch][statistics]") {
-  const Verdict verdict = verdict_of({9, 9, 0.05, {0.001, 0.02}});
+  const Verdict verdict = verdict_of(finding_of({0.001, 0.02}), 0.05);
   CHECK(verdict.established());
   CHECK(verdict.text == "difference established");
-  CHECK(verdict_of({500, 500, 0.0, {-0.02, -0.001}}).established());
+  CHECK(verdict_of(finding_of({-0.02, -0.001}, 500), 0.0).established());
+  CHECK(verdict_of(finding_of({0.001, 0.02}, 20, 1), 0.05).text == "difference established in this world");
+  CHECK(verdict_of(finding_of({0.001, 0.02}, 20, 6), 0.05).text ==
+        "difference established in these 6 worlds");
 }
 
 TEST_CASE("a difference that is not established gives every reason", "[batch][statistics]") {
-  const Verdict few = verdict_of({8, 9, 0.01, {0.001, 0.02}});
+  const Verdict few = verdict_of(finding_of({0.001, 0.02}, 8), 0.01);
   CHECK(few.doubts == std::vector{Doubt::too_few_runs});
-  CHECK(few.text == "not established: too few runs (8 and 9, at least 9 of each are needed)");
-  CHECK_FALSE(verdict_of({9, 8, 0.01, {0.001, 0.02}}).established());
-  const Verdict wide = verdict_of({9, 9, 0.01, {0.0, 0.02}});
-  CHECK(wide.text == "not established: the interval of the difference includes 0 (0 to 0.02)");
-  const Verdict chance = verdict_of({9, 9, 0.0512, {0.001, 0.02}});
+  CHECK_FALSE(is_enough(finding_of({0.001, 0.02}, 8)));
+  CHECK_FALSE(is_enough(finding_of({0.001, 0.02}, 50, 5)));
+  CHECK(is_enough(finding_of({-1.0, 1.0})));
+  CHECK(few.text == "not established: too few runs (8 of each, at least 9 are needed)");
+  const Verdict worlds = verdict_of(finding_of({0.001, 0.02}, 50, 5), 0.01);
+  CHECK(worlds.text == "not established: too few worlds (5, at least 6 are needed)");
+  const Verdict wide = verdict_of(finding_of({0.0, 0.02}), 0.01);
+  CHECK(wide.text == "not established: the interval includes 0");
+  const Verdict chance = verdict_of(finding_of({0.001, 0.02}), 0.0512);
   CHECK(chance.text == "not established: the adjusted p-value 0.0512 is above 0.05");
-  const Verdict all = verdict_of({0, 0, 1.0, {-0.25, 0.1234}});
-  CHECK(all.doubts.size() == 3);
-  CHECK_THAT(all.text, Contains("(0 and 0, ") && Contains("; the interval") &&
-                           Contains("(-0.25 to 0.123); ") && Contains("p-value 1 is above 0.05"));
+  const Verdict both = verdict_of(finding_of({-0.25, 0.1234}), 1.0);
+  CHECK(both.doubts.size() == 2);
+  CHECK(both.text == "not established: the interval includes 0; the adjusted p-value 1 is above 0.05");
+  const Verdict little = verdict_of(finding_of({-0.25, 0.1234}, 0, 3), 1.0);
+  CHECK(little.text ==
+        "not established: too few runs (0 of each, at least 9 are needed); too few worlds (3, at least 6 are "
+        "needed)");
+}
+
+TEST_CASE("Student's test speaks of three worlds, and flipped signs need six", "[batch][statistics]") {
+  const Nested times{{1.0, 1.1}, {2.0, 2.1}, {3.0, 3.2}, {4.0, 4.1}, {5.0, 5.2}};
+  const Nested later{{2.0, 2.0}, {3.0, 3.2}, {4.0, 4.3}, {5.0, 5.0}, {6.0, 6.3}};
+  const Finding time = find_difference(later, times, Quantity::number).value();
+  CHECK(time.test == Test::student);
+  CHECK(judge(time, time.p).value().text == "difference established in these 5 worlds");
+  const Nested all(5, {1.0, 1.0});
+  const Nested none(5, {0.0, 0.0});
+  const Finding success = find_difference(all, none, Quantity::success).value();
+  CHECK(success.p == 0.0625);
+  CHECK_THAT(judge(success, success.p).value().text, Contains("too few worlds (5, at least 6"));
+  const Nested six(6, {1.0, 1.0});
+  const Nested no_six(6, {0.0, 0.0});
+  CHECK(find_difference(six, no_six, Quantity::success).value().p == 0.03125);
 }
 
 TEST_CASE("a comparison without numbers has no verdict", "[batch][statistics]") {
   for (const double p : {-0.1, 1.1, kNoNumber})
-    CHECK_THAT(error_of(judge({9, 9, p, {1, 2}})), Contains("p-value"));
-  for (const Interval& interval : {Interval{2, 1}, Interval{kNoNumber, 1}, Interval{1, kEndless}})
-    CHECK_THAT(error_of(judge({9, 9, 0.01, interval})), Contains("the lower one first"));
+    CHECK_THAT(error_of(judge(finding_of({1, 2}), p)), Contains("p-value"));
+  for (const Interval& interval : {Interval{2, 1}, Interval{kNoNumber, 1}, Interval{1, kNoNumber}})
+    CHECK_THAT(error_of(judge(finding_of(interval), 0.01)), Contains("the lower one first"));
 }

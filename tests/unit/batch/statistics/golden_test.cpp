@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of SciPy 1.10.1 and NumPy 1.24.2. The comment above each gives the call that made them.
+// Values of SciPy and NumPy: 1.17.1 and 2.4.6 of Student's t, of permutations and of the expanded bootstrap, 1.10.1 and 1.24.2 of the
+// others. The comment above each gives the call that made them.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -7,12 +8,12 @@
 #include <vector>
 
 #include "normal.hpp"
-#include "orca/batch/statistics/bootstrap.hpp"
+#include "orca/batch/statistics/estimate.hpp"
 #include "orca/batch/statistics/holm.hpp"
-#include "orca/batch/statistics/mcnemar.hpp"
+#include "orca/batch/statistics/paired_tests.hpp"
 #include "orca/batch/statistics/rate.hpp"
 #include "orca/batch/statistics/summary.hpp"
-#include "orca/batch/statistics/wilcoxon.hpp"
+#include "student.hpp"
 
 using namespace orca;
 using namespace orca::batch;
@@ -69,78 +70,79 @@ TEST_CASE("Wilson's interval is SciPy's", "[batch][statistics]") {
   }
 }
 
-TEST_CASE("McNemar's exact p-values are SciPy's", "[batch][statistics]") {
-  // scipy.stats.binomtest(only_first, only_first + only_second).pvalue
-  for (const auto& [only_first, only_second, p] :
-       std::vector<std::tuple<std::uint64_t, std::uint64_t, double>>{{1, 0, 1.0},
-                                                                     {0, 5, 0.0625},
-                                                                     {0, 6, 0.03125},
-                                                                     {3, 9, 0.14599609375},
-                                                                     {9, 3, 0.14599609375},
-                                                                     {5, 5, 1.0},
-                                                                     {10, 25, 0.016673847800120715},
-                                                                     {480, 520, 0.2174482932041409},
-                                                                     {0, 900, 2.3661043723335494e-271}})
-    CHECK(mcnemar(only_first, only_second).p == close_to(p));
+TEST_CASE("Student's tails and quantiles are SciPy's", "[batch][statistics]") {
+  // 2 * scipy.stats.t.sf(abs(t), freedom)
+  for (const auto& [t, freedom, tail] :
+       std::vector<std::tuple<double, std::size_t, double>>{{0, 1, 1.0},
+                                                            {1, 1, 0.5000000000000001},
+                                                            {12.7, 1, 0.050024327689344165},
+                                                            {0.5, 2, 0.6666666666666667},
+                                                            {4.3, 2, 0.05005715411709159},
+                                                            {2.5, 3, 0.08770664700806556},
+                                                            {2.0, 4, 0.11611652351681556},
+                                                            {-3.25, 9, 0.009997369084021572},
+                                                            {1.7, 24, 0.10205659714111869},
+                                                            {2.2, 99, 0.030132821689335863},
+                                                            {1.96, 1000, 0.050273184955748736},
+                                                            {2.6, 4999, 0.009349803305509968}})
+    CHECK(two_sided_student_tail(t, freedom) == Approx(tail).epsilon(0.0).margin(1e-12));
+  // scipy.stats.t.isf(tail / 2, freedom)
+  for (const auto& [tail, freedom, t] :
+       std::vector<std::tuple<double, std::size_t, double>>{{0.05, 1, 12.706204736174705},
+                                                            {0.05, 2, 4.302652729749464},
+                                                            {0.05, 3, 3.1824463052837086},
+                                                            {0.05, 9, 2.2621571627982053},
+                                                            {0.05, 99, 1.9842169515864176},
+                                                            {0.05, 999, 1.9623414611334498},
+                                                            {0.4, 2, 1.060660171779821},
+                                                            {0.4, 30, 0.853767261471298},
+                                                            {0.1, 19, 1.7291328115213687}})
+    CHECK(student_reach(tail, freedom) == close_to(t));
 }
 
-TEST_CASE("McNemar's p-values of many pairs and small probabilities have an error below 1e-13",
-          "[batch][statistics]") {
-  // With n = only_first + only_second and Python's fractions, because SciPy is off by 6e-13 in the last case:
-  // float(Fraction(2 * sum(math.comb(n, k) for k in range(min(only_first, only_second) + 1)), 2**n))
-  CHECK(mcnemar(121, 59).p == close_to(4.434449263755176e-06, 1e-13));
-  CHECK(mcnemar(100, 300).p == close_to(2.5918869069720767e-24, 1e-13));
-  CHECK(mcnemar(49'000, 51'000).p == close_to(2.588716038346898e-10, 1e-13));
-  CHECK(mcnemar(498'000, 502'000).p == close_to(6.360933750082489e-05, 1e-13));
+TEST_CASE("Student's test and interval are SciPy's, and agree", "[batch][statistics]") {
+  // x = scipy.stats.ttest_1samp(d, 0); x.pvalue, *x.confidence_interval()
+  for (const auto& [differences, p, low, high] :
+       std::vector<std::tuple<std::vector<double>, double, double, double>>{
+           {{-1.5, -2.0, -0.5}, 0.09417837268432339, -3.2306248501317127, 0.5639581834650462},
+           {{3, 1, 4, 1, 5}, 0.024896163460222765, 0.5788439158417651, 5.021156084158235},
+           {{0.1, -0.2, 0.3, 0.25}, 0.3910022189557703, -0.24552520934441713, 0.4705252093444171}}) {
+    const Interval interval = estimate_mean(differences).value().interval;
+    CHECK(student_p(differences).value() == close_to(p));
+    CHECK(interval.low == close_to(low));
+    CHECK(interval.high == close_to(high));
+    CHECK((p <= 0.05) != interval.contains(0.0));
+  }
 }
 
-TEST_CASE("McNemar's test counts the pairs of which one succeeded", "[batch][statistics]") {
-  const std::vector<SuccessPair> pairs{
-      {true, true}, {true, false}, {false, true}, {true, false}, {false, false}};
-  const McNemar result = mcnemar(pairs).value();
-  CHECK(result.only_first == 2);
-  CHECK(result.only_second == 1);
-  CHECK(result.p == 1.0);
-}
-
-TEST_CASE("Wilcoxon's exact p-values are SciPy's", "[batch][statistics]") {
-  // scipy.stats.wilcoxon(differences, zero_method="wilcox", correction=False, alternative="two-sided", method="exact")
-  const Wilcoxon ten = wilcoxon(std::vector<double>{7, -1, 12, 3, -4, 9, 15, -2, 6, 11}).value();
+TEST_CASE("permutation tests are SciPy's", "[batch][statistics]") {
+  // scipy.stats.permutation_test((d,), numpy.mean, permutation_type="samples", n_resamples=numpy.inf).pvalue
+  const SignFlips ten = sign_flips(std::vector<double>{7, -1, 12, 3, -4, 9, 15, -2, 6, 11}).value();
   CHECK(ten.exact);
   CHECK(ten.used == 10);
-  CHECK(ten.negative_ranks == 7.0);
-  CHECK(ten.positive_ranks == 48.0);
-  CHECK(ten.p == close_to(0.037109375));
-  // Darwin's plants, from Fisher, "The design of experiments", 1935, table 3.
-  const Wilcoxon darwin =
-      wilcoxon(std::vector<double>{6, 8, 14, 16, 23, 24, 28, 29, 41, -48, 49, 56, 60, -67, 75}).value();
-  CHECK(darwin.negative_ranks == 24.0);
-  CHECK(darwin.p == close_to(0.041259765625));
-  std::vector<double> mixed;  // [(-1)**(i * i // 3) * i for i in range(1, 26)]
-  for (int i = 1; i <= 25; ++i) mixed.push_back((i * i / 3) % 2 == 0 ? i : -i);
-  CHECK(wilcoxon(mixed).value().exact);
-  CHECK(wilcoxon(mixed).value().p == close_to(0.6338268518447876));
-  std::vector<double> rising;  // numpy.arange(1.0, 26)
-  for (int i = 1; i <= 25; ++i) rising.push_back(i);
-  CHECK(wilcoxon(rising).value().p == close_to(5.960464477539063e-08));
+  CHECK(ten.p == close_to(0.03125));
+  // Darwin's plants, on which Fisher shows the test, "The design of experiments", 1935, section 21.
+  CHECK(
+      sign_flips(std::vector<double>{6, 8, 14, 16, 23, 24, 28, 29, 41, -48, 49, 56, 60, -67, 75}).value().p ==
+      close_to(0.05267333984375));
+  const SignFlips shares =
+      sign_flips(std::vector<double>{0.2, -0.2, 0.4, 0, 0.6, 0.2, 0.2, -0.4, 0.8, 0.2, 0.2}).value();
+  CHECK(shares.used == 10);
+  CHECK(shares.p == close_to(0.111328125));
+  CHECK(sign_flips(std::vector<double>(6, 0.1)).value().p == close_to(0.03125));
+  // McNemar's test: scipy.stats.binomtest(3, 12).pvalue
+  std::vector<double> outcomes(12, 1.0);
+  for (int i = 0; i < 3; ++i) outcomes[static_cast<std::size_t>(4 * i)] = -1.0;
+  CHECK(sign_flips(outcomes).value().p == close_to(0.14599609375));
 }
 
-TEST_CASE("Wilcoxon's approximate p-values are SciPy's", "[batch][statistics]") {
-  // scipy.stats.wilcoxon(differences, zero_method="wilcox", correction=False, alternative="two-sided", method="approx")
-  const Wilcoxon ties = wilcoxon(std::vector<double>{3, -1, 3, 2, -2, 5, 5, 5, -1, 4}).value();
-  CHECK_FALSE(ties.exact);
-  CHECK(ties.negative_ranks == 6.5);
-  CHECK(ties.p == close_to(0.03153033220756929));
-  const Wilcoxon zeros = wilcoxon(std::vector<double>{7, -1, 12, 0, 3, -4, 9, 15, -2, 6, 11, 0}).value();
-  CHECK_FALSE(zeros.exact);
-  CHECK(zeros.used == 10);
-  CHECK(zeros.p == close_to(0.03665792867221451));
+TEST_CASE("a permutation test with drawn signs is SciPy's, up to the draws", "[batch][statistics]") {
   std::vector<double> forty;  // [((i * 37) % 41) - 14.5 for i in range(40)]
   for (int i = 0; i < 40; ++i) forty.push_back((i * 37) % 41 - 14.5);
-  CHECK(wilcoxon(forty).value().p == close_to(0.006352385214212849));
-  std::vector<double> many;  // [((i * 7919) % 1009) - 480.0 for i in range(500)], with ties and one zero
-  for (int i = 0; i < 500; ++i) many.push_back((i * 7919) % 1009 - 480.0);
-  CHECK(wilcoxon(many).value().p == close_to(0.07570295747559605));
+  const SignFlips drawn = sign_flips(forty).value();
+  CHECK_FALSE(drawn.exact);
+  // as above, with n_resamples=2_000_000, random_state=1; four standard errors of a share of 100,000 draws
+  CHECK(drawn.p == Approx(0.0035369982315008844).epsilon(0.0).margin(4 * 0.000188));
 }
 
 TEST_CASE("Holm's adjusted p-values come in the order given", "[batch][statistics]") {
@@ -183,24 +185,14 @@ TEST_CASE("the probability of improvement is the mean of Mann and Whitney's shar
   CHECK(probability_of_improvement(first, second).value() == close_to(0.6909722222222223));
 }
 
-TEST_CASE("bootstrap intervals are those of NumPy and SciPy, up to the draws", "[batch][statistics]") {
-  std::vector<std::vector<double>> worlds(
-      8);  // v = numpy.array([[0.01 * ((w * 7 + s * 5) % 23) for s in range(3)] for w in range(8)])
-  std::vector<std::vector<double>> one_seed(8);
-  for (int w = 0; w < 8; ++w) {
-    for (int s = 0; s < 3; ++s) worlds[static_cast<std::size_t>(w)].push_back(0.01 * ((w * 7 + s * 5) % 23));
-    one_seed[static_cast<std::size_t>(w)].push_back(worlds[static_cast<std::size_t>(w)][0]);
-  }
-  // r = numpy.random.default_rng(1); n = 1_000_000; w = r.integers(0, 8, (n, 8)); s = r.integers(0, 3, (n, 8, 3))
-  // m = v[w[:, :, None], s].mean((1, 2)); numpy.quantile(m, [0.025, 0.975]), drawn in ten parts. The margin is four standard
-  // errors of a quantile of 100,000 draws, 0.0084 times numpy.std(m).
-  const Estimate nested = bootstrap_mean(worlds, {.draws = 100'000}).value();
-  CHECK(nested.value == close_to(0.103333333333333));
-  CHECK(nested.interval.low == Approx(0.072083333333333).epsilon(0.0).margin(4 * 0.0084 * 0.0163));
-  CHECK(nested.interval.high == Approx(0.135833333333333).epsilon(0.0).margin(4 * 0.0084 * 0.0163));
-  // scipy.stats.bootstrap((v[:, 0],), numpy.mean, n_resamples=1_000_000, method="percentile", random_state=1, batch=10000)
-  const Estimate plain = bootstrap_mean(one_seed, {.draws = 100'000}).value();
-  CHECK(plain.value == close_to(0.10125));
-  CHECK(plain.interval.low == Approx(0.0525).epsilon(0.0).margin(4 * 0.0084 * 0.0252));
-  CHECK(plain.interval.high == Approx(0.15125).epsilon(0.0).margin(4 * 0.0084 * 0.0252));
+TEST_CASE("bootstrap intervals are those of NumPy, up to the draws", "[batch][statistics]") {
+  std::vector<double> values;  // d = numpy.array([0.01 * ((w * 7) % 23) for w in range(12)])
+  for (int w = 0; w < 12; ++w) values.push_back(0.01 * ((w * 7) % 23));
+  // q = scipy.stats.norm.cdf(-scipy.stats.t.ppf(0.975, 11) * numpy.sqrt(12 / 11)), which is 0.010757
+  // r = numpy.random.default_rng(1); m = d[r.integers(0, 12, (2_000_000, 12))].mean(1); numpy.quantile(m, [q, 1 - q]), drawn in
+  // twenty parts. The margin is four standard errors of these quantiles of 100,000 draws.
+  const Estimate estimate = estimate_mean(values, {.draws = 100'000}).value();
+  CHECK(estimate.value == close_to(0.0975));
+  CHECK(estimate.interval.low == Approx(0.05416666666666667).epsilon(0.0).margin(4 * 0.0002));
+  CHECK(estimate.interval.high == Approx(0.1425).epsilon(0.0).margin(4 * 0.0002));
 }

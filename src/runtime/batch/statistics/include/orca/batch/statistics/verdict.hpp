@@ -6,41 +6,42 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
-#include "orca/batch/statistics/interval.hpp"
+#include "orca/batch/statistics/finding.hpp"
 
 namespace orca::batch {
 
 constexpr std::uint64_t kLeastRuns = 9;  ///< Runs of each algorithm that a claim needs.
 constexpr double kLargestPValue = 0.05;  ///< Largest adjusted p-value that supports a claim.
 
-/// The evidence about the difference of two algorithms in one metric.
-struct Comparison {
-  std::uint64_t first_runs = 0;
-  std::uint64_t second_runs = 0;
-  double adjusted_p = 1.0;  ///< From a paired test, after holm() over all tests of the report.
-  Interval difference;      ///< The paired one, by bootstrap_difference().
-};
-
 /// A reason why a difference is not established.
 enum class Doubt {
   too_few_runs,            ///< One of the algorithms has fewer than kLeastRuns runs.
+  too_few_worlds,          ///< Finding::has_too_few_worlds().
   interval_includes_zero,  ///< An end of the interval that is exactly 0 counts.
   p_value_too_large,       ///< Above kLargestPValue.
 };
 
 /// The words of a report about a difference.
 struct Verdict {
-  std::vector<Doubt> doubts;  ///< All that apply, in the order of the enumeration.
-  std::string text;  ///< "difference established", or "not established: " and the reasons with their numbers.
+  std::vector<Doubt>
+      doubts;  ///< All that apply, in the order of the enumeration; the last two only where there is enough to judge by.
+  /// "difference established" with its Scope::text(), or "not established: " and the reasons with their numbers.
+  std::string text;
 
   [[nodiscard]] bool established() const { return doubts.empty(); }
 };
 
+/// Returns whether there are runs and worlds enough for a claim, whatever they are like. A test without this can find nothing, so holm()
+/// need not count it.
+/// @source  Tarone, "A modified Bonferroni method for discrete data", Biometrics 46(2), 1990.
+[[nodiscard]] bool is_enough(const Finding& finding);
+
 /// Decides whether a difference is established: at least 9 runs of each algorithm, an adjusted p-value of at most 0.05 and an
 /// interval that excludes 0. "Not established" does not say that the algorithms are equal.
 ///
-/// @errors  invalid_argument if the p-value is not in [0, 1], or if the ends of the interval are not finite or not in order.
+/// @param adjusted_p  Finding::p after holm() over all tests of the report.
+/// @errors  invalid_argument if the p-value is not in [0, 1], or if the ends of the interval are not in order.
 /// @thread  a pure function; any thread.
-[[nodiscard]] Result<Verdict> judge(const Comparison& comparison);
+[[nodiscard]] Result<Verdict> judge(const Finding& finding, double adjusted_p);
 
 }  // namespace orca::batch

@@ -13,4 +13,8 @@ namespace orca::batch {
 /// @pre  at least one value
 [[nodiscard]] double mean_of(std::span<const double> values);
 
+/// Returns the standard error of mean_of(), from the spread of the values; exactly 0 if they are equal.
+/// @pre  at least two values
+[[nodiscard]] double standard_error_of(std::span<const double> values);
+
 }  // namespace orca::batch
