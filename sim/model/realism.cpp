@@ -38,6 +38,8 @@ constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatc
                              Named{"laser_sigma", &ErrorLevels::laser_sigma},
                              Named{"laser_drop_angle", &ErrorLevels::laser_drop_angle, kRightAngle},
                              Named{"infrared_noise", &ErrorLevels::infrared_noise},
+                             Named{"slip_length", &ErrorLevels::slip_length},
+                             Named{"slip_angle", &ErrorLevels::slip_angle},
                              Named{"sonar_edges", &ErrorLevels::sonar_edges, 1.0},
                              Named{"sonar_threshold", &ErrorLevels::sonar_threshold, 1.0},
                              Named{"sonar_in_line", &ErrorLevels::sonar_in_line, kRightAngle},
@@ -50,8 +52,8 @@ Error unknown(std::string_view name) {
   std::vector<std::string> names;
   for (const Named& error : kErrors) names.emplace_back(error.name);
   return fail(Code::invalid_argument,
-              in_quotes(name) + " is no error of a level and no estimate; there are: " + listed(names) +
-                  xml::did_you_mean(xml::nearest_name(name, names)));
+              in_quotes(name) + " is no error of a level and no estimate; there are: " +
+                  listed(names, names.size()) + xml::did_you_mean(xml::nearest_name(name, names)));
 }
 
 Status scale(ErrorLevels& levels, std::string_view word) {

@@ -14,7 +14,10 @@ constexpr std::array<Vec2, 3> kTangents{Vec2{-kSin60, 0.5}, Vec2{0.0, -1.0}, Vec
 }  // namespace
 
 WheelErrors WheelErrors::drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random) {
-  WheelErrors drawn{.slip = errors.slip, .turn_slip = errors.turn_slip};
+  WheelErrors drawn{.slip = errors.slip,
+                    .turn_slip = errors.turn_slip,
+                    .slip_length = errors.slip_length,
+                    .slip_angle = errors.slip_angle};
   drawn.track = random.uniform(-errors.track_error, errors.track_error);
   const double half = 0.5 * errors.wheel_mismatch;
   if (kind == DriveKind::differential) {
@@ -26,6 +29,13 @@ WheelErrors WheelErrors::drawn(DriveKind kind, const ErrorLevels& errors, Random
   }
   return drawn;
 }
+
+WheelModel::WheelModel(const Drive& drive, const WheelErrors& errors)
+    : kind_(drive.kind),
+      errors_(errors),
+      track_(drive.track),
+      rolling_(wheels(), {errors.slip, errors.slip_length}),
+      turning_(wheels(), {errors.turn_slip, errors.slip_angle}) {}
 
 // Returns how far each wheel goes over the floor when the base moves like that. A wheel that cannot roll
 // sideways is dragged then, and does not turn.
@@ -52,12 +62,9 @@ Travel2 WheelModel::base_of(const Ways& ways, double track) const {
 }
 
 void WheelModel::draw_slip(const Ways& rolled, double turn, const Footing& footing, RandomStream& random) {
-  const double of_turn = errors_.turn_slip * errors_.turn_slip * std::fabs(turn);
-  for (std::size_t k = 0; k < wheels(); ++k) {
-    const double variance = errors_.slip * errors_.slip * std::fabs(rolled[k]) + of_turn;
-    slip_[k] =
-        random.normal(0.0, footing.slip * std::sqrt(variance)) - std::copysign(footing.lost[k], rolled[k]);
-  }
+  for (std::size_t k = 0; k < wheels(); ++k)
+    slip_[k] = footing.slip * (rolling_[k].over(rolled[k], random) + turning_[k].over(turn, random)) -
+               std::copysign(footing.lost[k], rolled[k]);
 }
 
 std::vector<Vec2> WheelModel::places() const {

@@ -10,6 +10,7 @@
 #include "orca/geometry/vec2.hpp"
 #include "orca/sim/realism.hpp"
 #include "orca/sim/robot_model.hpp"
+#include "slip_process.hpp"
 
 namespace orca::sim::detail {
 
@@ -19,9 +20,12 @@ struct WheelErrors {
   // have three.
   std::array<double, 3> diameter{};
   double track = 0.0;  // Relative error: the true track is (1 + track) times the assumed one.
-  double slip = 0.0;   // [m] Standard deviation of a wheel's way over the floor after it has rolled 1 m.
-  double turn_slip =
-      0.0;  // [m] The same after the base has turned 1 rad, in addition. Both grow with the root.
+  // [m] Standard deviation of a wheel's way over the floor per root of a metre that it rolls, on long ways.
+  double slip = 0.0;
+  double turn_slip = 0.0;  // [m] The same per root of a radian that the base turns, in addition.
+  double slip_length =
+      0.1;  // [m] Way over which the wheel's slip keeps its ratio: integral of its correlation.
+  double slip_angle = 0.2;  // [rad] The same of turn_slip.
 
   // Draws the errors of one robot. The largest ratio of two diameters lies within the bound of the level. The
   // diameters of a differential base are drawn by their ratio and their mean, so that they are uncorrelated.
@@ -38,8 +42,7 @@ struct Footing {
 // wheels by their encoders, with the assumed dimensions. So the errors of the wheels act on the true motion.
 class WheelModel {
  public:
-  WheelModel(const Drive& drive, const WheelErrors& errors)
-      : kind_(drive.kind), errors_(errors), track_(drive.track) {}
+  WheelModel(const Drive& drive, const WheelErrors& errors);
 
   // Returns the true motion of a base whose wheels roll so that their encoders report `rolled`. It draws the
   // slip of this tick.
@@ -66,6 +69,8 @@ class WheelModel {
   DriveKind kind_;
   WheelErrors errors_;
   double track_;
+  // Each wheel's slip by what it rolls, and by the turn of the base.
+  std::vector<SlipProcess> rolling_, turning_;
   Ways slip_{};  // In the present tick.
 };
 

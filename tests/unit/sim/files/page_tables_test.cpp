@@ -47,8 +47,8 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 // The page's names for the members of ErrorLevels, in their order.
 const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
                        "track: bound of its relative error",
-                       "slip of a wheel after 1 m, standard deviation",
-                       "slip of a wheel after a turn of 1 rad, in addition",
+                       "slip of a wheel per root of a metre, standard deviation",
+                       "slip of a wheel per root of a radian of turn, in addition",
                        "lag and dead time of the drive, times those of the file",
                        "sonar: standard deviation, relative to the range",
                        "sonar: readings that are arbitrary",
@@ -66,16 +66,16 @@ const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
 Lines numbers_of(Realism realism) {
   const auto [wheel_mismatch, track_error, slip, turn_slip, delay_scale, sonar_noise, sonar_outliers,
               critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels,
-              infrared_noise, quantised, sonar_edges, sonar_threshold, sonar_in_line, laser_spot,
-              contact_friction, wheel_grip, motor_force] = error_levels(realism);
-  return {percent(wheel_mismatch), percent(track_error),         millimetres(slip),
-          millimetres(turn_slip),  number(delay_scale, ""),      percent(sonar_noise),
-          percent(sonar_outliers), degrees(critical_angle),      yes_or_no(sonar_crosstalk),
-          millimetres(laser_bias), millimetres(laser_sigma),     degrees(laser_drop_angle),
-          yes_or_no(mixed_pixels), number(infrared_noise, "/m"), yes_or_no(quantised),
-          number(sonar_edges, ""), number(sonar_threshold, ""),  degrees(sonar_in_line),
-          number(laser_spot, ""),  number(contact_friction, ""), number(wheel_grip, ""),
-          number(motor_force, "")};
+              infrared_noise, quantised, slip_length, slip_angle, sonar_edges, sonar_threshold, sonar_in_line,
+              laser_spot, contact_friction, wheel_grip, motor_force] = error_levels(realism);
+  return {percent(wheel_mismatch),      percent(track_error),         millimetres(slip),
+          millimetres(turn_slip),       number(delay_scale, ""),      percent(sonar_noise),
+          percent(sonar_outliers),      degrees(critical_angle),      yes_or_no(sonar_crosstalk),
+          millimetres(laser_bias),      millimetres(laser_sigma),     degrees(laser_drop_angle),
+          yes_or_no(mixed_pixels),      number(infrared_noise, "/m"), yes_or_no(quantised),
+          number(slip_length, "m"),     number(slip_angle, "rad"),    number(sonar_edges, ""),
+          number(sonar_threshold, ""),  degrees(sonar_in_line),       number(laser_spot, ""),
+          number(contact_friction, ""), number(wheel_grip, ""),       number(motor_force, "")};
 }
 
 Lines column_of(Realism realism) {

@@ -7,7 +7,9 @@
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "orca/sim/world.hpp"
@@ -65,10 +67,54 @@ Eigen::Vector3d apart(const Pose2& a, const Pose2& b) {
   return {a.x - b.x, a.y - b.y, wrapped(a.yaw - b.yaw)};
 }
 
+// Noise over a way that is cut into steps: white noise of which each part arrives spread over what follows, with the weight
+// s / l^2 exp(-s / l) at a distance s behind it. It is the definition of slip, with l half its length.
+class SpreadNoise {
+ public:
+  SpreadNoise(std::vector<double> steps, double length) : steps_(std::move(steps)) {
+    const double l = 0.5 * length;
+    steps_.insert(steps_.begin(), kBefore, 8.0 * l / kBefore);
+    std::vector<double> middles;
+    double way = 0.0;
+    for (const double step : steps_) {
+      middles.push_back(way + 0.5 * step);
+      way += step;
+    }
+    for (std::size_t i = kBefore; i < steps_.size(); ++i) {
+      weights_.emplace_back();
+      for (std::size_t j = 0; j < i; ++j) {
+        const double s = middles[i] - middles[j];
+        if (s < 8.0 * l) weights_.back().emplace_back(j, s / (l * l) * std::exp(-s / l));
+      }
+    }
+  }
+
+  // Returns what arrives in each step.
+  template <class Normal>
+  std::vector<double> drawn(const Normal& normal) const {
+    std::vector<double> white;
+    for (const double step : steps_) white.push_back(std::sqrt(step) * normal());
+    std::vector<double> sums;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      double density = 0.0;
+      for (const auto& [j, weight] : weights_[i]) density += weight * white[j];
+      sums.push_back(density * steps_[kBefore + i]);
+    }
+    return sums;
+  }
+
+ private:
+  static constexpr std::size_t kBefore = 50;  // Steps before the first one, whose noise still arrives.
+
+  std::vector<double> steps_;
+  std::vector<std::vector<std::pair<std::size_t, double>>> weights_;
+};
+
 // Squares of perfect wheels that slip.
 class Slipping {
  public:
-  explicit Slipping(const ErrorLevels& errors) : errors_(errors) {}
+  explicit Slipping(const ErrorLevels& errors)
+      : errors_(errors), by_way_(ways(), errors.slip_length), by_turn_(turns(), errors.slip_angle) {}
 
   // Returns the covariance of where they end.
   Eigen::Matrix3d covariance() {
@@ -76,10 +122,7 @@ class Slipping {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (int i = 0; i < kSquares; ++i) {
       end_ = Eigen::Vector3d::Zero();
-      for (int corner = 0; corner < 4; ++corner) {
-        roll(kSquare.leg, 0.0, 100);
-        roll(0.0, kSquare.turn, 20);
-      }
+      drive();
       end_[2] -= 4.0 * kSquare.turn;
       sum += end_ * end_.transpose() / kSquares;
     }
@@ -87,24 +130,45 @@ class Slipping {
   }
 
  private:
-  void roll(double forward, double turn, int steps) {
-    const double round = 0.5 * kSquare.track * turn;
-    for (int i = 0; i < steps; ++i) {
-      const double left = slipped((forward - round) / steps, turn / steps);
-      const double right = slipped((forward + round) / steps, turn / steps);
-      const double turned = (right - left) / kSquare.track;
-      const double middle = end_[2] + 0.5 * turned;
-      end_ += Eigen::Vector3d(0.5 * (left + right) * std::cos(middle),
-                              0.5 * (left + right) * std::sin(middle), turned);
+  static constexpr int kLeg = 250, kTurn = 60;  // Steps.
+  static double round() { return 0.5 * kSquare.track * kSquare.turn; }
+
+  static std::vector<double> ways() {
+    std::vector<double> steps;
+    for (int corner = 0; corner < 4; ++corner) {
+      steps.insert(steps.end(), kLeg, kSquare.leg / kLeg);
+      steps.insert(steps.end(), kTurn, round() / kTurn);
+    }
+    return steps;
+  }
+  static std::vector<double> turns() { return std::vector<double>(4 * kTurn, kSquare.turn / kTurn); }
+
+  void drive() {
+    const auto normal = [this] { return normal_(random_); };
+    const std::array way{by_way_.drawn(normal), by_way_.drawn(normal)};
+    const std::array turn{by_turn_.drawn(normal), by_turn_.drawn(normal)};
+    std::size_t at = 0, turned = 0;
+    for (int corner = 0; corner < 4; ++corner) {
+      for (int i = 0; i < kLeg; ++i, ++at) {
+        const double step = kSquare.leg / kLeg;
+        roll(step + errors_.slip * way[0][at], step + errors_.slip * way[1][at]);
+      }
+      for (int i = 0; i < kTurn; ++i, ++at, ++turned) {
+        const double step = round() / kTurn;
+        roll(-step - errors_.slip * way[0][at] + errors_.turn_slip * turn[0][turned],
+             step + errors_.slip * way[1][at] + errors_.turn_slip * turn[1][turned]);
+      }
     }
   }
-  double slipped(double way, double turn) {
-    const double variance = errors_.slip * errors_.slip * std::fabs(way) +
-                            errors_.turn_slip * errors_.turn_slip * std::fabs(turn);
-    return way + std::sqrt(variance) * normal_(random_);
+  void roll(double left, double right) {
+    const double turned = (right - left) / kSquare.track;
+    const double middle = end_[2] + 0.5 * turned;
+    end_ += Eigen::Vector3d(0.5 * (left + right) * std::cos(middle), 0.5 * (left + right) * std::sin(middle),
+                            turned);
   }
 
   ErrorLevels errors_;
+  SpreadNoise by_way_, by_turn_;
   std::mt19937 random_{1};
   std::normal_distribution<double> normal_;
   Eigen::Vector3d end_;

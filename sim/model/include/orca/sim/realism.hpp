@@ -17,9 +17,9 @@ using robot_file::to_string;
 struct ErrorLevels {
   double wheel_mismatch = 0.0;  ///< Bound of the ratio of two wheels' diameters, less 1.
   double track_error = 0.0;     ///< Bound of the relative error of the track.
-  /// [m] Standard deviation of a wheel's way over the floor after it has rolled 1 m; grows with the root.
+  /// [m] Standard deviation of a wheel's way over the floor per root of a metre that it rolls, on long ways.
   double slip = 0.0;
-  /// [m] The same after the base has turned 1 rad, in addition; grows with the root of the turn.
+  /// [m] The same per root of a radian that the base turns, in addition.
   double turn_slip = 0.0;
   double delay_scale = 0.0;     ///< Factor on the drive's lag and dead time.
   double sonar_noise = 0.0;     ///< Relative standard deviation of a range.
@@ -36,6 +36,9 @@ struct ErrorLevels {
   bool quantised = false;       ///< Readings come in the device's steps.
 
   // Own estimates that every level shares.
+  /// [m] Way over which a wheel's slip keeps its share of the way: integral of its correlation.
+  double slip_length = 0.1;
+  double slip_angle = 0.2;       ///< [rad] The same of turn_slip, over the turn of the base.
   double sonar_edges = 0.3;      ///< Strength of an edge's echo, as a share of a wall's.
   double sonar_threshold = 0.1;  ///< Weakest sound that is heard, as a share of that on the axis.
   /// [rad] Walls whose directions differ by less count as one line.
