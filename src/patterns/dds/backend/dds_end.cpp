@@ -24,9 +24,11 @@ DdsEnd::~DdsEnd() { DdsEnd::stop(); }
 void DdsEnd::start(FrameHandlers handlers) {
   handlers_ = std::move(handlers);
   place_.strand.add_intake(*this);
-  const std::uint64_t session = place_.line.add(place_.edge, *this);
-  std::uint64_t none = 0;
-  line_session_.compare_exchange_strong(none, session);  // unless it has changed already
+  place_.line.add(place_.edge, *this);
+}
+
+void DdsEnd::boarded(std::uint64_t session) {
+  line_session_ = session;
   session_ = session;
 }
 

@@ -47,6 +47,7 @@ class DdsEnd : public frames::FrameEnd, public Intake, public Passenger {
   void arrived(Parcel kind, std::span<const std::byte> contents) override;
   void line_lost(const Error& reason) override;
   void line_joined(std::uint64_t session) override;
+  void boarded(std::uint64_t session) override;
 
  protected:
   /// Lets the strand handle a frame.

@@ -27,6 +27,8 @@ constexpr std::uint32_t kMostPatience = 25;
 constexpr std::uint32_t kHeartbeat = 2;
 constexpr std::uint32_t kEager = 100;  // greets at each tick; later more rarely
 constexpr std::uint32_t kRare = 5;
+constexpr std::size_t kMostUnclaimed = std::size_t{1}
+                                       << 20;  // [bytes] of parcels for ends that are not there yet
 
 std::uint64_t random_number() {
   std::random_device device;
@@ -42,15 +44,19 @@ Line::Line(std::string peer, const Settings& settings, Write write)
       own_(random_number()),
       patience_(kFirstPatience) {}
 
-std::uint64_t Line::add(std::uint64_t edge, Passenger& passenger) {
+void Line::add(std::uint64_t edge, Passenger& passenger) {
   const MutexLock lock(mutex_);
   passengers_[edge] = &passenger;
-  return session_;
+  removed_.erase(edge);
+  passenger.boarded(session_);
+  waiting_bytes_ = 0;
+  for (std::vector<std::byte>& parcel : std::exchange(waiting_, {})) dispatch(parcel);
 }
 
 void Line::remove(std::uint64_t edge) {
   const MutexLock lock(mutex_);
   passengers_.erase(edge);
+  removed_.insert(edge);
   if (peer_ != 0) (void)send_locked(begin_parcel(edge, Parcel::closed), Loss::never);
 }
 
@@ -171,7 +177,10 @@ void Line::dispatch(std::span<const std::byte> parcel) {
   const auto open = open_parcel(parcel);
   if (!open) return;
   const auto passenger = passengers_.find(open->edge);
-  if (passenger != passengers_.end()) passenger->second->arrived(open->kind, open->contents);
+  if (passenger != passengers_.end()) return passenger->second->arrived(open->kind, open->contents);
+  if (removed_.contains(open->edge) || waiting_bytes_ + parcel.size() > kMostUnclaimed) return;
+  waiting_bytes_ += parcel.size();
+  waiting_.emplace_back(parcel.begin(), parcel.end());
 }
 
 // --- Losing the peer --------------------------------------------------------------------------------------
@@ -191,6 +200,8 @@ void Line::end_session(const Error& reason) {
   unacknowledged_bytes_ = 0;
   sent_ = received_ = 0;
   early_.clear();
+  waiting_.clear();
+  waiting_bytes_ = 0;
   owes_receipt_ = false;
   silent_ = unanswered_ = 0;
   patience_ = kFirstPatience;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +34,8 @@ enum class By : std::uint8_t { outbox, caller, next };
 class Passenger {
  public:
   virtual ~Passenger() = default;
+  /// Learns the present session, before anything arrives.
+  virtual void boarded(std::uint64_t session) = 0;
   /// Takes a parcel, in the order in which the peer's end has sent them.
   virtual void arrived(Parcel kind, std::span<const std::byte> contents) = 0;
   /// Learns that the peer is lost: nothing that was sent in the session and not answered will be.
@@ -69,9 +72,9 @@ class Line {
   /// @param peer  name of the other process.
   Line(std::string peer, const Settings& settings, Write write);
 
-  /// Adds an end that has this number at both sides.
-  /// @return the present session.
-  std::uint64_t add(std::uint64_t edge, Passenger& passenger);
+  /// Adds an end that has this number at both sides. It is called at once with the session, and with what the peer's end has
+  /// sent so far: a peer may be met before all ends of this side are there.
+  void add(std::uint64_t edge, Passenger& passenger);
   /// Removes an end. It is not called afterwards. The peer's end learns of it.
   void remove(std::uint64_t edge);
 
@@ -125,6 +128,10 @@ class Line {
 
   mutable Mutex mutex_;
   std::map<std::uint64_t, Passenger*> passengers_ ORCA_GUARDED_BY(mutex_);
+  std::set<std::uint64_t> removed_ ORCA_GUARDED_BY(mutex_);  // edges whose late parcels mean nothing
+  std::vector<std::vector<std::byte>> waiting_
+      ORCA_GUARDED_BY(mutex_);  // parcels of edges that are not there yet
+  std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
   std::uint64_t session_ ORCA_GUARDED_BY(mutex_) = 1;
   std::uint64_t own_ ORCA_GUARDED_BY(mutex_);             // this side's number
   std::uint64_t peer_ ORCA_GUARDED_BY(mutex_) = 0;        // the peer's; 0: there is none

@@ -20,12 +20,14 @@ constexpr std::size_t kMebi = std::size_t{1} << 20;
 using Ticks = std::vector<int>;
 
 struct Counter final : Passenger {
+  void boarded(std::uint64_t new_session) override { session = new_session; }
   void arrived(Parcel kind, std::span<const std::byte> /*contents*/) override {
     frames += kind == Parcel::frame;
   }
   void line_lost(const Error& reason) override { why_lost = reason.message; }
   void line_joined(std::uint64_t /*session*/) override {}
   std::size_t frames = 0;
+  std::uint64_t session = 0;
   std::string why_lost;
 };
 
@@ -51,7 +53,8 @@ struct Talk {
           written.push_back(
               {message->own, message->peer, message->sequence, message->received, message->parcel.size()});
         }) {
-    session = line.add(kSeat, counter);
+    line.add(kSeat, counter);
+    session = counter.session;
   }
 
   // Lets the peer say something.

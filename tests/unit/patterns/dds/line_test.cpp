@@ -21,6 +21,7 @@ constexpr int kTicksOfSilence = 17;  // after which the peer is lost
 
 // An end that notes what it learns.
 struct Listener final : Passenger {
+  void boarded(std::uint64_t new_session) override { session = new_session; }
   void arrived(Parcel kind, std::span<const std::byte> contents) override {
     if (kind == Parcel::closed) log += "closed ";
     if (kind == Parcel::frame) numbers.push_back(take_number(contents).value_or(0));
@@ -51,12 +52,15 @@ class Pair {
 
   // Replaces the far process by a new one.
   void restart() {
+    restart_without_end();
+    far->add(kEdge, far_listener);
+  }
+  void restart_without_end() {
     far_listener = Listener();
     far_origin_[1] = std::byte{static_cast<unsigned char>(std::to_integer<int>(far_origin_[1]) + 1)};
     far =
         std::make_unique<Line>("near", Line::Settings{kFarId, liveliness_},
                                [this](std::vector<std::byte> bytes, By) { put(to_near_, std::move(bytes)); });
-    far_listener.session = far->add(kEdge, far_listener);
   }
 
   void put(std::deque<std::vector<std::byte>>& way, std::vector<std::byte> bytes) {
@@ -125,13 +129,41 @@ std::vector<std::uint64_t> up_to(std::uint64_t last) {
 
 TEST_CASE("a parcel that was sent before the peer was there arrives", "[patterns][dds]") {
   Pair pair;
-  REQUIRE(pair.near.send(numbered(1), pair.near.add(kEdge, pair.near_listener)) == Sent::yes);
+  pair.near.add(kEdge, pair.near_listener);
+  REQUIRE(pair.near.send(numbered(1), pair.near_listener.session) == Sent::yes);
   pair.drop_all();
   CHECK_FALSE(pair.near.is_joined());
   pair.tick(3);
   CHECK(pair.near.is_joined());
   CHECK(pair.far_listener.numbers == up_to(1));
   CHECK(pair.near_listener.log.empty());  // the first time that it joins is no news
+}
+
+TEST_CASE("what comes before the end that it is for is there waits for it, in order", "[patterns][dds]") {
+  Pair pair;
+  pair.restart_without_end();
+  pair.near.add(kEdge, pair.near_listener);
+  REQUIRE(pair.near.send(numbered(1), pair.near_listener.session) == Sent::yes);
+  REQUIRE(pair.near.send(numbered(2), pair.near_listener.session) == Sent::yes);
+  pair.tick(3);
+  REQUIRE(pair.far->is_joined());
+  CHECK(pair.far_listener.numbers.empty());
+  pair.far->add(kEdge, pair.far_listener);
+  CHECK(pair.far_listener.numbers == up_to(2));
+  REQUIRE(pair.near.send(numbered(3), pair.near_listener.session) == Sent::yes);
+  pair.carry();
+  CHECK(pair.far_listener.numbers == up_to(3));
+}
+
+TEST_CASE("what comes for an end that has gone is for nobody, also not for the next one", "[patterns][dds]") {
+  Pair pair;
+  pair.near.add(kEdge, pair.near_listener);
+  pair.tick(3);
+  pair.far->remove(kEdge);
+  REQUIRE(pair.near.send(numbered(1), pair.near_listener.session) == Sent::yes);
+  pair.carry();
+  pair.far->add(kEdge, pair.far_listener);
+  CHECK(pair.far_listener.numbers.empty());
 }
 
 TEST_CASE("two lines meet without a tick once DDS has found one of them", "[patterns][dds]") {
@@ -154,7 +186,8 @@ TEST_CASE("a parcel is written by its sender if the sender asks for it, all else
     written.push_back(by);
   });
   Listener listener;
-  const std::uint64_t session = line.add(kEdge, listener);
+  line.add(kEdge, listener);
+  const std::uint64_t session = listener.session;
   line.greet_if_alone();
   const std::vector<std::byte> reply = encode({kFarId, 5, own, 0, 0, {}});
   std::span<const std::byte> bytes = reply;
@@ -173,7 +206,8 @@ TEST_CASE("each parcel arrives once and in order, whatever the network does", "[
   pair.loss = 0.3;
   pair.doubled = 0.2;
   pair.disorder = 0.3;
-  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  pair.near.add(kEdge, pair.near_listener);
+  const std::uint64_t session = pair.near_listener.session;
   constexpr std::uint64_t kCount = 300;
   for (std::uint64_t i = 1; i <= kCount; ++i) {
     REQUIRE(pair.near.send(numbered(i), session) == Sent::yes);
@@ -187,7 +221,8 @@ TEST_CASE("each parcel arrives once and in order, whatever the network does", "[
 
 TEST_CASE("a peer that was started again is another one", "[patterns][dds]") {
   Pair pair;
-  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  pair.near.add(kEdge, pair.near_listener);
+  const std::uint64_t session = pair.near_listener.session;
   pair.tick(3);
   pair.loss = 1.0;
   REQUIRE(pair.near.send(numbered(1), session) == Sent::yes);  // the peer never gets it
@@ -283,7 +318,8 @@ TEST_CASE("an end that is removed tells the other one", "[patterns][dds]") {
 
 TEST_CASE("a peer that does not confirm anything is sent no more than fits", "[patterns][dds]") {
   Pair pair;
-  const std::uint64_t session = pair.near.add(kEdge, pair.near_listener);
+  pair.near.add(kEdge, pair.near_listener);
+  const std::uint64_t session = pair.near_listener.session;
   pair.loss = 1.0;
   std::vector<std::byte> large = numbered(1);
   large.resize(std::size_t{3} << 20);
