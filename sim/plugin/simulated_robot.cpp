@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "simulated_robot.hpp"
 
+#include <filesystem>
 #include <utility>
 
 #include "objects.hpp"
+#include "orca/base/hash.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/sim/robot_file.hpp"
@@ -137,6 +139,7 @@ std::vector<HardwareFault> SimulatedRobot::conflicts_with(const HardwareContaine
 const char* SimulatedRobot::setting_unlike(const SimulatedRobot& other) const {
   if (*realism_ != *other.realism_) return "realism";
   if (*errors_ != *other.errors_) return "errors";
+  if (*specimen_ != *other.specimen_) return "specimen";
   if (*map_width_ != *other.map_width_) return "map_width";
   return *map_resolution_ != *other.map_resolution_ ? "map_resolution" : "threads";
 }
@@ -150,9 +153,9 @@ Status SimulatedRobot::open() {
   const std::string key =
       std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
   auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-    return World(
-        *world_,
-        {.seed = host().run_seed(), .errors = levels().value(), .threads = static_cast<unsigned>(*threads_)});
+    return World(*world_, {.seed = world_seed(),
+                           .errors = levels().value(),
+                           .threads = static_cast<unsigned>(*threads_)});
   });
   if (!joined) return joined.error();
   shared_ = std::move(*joined);
@@ -165,11 +168,21 @@ Status SimulatedRobot::open() {
   return ok();
 }
 
+// A world is known by its file's name, so that it may lie elsewhere, and something in it may be moved, with the same robots.
+std::uint64_t SimulatedRobot::world_seed() const {
+  if (*specimen_ == kOneInAllWorlds) return host().run_seed();
+  Fnv1a key;
+  key.add_u64(host().run_seed());
+  key.add_text(std::filesystem::path(*world_file_).filename().string());
+  return key.value();
+}
+
 std::string SimulatedRobot::settings() const {
   std::string text = "realism " + *realism_;
   if (!errors_->empty()) text += ", errors " + in_quotes(*errors_);
   if (*map_width_ > 0.0) text += ", map_width " + xml::number_text(*map_width_) + " m";
   if (*map_resolution_ > 0.0) text += ", map_resolution " + xml::number_text(*map_resolution_) + " m";
+  if (*specimen_ == kOneInAllWorlds) text += ", specimen " + *specimen_;
   if (*threads_ != 1) text += ", threads " + std::to_string(*threads_);
   return text;
 }

@@ -83,8 +83,8 @@ std::string without_numbers(const std::string& line) {
 
 TEST_CASE("two robots meet, one parks, and the other passes it; neither touches the other",
           "[system][several]") {
-  // Seed 3 is one of 9 in 100 in which they stand beside each other until one gives up (docs/several_robots.md).
-  for (const char* seed : {"1", "2", "4"}) {
+  // Seed 4 is one of 9 in 100 in which they stand beside each other until one gives up (docs/several_robots.md).
+  for (const char* seed : {"1", "2", "3"}) {
     CAPTURE(seed);
     const Run run = drive("two_robots", {"--seed", seed});
     check_goes_well(run);
@@ -94,7 +94,7 @@ TEST_CASE("two robots meet, one parks, and the other passes it; neither touches 
 
 TEST_CASE("two robots that stand beside each other do not touch, and the one that gives up says so",
           "[system][several]") {
-  const Run run = drive("two_robots", {"--seed", "3"});
+  const Run run = drive("two_robots", {"--seed", "4"});
   INFO(run.err);
   CHECK(run.exit_code() == 1);
   CHECK(run.contacts().empty());
