@@ -57,6 +57,19 @@ TEST_CASE("an experiment is variants, worlds and seeds; paths start at its folde
   CHECK(experiment.worlds[3].settings[0].text() == "world=/top/sim/many.csv#7");
 }
 
+TEST_CASE("numbered worlds are a family, and a single one is its own unless it names another", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(
+      R"(<experiment name="e" graph="g.xml" seeds="1" until="1 s"><variant name="a"/>
+         <worlds name="posts" arg="world" file="f.xml" numbers="1-2"/><world name="office"/>
+         <world name="hall" family="offices"/></experiment>)",
+      "e.xml", diagnostics);
+  REQUIRE(experiment);
+  std::vector<std::string> families;
+  for (const World& world : experiment->worlds) families.push_back(world.family);
+  CHECK(families == std::vector<std::string>{"posts", "posts", "office", "offices"});
+}
+
 TEST_CASE("each variant meets each world and seed once, and pairs stand together", "[batch]") {
   const Experiment experiment = good();
   REQUIRE(experiment.run_count() == 24);

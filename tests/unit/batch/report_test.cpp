@@ -5,11 +5,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
 
 #include "approval.hpp"
 #include "orca/xml/document.hpp"
 #include "report/comparison.hpp"
 #include "report/document.hpp"
+#include "report/families.hpp"
 #include "report/numbers.hpp"
 #include "report/plots.hpp"
 #include "temp_folder.hpp"
@@ -17,6 +19,7 @@
 using namespace orca;
 using namespace orca::batch;
 using Catch::Contains;
+using Catch::StartsWith;
 using orca::test::TempFolder;
 
 namespace {
@@ -57,14 +60,16 @@ Experiment experiment() {
   return *read;
 }
 
-Report report_on(const std::vector<Row>& rows) {
+Report report_on(const std::vector<Row>& rows, const Experiment& experiment) {
   const TempFolder folder;
   const auto store = Store::open(folder.file("r.sqlite"), "1").value();
   for (const Row& row : rows) REQUIRE(store->add(row).ok());
-  const auto made = make_report(experiment(), *store);
+  const auto made = make_report(experiment, *store);
   REQUIRE(made);
   return *made;
 }
+
+Report report_on(const std::vector<Row>& rows) { return report_on(rows, experiment()); }
 
 const Difference& in(const BatchResult& result, const std::string& metric) {
   for (const Difference& one : result.differences)
@@ -109,7 +114,7 @@ TEST_CASE("times are compared where both succeed, by the means of worlds", "[bat
   std::vector<Row> rows;
   add(rows, "fast", 2, 50.0);
   add(rows, "slow", 5, 60.0);
-  const auto result = compare(rows, {"success", "time"});
+  const auto result = compare(rows, {{"success", "time"}, {}});
   REQUIRE(result);
   const Difference& time = in(*result, "time");
   CHECK(time.finding.runs == 15);
@@ -142,7 +147,7 @@ TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][rep
   add(rows, "slow", 0, 60.0);
   move_into_one_world(rows);
   for (Row& row : rows) row.outcome.trace_hash = row.variant;  // as without errors
-  const auto same = compare(rows, {"success", "time"});
+  const auto same = compare(rows, {{"success", "time"}, {}});
   REQUIRE(same);
   CHECK(in(*same, "time").finding.runs == 1);
   CHECK_FALSE(in(*same, "time").verdict.established());
@@ -162,7 +167,7 @@ TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][repor
   move_into_one_world(rows);
   for (Row& row : rows)
     row.outcome.trace_hash = row.variant == "fixed" ? "f" : "n" + std::to_string(row.seed / 2);
-  const auto result = compare(rows, {"time"});
+  const auto result = compare(rows, {{"time"}, {}});
   REQUIRE(result);
   CHECK(in(*result, "time").finding.runs == 10);
   CHECK(result->variants[0].runs == 1);
@@ -174,10 +179,89 @@ TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][repor
         "20 seeds gave 10 runs of noisy in world w10: the other seeds repeat these");
 }
 
+TEST_CASE("families of worlds that contradict each other are a reversal, and nothing is claimed of all",
+          "[batch][report]") {
+  // As commit 103f5d5c had it: Dwa 95 and 7 %, LaserAvoid 85 and 87 %; together 77 and 85 %, which is not established.
+  std::vector<Row> rows;
+  std::map<std::string, std::string> families;
+  const auto add_family = [&](const std::string& family, int worlds, int dwa, int laser_avoid) {
+    for (int i = 0; i < worlds; ++i) {
+      const std::string world = family + "_" + std::to_string(i);
+      families[world] = family;
+      for (const auto& [variant, successes] : {std::pair("Dwa", dwa), std::pair("LaserAvoid", laser_avoid)}) {
+        const int turned = successes == laser_avoid ? worlds - 1 - i : i;  // they fail in different worlds
+        Row row{variant, world, 1, {}, {}};
+        row.outcome.ending = turned < successes ? Ending::success : Ending::time_out;
+        rows.push_back(row);
+      }
+    }
+  };
+  add_family("posts", 160, 152, 136);
+  add_family("offices", 40, 3, 35);
+  const auto pooled = compare(rows, {{"success"}, {}});
+  REQUIRE(pooled);
+  CHECK(pooled->families.empty());
+  CHECK_THAT(line_of(in(*pooled, "success")),
+             Contains("Dwa - LaserAvoid, success: -8.0 %") && Contains("not established"));
+  const auto result = compare(rows, {{"success"}, families});
+  REQUIRE(result);
+  REQUIRE(result->families.size() == 2);
+  CHECK(result->families[1].name == "posts");
+  CHECK(result->families[1].worlds == 160);
+  CHECK(result->families[1].success.at("Dwa").mean.value == Approx(0.95));
+  CHECK(result->families[0].success.at("LaserAvoid").mean.value == Approx(0.875));
+  REQUIRE(result->reversals.size() == 1);
+  CHECK_THAT(line_of(result->reversals[0]),
+             Contains("reversal in success: Dwa is better than LaserAvoid in posts, 10.0 % (") &&
+                 Contains("), and worse in offices, -80.0 % (") &&
+                 Contains("nothing is claimed about all worlds together"));
+  CHECK(in(*result, "success").verdict.text == "not claimed: families of worlds contradict each other");
+}
+
+TEST_CASE("a reversal is said first, on stdout and on both pages, and families have their tables and curves",
+          "[batch][report]") {
+  std::vector<Row> rows;
+  for (const std::string variant : {"a", "b"})
+    for (const std::string family : {"left", "right"})
+      for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        Row row{variant, family, seed, {}, {}};
+        row.outcome.ending = Ending::success;
+        row.outcome.time = 50.0 + (variant == family.substr(0, 1) ? 1.0 : 0.0) +
+                           0.1 * static_cast<double>(seed) +
+                           (variant == "a" && family == "right" ? 3.0 : 0.0) +
+                           (variant == "b" && family == "left" ? 3.0 : 0.0);
+        rows.push_back(row);
+      }
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(
+      R"(<experiment name="e" graph="g.xml" seeds="1-12" until="200 s"><variant name="a"/><variant name="b"/>
+         <world name="left"/><world name="right"/></experiment>)",
+      "/top/e.xml", diagnostics);
+  REQUIRE(experiment);
+  const Report report = report_on(rows, *experiment);
+  CHECK(report.summary.rfind("reversal in time: a is better than b in left, -3.000 (", 0) == 0);
+  CHECK_THAT(report.markdown, StartsWith("# Comparison: e\n\nRead this first: reversal in time"));
+  CHECK(report.html.find("Read this first") < report.html.find("<h2>"));
+  CHECK_THAT(report.markdown, Contains("## Family by family") && Contains("| left | 1 | 100.0 %") &&
+                                  Contains("| time [s] | a - b | right | 3.000 (3.000 to 3.000) | 12 |") &&
+                                  Contains("Family right: share of the runs that were done by then."));
+}
+
+TEST_CASE("worlds of one family, and families without runs enough, have no section of their own",
+          "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 5);
+  add(rows, "good", 0);
+  CHECK_THAT(report_on(rows).markdown, !Contains("Family by family"));  // twenty families of one run
+  std::map<std::string, std::string> one;
+  for (const Row& row : rows) one[row.world] = "all";
+  CHECK(compare(rows, {{"success"}, one})->families.empty());
+}
+
 TEST_CASE("a metric that there is not is refused", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "a", 0);
-  CHECK_FALSE(compare(rows, {"beauty"}));
+  CHECK_FALSE(compare(rows, {{"beauty"}, {}}));
   xml::Diagnostics diagnostics;
   CHECK_FALSE(
       read_experiment(R"(<experiment name="e" graph="g.xml" seeds="1" until="1 s" metrics="success tme">

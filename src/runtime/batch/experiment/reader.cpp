@@ -86,6 +86,7 @@ class ExperimentReader {
   void world(const Attributes& element) {
     World world{element.name("name").value_or(""), {}, element.element().position()};
     if (element.has("reference")) world.reference = element.number("reference");
+    world.family = element.has("family") ? element.name("family").value_or("") : world.name;
     parts(element, world.settings, world.goals);
     remember(element, "world", world.name);
     experiment_.worlds.push_back(std::move(world));
@@ -107,6 +108,7 @@ class ExperimentReader {
                   .goals = goals};
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
+      world.family = name;
       if (const auto length = lengths.find(number); length != lengths.end()) world.reference = length->second;
       experiment_.worlds.push_back(std::move(world));
     }

@@ -55,9 +55,10 @@ constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant."
                               AttributeRule{"profile", false, "Its profiles, if they are not those of all."}};
 constexpr std::array kWorld{
     AttributeRule{"name", true, "Name of the world.", kName},
-    AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres}};
+    AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres},
+    AttributeRule{"family", false, "Worlds of its kind; a family of its own if not given.", kName}};
 constexpr std::array kWorlds{
-    AttributeRule{"name", true, "Name before the number of each world: barn_17.", kName},
+    AttributeRule{"name", true, "Name of the family, before the number of each world: barn_17.", kName},
     AttributeRule{"arg", true, "Argument of the graph that gets FILE#NUMBER."},
     AttributeRule{"file", true, "File with numbered worlds, or a world with a <generate>."},
     AttributeRule{"numbers", false,

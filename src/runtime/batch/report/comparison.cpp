@@ -117,22 +117,23 @@ Result<std::optional<Difference>> difference_of(const RunsOfVariants& runs, cons
 }
 
 // Adjusts the p-values for the number of tests that could find something, and judges.
-Status judge_all(std::vector<Difference>& differences) {
+Status judge_all(const std::vector<Difference*>& differences) {
   std::vector<double> p_values;
-  for (const Difference& one : differences)
-    if (is_enough(one.finding)) p_values.push_back(one.finding.p);
+  for (const Difference* one : differences)
+    if (is_enough(one->finding)) p_values.push_back(one->finding.p);
   const Result<std::vector<double>> adjusted = holm(p_values);
   if (!adjusted) return adjusted.error();
   auto next = adjusted->begin();
-  for (Difference& one : differences) {
-    one.adjusted_p = is_enough(one.finding) ? *next++ : one.finding.p;
-    Result<Verdict> verdict = judge(one.finding, one.adjusted_p);
+  for (Difference* one : differences) {
+    one->adjusted_p = is_enough(one->finding) ? *next++ : one->finding.p;
+    Result<Verdict> verdict = judge(one->finding, one->adjusted_p);
     if (!verdict) return verdict.error();
-    one.verdict = *std::move(verdict);
+    one->verdict = *std::move(verdict);
   }
   return ok();
 }
 
+// Returns what is found, without verdicts.
 Result<std::vector<Difference>> differences_of(const RunsOfVariants& runs,
                                                const std::vector<std::string>& compared) {
   std::vector<Difference> differences;
@@ -147,7 +148,6 @@ Result<std::vector<Difference>> differences_of(const RunsOfVariants& runs,
       }
     }
   }
-  if (const Status judged = judge_all(differences); !judged.ok()) return judged.error();
   return differences;
 }
 
@@ -187,9 +187,82 @@ void count_successes(const RunsOfVariants& runs, BatchResult& result) {
   }
 }
 
+std::vector<Difference*> pointers_to(std::vector<Difference>& differences) {
+  std::vector<Difference*> pointers;
+  for (Difference& one : differences) pointers.push_back(&one);
+  return pointers;
+}
+
+Result<FamilyResult> family_of(const std::string& name, const RunsOfVariants& runs,
+                               const Question& question) {
+  FamilyResult family{.name = name, .success = {}, .differences = {}};
+  std::set<std::string> worlds;
+  for (const auto& [variant, its] : runs) {
+    for (const auto& [place, outcome] : its) worlds.insert(place.first);
+    const Metric& success = *find_metric("success");
+    Result<Summary> summary = summary_of(values_of(distinct(its), success), success);
+    if (!summary) return summary.error();
+    family.success[variant] = *summary;
+  }
+  family.worlds = worlds.size();
+  Result<std::vector<Difference>> differences = differences_of(runs, question.metrics);
+  if (!differences) return differences.error();
+  family.differences = *std::move(differences);
+  return family;
+}
+
+// The tests of all families are one set for Holm's correction, beside that of all worlds together.
+Result<std::vector<FamilyResult>> families_of(const RunsOfVariants& runs, const Question& question) {
+  std::map<std::string, RunsOfVariants> by_family;
+  for (const auto& [variant, its] : runs)
+    for (const auto& [place, outcome] : its)
+      if (const auto known = question.families.find(place.first); known != question.families.end())
+        by_family[known->second][variant].emplace(place, outcome);
+  std::vector<FamilyResult> families;
+  if (by_family.size() < 2) return families;
+  for (const auto& [name, its] : by_family) {
+    Result<FamilyResult> family = family_of(name, its, question);
+    if (!family) return family.error();
+    families.push_back(*std::move(family));
+  }
+  std::vector<Difference*> all;
+  for (FamilyResult& family : families)
+    std::ranges::copy(pointers_to(family.differences), std::back_inserter(all));
+  if (const Status judged = judge_all(all); !judged.ok()) return judged.error();
+  return families;
+}
+
+// Returns the family in which the difference that a question asks for is established with this sign, and the surest of them.
+std::optional<std::pair<std::string, Difference>> surest(const std::vector<FamilyResult>& families,
+                                                         const Difference& question, bool positive) {
+  std::optional<std::pair<std::string, Difference>> best;
+  for (const FamilyResult& family : families)
+    for (const Difference& one : family.differences)
+      if (same_question(one, question) && one.verdict.established() &&
+          (one.finding.difference.value > 0.0) == positive &&
+          (!best || one.adjusted_p < best->second.adjusted_p))
+        best = {family.name, one};
+  return best;
+}
+
+// Finds what the families contradict each other in, and takes back what is claimed of all worlds together.
+void find_reversals(BatchResult& result) {
+  for (Difference& pooled : result.differences) {
+    const auto more = surest(result.families, pooled, true);
+    const auto less = surest(result.families, pooled, false);
+    if (!more || !less) continue;
+    result.reversals.push_back({more->second, less->second, more->first, less->first});
+    pooled.verdict = {{Doubt::reversed}, "not claimed: families of worlds contradict each other"};
+  }
+}
+
 }  // namespace
 
-Result<BatchResult> compare(const std::vector<Row>& rows, const std::vector<std::string>& compared) {
+bool same_question(const Difference& one, const Difference& other) {
+  return one.first == other.first && one.second == other.second && one.metric == other.metric;
+}
+
+Result<BatchResult> compare(const std::vector<Row>& rows, const Question& question) {
   BatchResult result;
   RunsOfVariants runs;
   std::set<std::string> worlds;
@@ -205,9 +278,14 @@ Result<BatchResult> compare(const std::vector<Row>& rows, const std::vector<std:
     if (!variant) return variant.error();
     result.variants.push_back(*std::move(variant));
   }
-  Result<std::vector<Difference>> differences = differences_of(runs, compared);
+  Result<std::vector<Difference>> differences = differences_of(runs, question.metrics);
   if (!differences) return differences.error();
   result.differences = *std::move(differences);
+  if (const Status judged = judge_all(pointers_to(result.differences)); !judged.ok()) return judged.error();
+  Result<std::vector<FamilyResult>> families = families_of(runs, question);
+  if (!families) return families.error();
+  result.families = *std::move(families);
+  find_reversals(result);
   return result;
 }
 

@@ -43,12 +43,29 @@ struct Difference {
   Verdict verdict;
 };
 
+/// Returns whether both compare the same variants in the same metric.
+[[nodiscard]] bool same_question(const Difference& one, const Difference& other);
+
 /// Seeds that gave fewer runs than there are seeds: the trace hashes of some are equal.
 struct SameRuns {
   std::vector<std::string> variants;
   std::vector<std::string> worlds;  ///< In each of them.
   std::size_t seeds = 0;
   std::size_t runs = 0;
+};
+
+/// The results in the worlds of one family.
+struct FamilyResult {
+  std::string name;
+  std::size_t worlds = 0;
+  std::map<std::string, Summary> success;  ///< By variant.
+  std::vector<Difference> differences;  ///< As those of a batch; the p-values are adjusted over all families.
+};
+
+/// A difference that is established in one family of worlds, and in another one the other way round.
+struct Reversal {
+  Difference more, less;  ///< Above and below 0.
+  std::string more_family, less_family;
 };
 
 /// The results of a batch, and what may be claimed of them.
@@ -58,13 +75,20 @@ struct BatchResult {
   std::vector<SameRuns> same_runs;
   /// Number of successes and runs by variant and world.
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
-  std::vector<Difference> differences;  ///< One for each pair of variants in each metric that is compared.
+  /// One for each pair of variants in each metric that is compared. None of them that a reversal contradicts is established.
+  std::vector<Difference> differences;
+  std::vector<FamilyResult> families;  ///< By name; none if all worlds are of one.
+  std::vector<Reversal> reversals;
 };
 
-/// @param compared  names of metrics.
-/// @errors  those of the statistics, if there are no rows.
+/// What rows are asked.
+struct Question {
+  std::vector<std::string> metrics;             ///< Names of those in which variants are compared.
+  std::map<std::string, std::string> families;  ///< By world; one that is not there is of no family.
+};
+
+/// @errors  those of the statistics, if there are no rows; invalid_argument if there is no such metric.
 /// @thread  a pure function; any thread.
-[[nodiscard]] Result<BatchResult> compare(const std::vector<Row>& rows,
-                                          const std::vector<std::string>& compared);
+[[nodiscard]] Result<BatchResult> compare(const std::vector<Row>& rows, const Question& question);
 
 }  // namespace orca::batch

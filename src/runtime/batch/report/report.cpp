@@ -8,6 +8,7 @@
 
 #include "comparison.hpp"
 #include "document.hpp"
+#include "families.hpp"
 #include "numbers.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
@@ -35,9 +36,12 @@ class Writer {
 
   Document write() {
     document_.title = "Comparison: " + experiment_.name;
+    for (const Reversal& reversal : result_.reversals)
+      document_.add(Paragraph{"Read this first: " + line_of(reversal) + "."});
     introduce();
     success();
     claims();
+    add_families(rows_, families_of(experiment_), result_, document_);
     metrics();
     worlds();
     distributions();
@@ -346,10 +350,11 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   if (const Status read = store.for_each([&](const Row& row) { rows.push_back(row); }); !read.ok())
     return read.error();
   if (rows.empty()) return fail(Code::failed_precondition, "there are no results yet");
-  const Result<BatchResult> result = compare(rows, experiment.metrics);
+  const Result<BatchResult> result = compare(rows, {experiment.metrics, families_of(experiment)});
   if (!result) return result.error();
   const Document document = Writer(experiment, store, rows, *result).write();
   std::string summary;
+  for (const Reversal& reversal : result->reversals) summary += line_of(reversal) + "\n";
   for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
   for (const SameRuns& same : result->same_runs) summary += line_of(same, result->variants.size()) + "\n";
   for (const Difference& difference : result->differences) summary += line_of(difference) + "\n";

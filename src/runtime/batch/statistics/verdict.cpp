@@ -48,6 +48,7 @@ std::string text_of(Doubt doubt, const Finding& finding, double adjusted_p) {
     case Doubt::interval_includes_zero: return "the interval includes 0";
     case Doubt::p_value_too_large:
       return "the adjusted p-value " + three_digits(adjusted_p) + " is above " + three_digits(kLargestPValue);
+    case Doubt::reversed: break;
   }
   return "?";
 }

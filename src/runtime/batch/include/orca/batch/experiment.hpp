@@ -43,6 +43,7 @@ struct World {
   xml::Position position;
   std::optional<double> reference{};  ///< [m] Length of the way that a run in it is compared with.
   std::vector<Goal> goals{};          ///< Instead of those of the experiment; empty: those.
+  std::string family{};               ///< Worlds of one kind; its own name if it is the only one.
 };
 
 /// One run of an experiment: a variant in a world with a seed.

@@ -19,6 +19,7 @@ enum class Doubt {
   too_few_worlds,          ///< Finding::has_too_few_worlds().
   interval_includes_zero,  ///< An end of the interval that is exactly 0 counts.
   p_value_too_large,       ///< Above kLargestPValue.
+  reversed,                ///< Families of worlds contradict each other; a report says so, not judge().
 };
 
 /// The words of a report about a difference.
