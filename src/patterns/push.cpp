@@ -27,6 +27,7 @@ std::size_t PushServerHandle::subscriber_count() const { return endpoint().audie
 bool PushServerHandle::push_loan(ObjectLoan loan) {
   PushServerEndpoint& server = endpoint();
   if (!server.admits_caller()) return false;
+  if (!server.home().computing.finish()) return true;  // the system has ended before the lap came so far
   server.publish(server.seal(std::move(loan), &server.home().provenance));
   return true;
 }

@@ -12,6 +12,9 @@
 #include "codes.hpp"
 #include "console.hpp"
 #include "describe.hpp"
+#include "laps.hpp"
+#include "orca/base/log.hpp"
+#include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/diff.hpp"
 #include "orca/graph/loader.hpp"
@@ -185,6 +188,19 @@ ExitCode check(const Options& options) {
   return ExitCode::finished;
 }
 
+// Runs everything in this process.
+ExitCode run_here(Loaded& loaded, const Options& options, const host::RunOptions& run, host::StopSignal& stop,
+                  Console& console) {
+  OutputFile laps("the time of laps");
+  if (run.measures_laps)
+    if (const Status opened = laps.open(options.laps_file); !opened.ok())
+      return refuse_option(codes::kOptionValue, opened.error());
+  const host::RunResult result = host::run_system(*loaded.graph, loaded.catalogue, run, stop, console);
+  const Status written = run.measures_laps ? write_laps(laps, *loaded.graph, result) : ok();
+  if (!written.ok()) log::error("deployer", written.error().text());
+  return written.ok() ? exit_code_of(result.outcome) : ExitCode::failed_running;
+}
+
 ExitCode run(const Options& options) {
   // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
   // while the last destructors and atexit handlers run.
@@ -205,6 +221,9 @@ ExitCode run(const Options& options) {
                            fail(Code::invalid_argument,
                                 "a change at a given time (--change, <change>) needs --clock virtual or "
                                 "--in-process; host processes are changed with orcactl apply"));
+    if (run.measures_laps)
+      return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
+                                                   "--measure-laps needs --clock virtual or --in-process"));
     if (const Status fits = check_for_processes(*loaded.graph, options); !fits.ok())
       return refuse_option(codes::kExcluding, fits.error());
     const Result<std::string> machine = machine_of_run(*loaded.graph, options);
@@ -227,7 +246,7 @@ ExitCode run(const Options& options) {
     return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
                                                  "--machine: here everything runs in this process; leave it "
                                                  "out"));
-  return exit_code_of(host::run_system(*loaded.graph, loaded.catalogue, run, stop, console).outcome);
+  return run_here(loaded, options, run, stop, console);
 }
 
 bool reads_one_graph(Action action) {

@@ -33,6 +33,11 @@ std::vector<OptionSpec> running_options() {
       {"--plugins", "FOLDER", "look for plugins here too, after Orca's own", true},
       {"--until", "DURATION", "end after this time of the run's clock, e.g. 60s"},
       {"--seed", "N", "seed of all random streams (default 1)", false, {}, 0},
+      {"--measure-laps", "FILE",
+       "with --clock virtual or --in-process: write the processor time of each component's laps, for takes "
+       "of a graph"},
+      {"--computing", "FACTOR",
+       "with --clock virtual: laps take this many times as long as the graph says by takes; 0: no time"},
       {"--fail", "NAME=HOW@TIME",
        "rehearse a failure of the component NAME, e.g. avoid=silent@20s; HOW: silent, throw, hang, or slow "
        "(each lap nine periods late)",

@@ -11,6 +11,7 @@
 #include "common/manual.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/quantity.hpp"
+#include "orca/xml/values.hpp"
 
 namespace orca::deployer {
 namespace {
@@ -91,13 +92,20 @@ Status hide(Options& options, const std::string& value) {
   return ok();
 }
 
+Status set_computing(Options& options, const std::string& value) {
+  constexpr xml::ValueRule kFactor{.form = xml::ValueRule::Form::number, .min = 0.0, .max = 1e6};
+  xml::ValueFault fault;
+  const std::optional<double> factor = xml::read_number(value, kFactor, fault);
+  if (!factor) return wrong("--computing: " + fault.message);
+  options.run.computing = *factor;
+  return ok();
+}
+
 // Options whose values the table does not describe.
 using Setter = Status (*)(Options&, const std::string&);
-constexpr std::pair<const char*, Setter> kOfOwnForm[] = {{"--fail", add_failure},
-                                                         {"--change", add_change},
-                                                         {"--record", add_recording},
-                                                         {"--picture", set_picture},
-                                                         {"--hide", hide}};
+constexpr std::pair<const char*, Setter> kOfOwnForm[] = {
+    {"--computing", set_computing}, {"--fail", add_failure},    {"--change", add_change},
+    {"--record", add_recording},    {"--picture", set_picture}, {"--hide", hide}};
 
 const char* code_of(apps::Problem::Kind kind) {
   switch (kind) {
@@ -153,6 +161,8 @@ class Reader {
     options_.machine = call_.text("--machine").value_or("");
     options_.run.until = call_.duration("--until");
     options_.run.seed = call_.count("--seed");
+    options_.laps_file = call_.text("--measure-laps").value_or("");
+    options_.run.measures_laps = !options_.laps_file.empty();
     options_.run.trace_file = call_.text("--trace").value_or("");
     if (const auto view = call_.text("--view")) options_.run.picture.view = *host::view_from(*view);
     if (const auto level = call_.text("--log")) options_.log_level = *log::parse_level(*level);
@@ -192,6 +202,9 @@ class Reader {
     if (options_.json && !kSpeakJson.contains(options_.action))
       report(codes::kExcluding,
              wrong("--json goes with --check, --print, --list-ports, --diff, --describe or --types"));
+    if (call_.has("--computing") && options_.run.executive.clock != ClockKind::virtual_time)
+      report(codes::kExcluding,
+             wrong("--computing goes with --clock virtual: in real time the machine computes"));
     if (options_.run.trace_values && options_.run.trace_file.empty())
       report(codes::kExcluding, wrong("--values goes with --trace FILE"));
     if (call_.has("--progress") && call_.has("--no-progress"))

@@ -29,6 +29,7 @@ struct Options {
   bool hold = false;                        ///< Nothing moves before an operator releases it.
   bool in_process = false;                  ///< No host processes, whatever the graph says.
   bool chooses_executor = false;            ///< --executor was given.
+  std::string laps_file;                    ///< Where the time of laps is written; empty: nowhere.
   std::string machine;                      ///< The one of the graph that this is; empty: not given.
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.

@@ -54,6 +54,15 @@ std::string client_table(const host::RunCounters& counters) {
   return aligned(rows) + "\n";
 }
 
+std::string computing_table(const host::RunCounters& counters) {
+  if (counters.computing.empty()) return {};
+  std::vector<Row> rows{{"computes", "laps", "time [s]", "overruns"}};
+  for (const auto& [component, counted] : counters.computing)
+    rows.push_back({component, std::to_string(counted.laps), fixed(to_seconds(counted.time), 3),
+                    std::to_string(counted.overruns)});
+  return aligned(rows) + "\n";
+}
+
 // Objects that an edge drops although it may are mentioned only where there are any.
 std::string drops_of(const host::RunCounters& counters) {
   std::uint64_t accepted = 0;
@@ -77,7 +86,7 @@ std::string trouble_text(const host::RunCounters& counters) {
 }
 
 std::string stats_text(const host::RunCounters& counters) {
-  return edge_table(counters) + client_table(counters) + trouble_text(counters);
+  return edge_table(counters) + client_table(counters) + computing_table(counters) + trouble_text(counters);
 }
 
 }  // namespace orca::deployer

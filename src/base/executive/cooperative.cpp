@@ -16,6 +16,7 @@
 
 #include "orca/base/steady_clock.hpp"
 #include "task_thread.hpp"
+#include "turn_time.hpp"
 
 namespace orca::detail {
 
@@ -26,6 +27,7 @@ struct CooperativeExecutive::Fiber {
   std::unique_ptr<Event> ended_event;
   bool ended = false;
   bool ready = false;
+  FiberTime time{};
   std::uint32_t turns = 0;  // at `instant`
   TimePoint instant{};
   Fiber* before = nullptr;  // in the ready queue
@@ -197,10 +199,13 @@ void CooperativeExecutive::run(std::function<void()> main) {
   auto fiber = make_fiber({"main", 0}, std::move(main));
   main_ = fiber.get();
   make_ready(*fiber);
+  const bool tells_apart = tells_tasks_apart();
   while (!fiber->ended) {
     Fiber& next = next_to_run();
     begin(next);
+    if (tells_apart) begin_turn(next.time);
     next.context->enter();
+    if (tells_apart) end_turn();
   }
   running_.store(nullptr, std::memory_order_release);
   current_ = nullptr;

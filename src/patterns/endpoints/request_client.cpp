@@ -97,6 +97,7 @@ Result<typename RequestClient<Answer>::Offered> RequestClient<Answer>::offer(Obj
                                                                              const Provenance* provenance,
                                                                              bool may_wait) {
   if (!admits_caller()) return foreign_call();
+  if (contract().pattern == Pattern::send && !home().computing.finish()) throw Interrupted{};
   if (alternatives_) (void)alternatives_->take_in();
   if (target_ == nullptr)
     return fail(Code::failed_precondition, "port " + path() + " is not connected; add <connect from=\"" +

@@ -71,7 +71,8 @@ TEST_CASE("a file parameter that nobody sets stays empty", "[graph][load]") {
 TEST_CASE("how a component runs is set on it", "[graph][load]") {
   const Graph graph = must_load(
       "<graph name='g'>"
-      "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false'/>"
+      "<component name='a' type='orca.Localizer' period='50 ms' priority='-3' autonomous='false' takes='20 "
+      "ms'/>"
       "<component name='b' type='orca.Localizer' on='odometry' start_after='a' may_fail='true'/>"
       "<component name='c' type='orca.Localizer'/>"
       "<component name='base' type='orca.RobotBaseServer' hardware='h'/>"
@@ -84,6 +85,7 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK(a.trigger->period == 50ms);
   CHECK(a.priority == -3);
   CHECK(a.autonomous == false);
+  CHECK(a.takes == LapTime{{}, {0.02}});
   CHECK_FALSE(a.may_fail);
   const ComponentNode& b = *graph.find_component("b");
   CHECK(b.trigger->kind == Trigger::Kind::on_any);
@@ -96,6 +98,7 @@ TEST_CASE("how a component runs is set on it", "[graph][load]") {
   CHECK_FALSE(c.trigger.has_value());
   CHECK_FALSE(c.autonomous.has_value());
   CHECK(c.priority == 0);
+  CHECK(c.takes == LapTime{});
 }
 
 TEST_CASE("an edge takes the receiver's policy where the graph says nothing", "[graph][load]") {

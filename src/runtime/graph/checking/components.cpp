@@ -8,6 +8,7 @@
 #include "orca/base/text.hpp"
 #include "ports.hpp"
 #include "reading/codes.hpp"
+#include "reading/laps.hpp"
 #include "reading/naming.hpp"
 #include "reading/parameters.hpp"
 #include "reading/trading/properties.hpp"
@@ -102,6 +103,7 @@ class ComponentReader {
     if (const auto priority = attribute<std::int64_t>("priority"))
       checked_.value.priority = static_cast<int>(*priority);
     if (const auto autonomous = attribute<bool>("autonomous")) checked_.value.autonomous = *autonomous;
+    checked_.value.takes = read_lap_time(node_, report_);
     checked_.value.restore_last = attribute<std::string>("restore") == "last";
     checked_.value.may_fail = attribute<bool>("may_fail").value_or(false);
     checked_.value.start_after = split_names(node_.value("start_after"));

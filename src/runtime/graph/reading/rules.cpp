@@ -152,6 +152,10 @@ constexpr std::array kComponent{
     AttributeRule{"at_least_every", false,
                   "Longest time between two laps that objects start, for example 0.2 s.",
                   seconds(kMicrosecond)},
+    AttributeRule{
+        "takes", false,
+        "Time that computing a lap takes in virtual time, for example 20 ms, or the file of a measurement "
+        "from which it is drawn; 0 s if not given."},
     AttributeRule{"start_after", false, "Components that must be up before this one."},
     AttributeRule{"start", false, "When the plugin is loaded; on_demand: when the component is first used.",
                   one_of(kStart)},

@@ -100,6 +100,11 @@ Attributes attributes_of(const ComponentNode& node) {
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
   if (node.trigger) add_trigger(result, *node.trigger);
+  if (!node.takes.file.empty()) {
+    add(result, "takes", node.takes.file);
+  } else if (!node.takes.quantiles.empty()) {
+    add(result, "takes", xml::number_text(node.takes.quantiles.front()) + " s");
+  }
   add(result, "start", node.on_demand ? "on_demand" : "");
   add(result, "stay", node.stay_warm ? "warm" : "");
   if (node.on_demand && !node.stay_warm) add(result, "idle_time", seconds_text(node.idle_time));

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/system/task_time.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/conclusion.hpp"
@@ -211,13 +213,18 @@ class Run {
     if (!counters_) counters_ = collect_counters(graph_, system());
     const std::vector<std::string> stuck = system().take_down(executive_.now() + kTakeDownLimit);
     changes_.give_up();
-    if (stuck.empty()) return;
+    if (stuck.empty()) return take_lap_times();
     for (const std::string& name : stuck)
       reporter().log_error(name + " does not end; the process is ended without it");
     conclusion_.fail_with(
         fail(Code::deadline_exceeded, listed(stuck) + (stuck.size() == 1 ? " does" : " do") + " not end"));
     close_outputs();
     listener_.abandon(result());  // a thread cannot be ended in any other way
+  }
+
+  void take_lap_times() {
+    for (const auto& component : system().components().all())
+      if (const auto& meter = component->parts().meter) lap_times_[component->name()] = meter->summary();
   }
 
   // Reports a standstill. It runs on the monitor's own thread, because no strand can run.
@@ -238,10 +245,12 @@ class Run {
   }
 
   [[nodiscard]] SystemOptions wishes() const {
-    return {options_.seed.value_or(1),
-            {.moments = !options_.picture.file.empty(), .motion = options_.keeps_motion},
-            options_.planned_failures,
-            options_.log_name};
+    return {.seed = options_.seed.value_or(1),
+            .scene = {.moments = !options_.picture.file.empty(), .motion = options_.keeps_motion},
+            .failures = options_.planned_failures,
+            .log_name = options_.log_name,
+            .computing = options_.computing,
+            .measures_laps = options_.measures_laps};
   }
   [[nodiscard]] System& system() { return watched_.system(); }
   [[nodiscard]] Reporter& reporter() { return watched_.reporter(); }
@@ -256,6 +265,7 @@ class Run {
     result.end = end_.value_or(executive_.now());
     result.ways = sightings_.ways();
     result.scene = scene_;
+    result.lap_times = lap_times_;
     if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, watched_.system());
     return result;
   }
@@ -277,11 +287,12 @@ class Run {
                          }};
   EdgeChoice choice_{graph_};
   TimedChanges changes_{graph_, watched_, catalogue_, executive_, options_.changes};
-  std::optional<Scene> scene_;           // after the end
-  std::optional<LiveView> view_;         // of the system
-  std::optional<TimePoint> end_;         // when the taking down began
-  std::optional<RunCounters> counters_;  // of the run until it was taken down
-  bool stands_still_ = false;            // nothing could ever happen again
+  std::optional<Scene> scene_;                 // after the end
+  std::optional<LiveView> view_;               // of the system
+  std::optional<TimePoint> end_;               // when the taking down began
+  std::optional<RunCounters> counters_;        // of the run until it was taken down
+  std::map<std::string, LapTimes> lap_times_;  // of components whose strands have ended
+  bool stands_still_ = false;                  // nothing could ever happen again
 };
 
 RunResult refuse_options(const Error& error, const RunOptions& options) {
@@ -296,6 +307,7 @@ RunResult refuse_options(const Error& error, const RunOptions& options) {
 
 RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
                      StopSignal& stop, RunListener& listener) {
+  if (options.measures_laps) tell_tasks_apart();
   Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
   const TimePoint start = (*executive)->now();

@@ -85,18 +85,35 @@ void ComponentLoop::lap() {
   Outcome outcome;
   activity_before_lap_ = parts_.strand.activity();
   parts_.home.provenance.begin_lap();
+  const Duration time = parts_.lap_time();
+  parts_.home.computing.begin(time);
   in_lap_ = true;
+  if (parts_.meter) parts_.meter->begin();
   const auto fault = parts_.hooks.call(Hook::work, [&] {
     parts_.injector.act();
     outcome = residency_.component()->work();
   });
   in_lap_ = false;
-  if (!fault) {
-    if (!life_.gave_up_lap(began)) conclude(outcome);
-  } else if (!fault->interrupted) {
-    life_.fail_with(ComponentEvent::threw, Hook::work, fault->text);
+  const bool given_up = fault && fault->interrupted;
+  if (parts_.meter && !given_up) parts_.meter->end();
+  if (given_up) {
+    parts_.home.computing.give_up();
+  } else if (computes_to_end(time)) {
+    if (fault) {
+      life_.fail_with(ComponentEvent::threw, Hook::work, fault->text);
+    } else if (!life_.gave_up_lap(began)) {
+      conclude(outcome);
+    }
   }
   keeper_.note_change();
+}
+
+// Lets the time pass that the lap computes for. Returns false if the component has to end before.
+bool ComponentLoop::computes_to_end(Duration time) {
+  Computing& computing = parts_.home.computing;
+  if (!computing.finish()) return false;
+  if (time > Duration{0} && parts_.laps.is_overdue(parts_.now())) computing.note_overrun();
+  return true;
 }
 
 void ComponentLoop::conclude(const Outcome& outcome) {

@@ -39,6 +39,7 @@ class ComponentLoop {
   void restore_early();
   [[nodiscard]] std::optional<ComponentEvent> look() const;
   void lap();
+  [[nodiscard]] bool computes_to_end(Duration time);
   void conclude(const Outcome& outcome);
   bool handle_one_intake();
   bool handle_sent(SendServerEndpoint& endpoint);

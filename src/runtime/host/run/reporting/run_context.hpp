@@ -42,6 +42,10 @@ struct RunContext {
   StateSink state_sink{};
   /// With what components that are there from the start begin.
   KeptStates states{};
+  /// In virtual time laps take this many times as long as the graph says.
+  double computing = 1.0;
+  /// Whether the processor time of each component's laps is measured.
+  bool measures_laps = false;
 };
 
 }  // namespace orca::host

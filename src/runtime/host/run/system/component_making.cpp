@@ -11,6 +11,7 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   settings.priority = node.priority;
   settings.autonomous = node.autonomous;
   settings.trigger = node.trigger;
+  settings.takes = node.takes;
   settings.on_demand = node.on_demand;
   settings.stay_warm = node.stay_warm;
   settings.idle_time = node.idle_time;

@@ -315,6 +315,9 @@ RunCounters collect_counters(const graph::Graph& graph, const System& system) {
     if (from != nullptr) add_client(*from, counters);
     if (to != nullptr) add_server(*to, counters);
   }
+  for (const auto& component : system.components().all())
+    if (const ComputingCounters counted = component->parts().home.computing.counters(); counted.laps > 0)
+      counters.computing[component->name()] = counted;
   return counters;
 }
 

@@ -136,7 +136,7 @@ class System {
 };
 
 /// Collects the counters of all connections that end in this process: of each edge at its receiving end, of each port that
-/// sends, asks or serves.
+/// sends, asks or serves. And those of its components whose laps take virtual time.
 /// @param graph  of the whole system, of which this process may run a part.
 /// @thread  any.
 [[nodiscard]] RunCounters collect_counters(const graph::Graph& graph, const System& system);

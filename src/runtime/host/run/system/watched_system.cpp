@@ -28,7 +28,9 @@ WatchedSystem::WatchedSystem(const graph::Graph& graph, const SystemPlace& place
                options.failures,
                options.doorbell,
                options.state_sink,
-               options.states},
+               options.states,
+               options.computing,
+               options.measures_laps},
       system_(std::in_place, graph, context_, std::move(give_up)) {
   place_.catalogue.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
 }

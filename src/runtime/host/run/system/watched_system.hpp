@@ -44,8 +44,10 @@ struct SystemOptions {
   std::atomic<std::uint64_t>* missions = nullptr;
   /// Returns the word by which other processes wake a component; empty: there are no others.
   std::function<DoorbellWord*(const std::string& component)> doorbell{};
-  StateSink state_sink{};  ///< Keeps the states of components for the case that the process is lost.
-  KeptStates states{};     ///< With what components begin.
+  StateSink state_sink{};      ///< Keeps the states of components for the case that the process is lost.
+  KeptStates states{};         ///< With what components begin.
+  double computing = 1.0;      ///< In virtual time laps take this many times as long as the graph says.
+  bool measures_laps = false;  ///< Whether the processor time of each component's laps is measured.
 };
 
 /// The instances of a graph in this process together with what watches over them: the reporter, the process's

@@ -10,6 +10,7 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/idl/object.hpp"
+#include "orca/patterns/endpoints/computing.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
 #include "orca/patterns/endpoints/provenance.hpp"
 
@@ -23,6 +24,7 @@ struct PortHome {
   Provenance provenance{};           ///< Used on the component's strand only.
   /// Any address in the component's plugin; null: no code is loaded.
   std::atomic<const void*> code{nullptr};
+  Computing computing{strand};  ///< The component's laps.
 };
 
 /// One end of a link, for as long as it serves a port. Its destructor cuts the link at this end; afterwards

@@ -81,8 +81,10 @@ class RequestClient : public Endpoint, public MovablePort, public ReplySink<Answ
   };
 
   RequestClient(PortHome& home, PortContract contract, const Words& words);
-  /// Stamps the object and offers it to the server.
-  /// @errors  failed_precondition if not connected, or if the calling thread runs no component.
+  /// Stamps the object and offers it to the server. An object that is sent waits for the lap's computing; a question does not,
+  /// because its answer is a part of that.
+  /// @errors  failed_precondition if not connected, or if the calling thread runs no component; throws Interrupted if the
+  ///          strand must end before the lap has computed.
   Result<Offered> offer(ObjectLoan loan, const Provenance* provenance, bool may_wait);
   /// @pre  connected()
   [[nodiscard]] RequestTarget<Answer>& target() const { return *target_; }

@@ -9,6 +9,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
+#include "orca/graph/laps.hpp"
 #include "orca/graph/process.hpp"
 #include "orca/graph/property.hpp"
 #include "orca/xml/diagnostics.hpp"
@@ -57,6 +58,7 @@ struct ComponentNode {
   std::string process = kMainProcess;
   int priority = 0;  ///< -100 to 100; of components that are ready together, the highest goes first.
   std::optional<bool> autonomous;  ///< Works without clients; nothing: the author's choice.
+  LapTime takes{};                 ///< Virtual time that computing a lap takes.
   bool on_demand = false;          ///< Loaded when first asked for, and unloaded when long unused.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< Unloaded when not used for that long; on demand and not warm only.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -51,6 +52,16 @@ struct RunCounters {
   std::vector<Edge> edges;                         ///< Push connections, in the order of the graph.
   std::map<std::string, RequestCounters> clients;  ///< By "component.port" of the SendProxy or QueryProxy.
   std::map<std::string, IntakeCounters> servers;   ///< By "component.port" of the SendServer or QueryServer.
+  /// By component, of those in virtual time whose laps take some. One whose overruns are many of its laps is overloaded.
+  std::map<std::string, ComputingCounters> computing;
+};
+
+/// The processor time of a component's laps, by the machine's clock: what it is differs each time. A plain value.
+struct LapTimes {
+  static constexpr std::size_t kQuantiles = 21;  ///< 5 % apart.
+  std::uint64_t laps = 0;                        ///< Laps that came to their end.
+  double total = 0.0;                            ///< [s] Of all together.
+  std::vector<double> quantiles;                 ///< [s] The shortest first, known to 6 %.
 };
 
 /// The result of a run. A plain value.
@@ -75,6 +86,8 @@ struct RunResult {
   std::optional<Scene> scene;               ///< Only if RunOptions::keeps_motion, and all strands have ended.
   RobotNames robots;                        ///< None if the system could not be built.
   RunCounters counters;
+  /// By component, only if RunOptions::measures_laps, and all strands have ended.
+  std::map<std::string, LapTimes> lap_times;
 };
 
 }  // namespace orca::host

@@ -25,6 +25,8 @@ struct RunOptions : RunOutputs {
   std::optional<Duration> until;                 ///< Time limit [s of the run's clock]; none: no limit.
   std::vector<PlannedFailure> planned_failures;  ///< What is to fail on purpose, in components of the graph.
   std::vector<TimedChange> changes;              ///< What becomes of the graph meanwhile, sorted by time.
+  double computing = 1.0;         ///< In virtual time laps take this many times as long as the graph says.
+  bool measures_laps = false;     ///< The result has the processor time of each component's laps.
   bool keeps_motion = false;      ///< The result has a Scene with the true motion of simulated robots.
   std::string log_name = "orca";  ///< Name in the log for what concerns the run as a whole.
 };

@@ -12,10 +12,13 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       strand(run.executive, {settings.name, settings.priority}),
       home{strand, settings.name, &run.reporter, {}},
       ports(home),
+      lap_shares(run.seed, settings.name, "takes"),
       hooks(settings.name),
       injector(run, settings, strand, laps),
       params(settings.params),
-      orders(strand) {}
+      orders(strand) {
+  if (run.measures_laps) meter = std::make_unique<LapMeter>();
+}
 
 void ComponentParts::write_log(log::Level level, std::string_view text) const {
   run.reporter.log(level, settings.name, text, home.provenance.mission());

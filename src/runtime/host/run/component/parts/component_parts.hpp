@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -9,7 +10,9 @@
 #include "containment/guard.hpp"
 #include "failure_injector.hpp"
 #include "hook_caller.hpp"
+#include "lap_meter.hpp"
 #include "lap_trigger.hpp"
+#include "orca/base/random.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/component/device.hpp"
 #include "order_queue.hpp"
@@ -27,6 +30,12 @@ struct ComponentParts {
   ComponentParts& operator=(const ComponentParts&) = delete;
 
   [[nodiscard]] TimePoint now() const { return run.executive.now(); }
+  /// Returns how long computing the next lap takes [s]: in virtual time what the graph says, so many times as the run says; in
+  /// real time nothing, because the machine computes then.
+  [[nodiscard]] Duration lap_time() {
+    if (settings.takes.quantiles.empty() || !run.executive.is_virtual()) return Duration{0};
+    return from_seconds(run.computing * settings.takes.at(lap_shares.uniform(0.0, 1.0)));
+  }
   /// Writes a line to the log. It names the mission at which the component works, if there is one. To be called on its
   /// strand.
   void write_log(log::Level level, std::string_view text) const;
@@ -45,6 +54,8 @@ struct ComponentParts {
   PortHome home;
   PortSet ports;
   LapTrigger laps;
+  RandomStream lap_shares;          // which of the laps that were measured the next one is like
+  std::unique_ptr<LapMeter> meter;  // of the processor time of laps, if the run measures them
   HookCaller hooks;
   FailureInjector injector;
   Parameters params;

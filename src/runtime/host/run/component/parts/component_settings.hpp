@@ -6,6 +6,7 @@
 #include <string>
 
 #include "orca/base/contract.hpp"
+#include "orca/base/system/lap_time.hpp"
 #include "orca/base/time.hpp"
 #include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
@@ -18,6 +19,7 @@ struct ComponentSettings {
   int priority = 0;
   std::optional<bool> autonomous;  ///< Replaces what the component says by stay_active().
   std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
+  LapTime takes{};                 ///< Virtual time that computing a lap takes.
   bool on_demand = false;          ///< Loaded when first asked for.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.

@@ -24,6 +24,10 @@ class LapTrigger {
   /// Returns whether a lap is due. Of objects on several ports that are to be of one moment, those that are
   /// too old to match any other are dropped.
   [[nodiscard]] bool is_due(TimePoint now);
+  /// Returns whether a lap is due although the present one is not over. It never is if nothing but the last lap's end starts laps.
+  [[nodiscard]] bool is_overdue(TimePoint now) {
+    return trigger_.kind != Trigger::Kind::free_running && is_due(now);
+  }
   /// Notes that a lap begins now. Missed laps are not made up for.
   void lap_begins(TimePoint now);
   /// Returns when the next lap is due; kForever if no time starts it.

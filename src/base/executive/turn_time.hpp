@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "orca/base/time.hpp"
+
+namespace orca::detail {
+
+/// The processor time of one fiber, for task_time().
+struct FiberTime {
+  Duration used{0};        ///< In the turns before this one.
+  Duration turn_began{0};  ///< By the thread's clock.
+};
+
+/// Returns whether executives are to keep these times.
+[[nodiscard]] bool tells_tasks_apart();
+
+/// Report that the thread goes over to a fiber, and that it is back. If the fiber has a thread of its own, that thread's
+/// clock counts and these change nothing.
+void begin_turn(FiberTime& fiber);
+void end_turn();
+
+}  // namespace orca::detail
