@@ -16,6 +16,7 @@
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
+#include "waiting_scans.hpp"
 
 namespace {
 
@@ -62,7 +63,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     if (Status begun = GoalFollower::start(); !begun.ok()) return begun;
     history_.clear();
     X_MO_.reset();
-    scan_ = {};
+    scans_.clear();
     heard_at_.reset();
     navigator_.reset();
     listened_.clear();
@@ -118,21 +119,21 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   // Between two poses of the localizer odometry carries the robot on.
   std::optional<Pose2> take_pose() override {
-    if (laser_.new_data_arrived()) take_scan();
+    while (laser_.new_data_arrived()) take_scan();
     if (!take_motion()) return std::nullopt;
     const Pose2 pose = in_map(history_.at(posed_at()).value_or(Pose2{}));
-    if (navigator_ && scan_) hear(pose);
+    if (navigator_) hear(pose);
     if (navigator_) hear_scanners(pose);
     return pose;
   }
 
   // A scan that says nothing valid is none: the laser is silent until another one comes.
   void take_scan() {
-    scan_ = laser_.get_update();
+    const ObjectPtr<orca::idl::LaserRangeReadings> scan = laser_.get_update();
     const double age =
-        history_.empty() ? 0.0 : orca::to_seconds(history_.newest() - orca::to_time_point(scan_->stamp()));
-    if (is_valid(*scan_) && is_valid(*scan_, orca::check_age(age, *deaf_after_))) return;
-    scan_ = {};
+        history_.empty() ? 0.0 : orca::to_seconds(history_.newest() - orca::to_time_point(scan->stamp()));
+    if (is_valid(*scan) && is_valid(*scan, orca::check_age(age, *deaf_after_))) return scans_.add(scan);
+    scans_.clear();
     heard_at_.reset();
   }
 
@@ -150,13 +151,17 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   bool take_odometry_and_fix() {
-    const auto moved = odometry().get_update();
-    if (!is_valid(*moved)) return false;
-    note_odometry(*moved);
-    note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
+    ObjectPtr<orca::idl::Odometry> moved;
+    do {  // several wait if a lap takes longer than it is to the next one
+      moved = odometry().get_update();
+      if (!is_valid(*moved)) return false;
+      note_odometry(*moved);
+      note_motion(*moved, orca::to_time_point(moved->stamp()), orca::plane_pose(*moved));
+    } while (odometry().new_data_arrived());
     const bool is_new = localizer().new_data_arrived();
     if (wants_fix_ && !is_new) return false;
-    const auto fix = localizer().get_update();
+    auto fix = localizer().get_update();
+    while (localizer().new_data_arrived()) fix = localizer().get_update();
     if (!is_valid(*fix)) return false;
     if (is_new || !X_MO_) take_fix(*fix);
     wants_fix_ = false;
@@ -181,13 +186,10 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   // The scan waits for the pose of its last beam.
   void hear(const Pose2& pose) {
-    const double sweep = std::max(0.0, scan_->time_increment()) * static_cast<double>(scan_->ranges().size());
-    const orca::TimePoint first = orca::to_time_point(scan_->stamp());
-    const orca::TimePoint last = first + orca::from_seconds(sweep);
-    if (last > history_.newest()) return;
-    const ObjectPtr<orca::idl::LaserRangeReadings> scan = std::exchange(scan_, {});
-    const auto X_OR_first = history_.at(first);
-    const auto X_OR_last = history_.at(last);
+    const orca::planner::ScanPtr scan = scans_.take_until(history_.newest());
+    if (!scan) return;
+    const auto X_OR_first = history_.at(orca::to_time_point(scan->stamp()));
+    const auto X_OR_last = history_.at(orca::planner::last_beam_of(*scan));
     if (!X_OR_first || !X_OR_last) return;
     const Pose2 mount = orca::plane_pose(scan->pose());
     orca::nav::beams_of({scan->ranges(), scan->min_range(), scan->max_range(), scan->angle_start(),
@@ -226,7 +228,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     navigator_.reset();
     history_.clear();
     X_MO_.reset();
-    scan_ = {};
+    scans_.clear();
     heard_at_.reset();
     wants_fix_ = true;
   }
@@ -428,7 +430,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::optional<orca::nav::Navigator> navigator_;  // from when the outline is known
   orca::nav::PoseHistory history_;                 // in the frame of the odometry; without one, of the goals
   std::optional<Pose2> X_MO_;  // the frame of the odometry in that of the goals; nothing: they are the same
-  ObjectPtr<orca::idl::LaserRangeReadings> scan_;  // waits for the pose of its last beam
+  orca::planner::WaitingScans scans_;
   std::vector<orca::nav::Beam> beams_;
   std::vector<Scanners::Source> listened_;
   orca::Twist2 twist_;
