@@ -58,6 +58,44 @@ TEST_CASE("the same experiment gives the same bytes with one worker and with sev
   CHECK(batch(experiment, folder.file("baton"), {"--executor", "baton"}) == one);
 }
 
+TEST_CASE("the processor time per lap of each component lies beside the report", "[system][batch]") {
+  const TempFolder folder;
+  batch(drive(folder), folder.file("out"));
+  const std::vector<std::string> laps = split_lines(text_in(folder.file("out") + "/laps.csv"));
+  CHECK(laps[0] == "variant,world,seed,component,laps,mean,p95,longest");
+  CHECK(laps.size() == 1 + 8 * 7);  // eight runs of seven components
+  for (std::size_t i = 1; i < laps.size(); ++i) {
+    CAPTURE(laps[i]);
+    std::size_t at = 0;
+    for (int comma = 0; comma < 4; ++comma) at = laps[i].find(',', at) + 1;
+    unsigned long count = 0;
+    double mean = 0.0;
+    double p95 = 0.0;
+    double longest = 0.0;
+    REQUIRE(std::sscanf(laps[i].c_str() + at, "%lu,%lf,%lf,%lf", &count, &mean, &p95, &longest) == 4);
+    CHECK(count > 0);
+    CHECK(mean > 0.0);
+    CHECK(p95 <= longest);
+  }
+}
+
+TEST_CASE("an experiment with factors of computing runs each variant with each of them", "[system][batch]") {
+  const TempFolder folder;
+  std::string text = text_in(drive(folder));
+  text.replace(text.find("seeds=\"1 7\""), 11, "seeds=\"1\" computing=\"0 10\"");
+  const std::vector<std::string> runs =
+      split_lines(batch(folder.write("factors.xml", text), folder.file("out")));
+  std::map<std::string, std::string> hashes;  // by variant and world
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    const std::size_t seed = runs[i].find(',', runs[i].find(',') + 1);
+    const std::size_t reason = runs[i].rfind(',');
+    hashes[runs[i].substr(0, seed)] = runs[i].substr(reason - 16, 16);
+  }
+  CHECK(hashes.size() == 8);
+  CHECK(hashes.at("LaserAvoid_x0,harsh") == hashes.at("LaserAvoid_x10,harsh"));  // it takes no time anyway
+  CHECK(hashes.at("VfhPlus_x0,harsh") != hashes.at("VfhPlus_x10,harsh"));
+}
+
 TEST_CASE("the tables of a batch lie beside its report: what is the same each time, and what never is",
           "[system][batch]") {
   const TempFolder folder;
@@ -92,9 +130,10 @@ TEST_CASE("seeds matter, and not where nothing is random", "[system][batch]") {
 TEST_CASE("a run of a batch is that of the deployer", "[system][batch]") {
   const TempFolder folder;
   const std::string table = batch(drive(folder), folder.file("out"));
-  const Run alone = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed", "7", "--until",
-                                       "12 s", "--set", "avoid=orca.VfhPlus", "--set", "realism=harsh"} +
-                                 virtual_clock());
+  const Run alone =
+      run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--seed", "7", "--until", "12 s",
+                         "--set", "avoid=orca.VfhPlus", "--set", "takes=30 ms", "--set", "realism=harsh"} +
+                   virtual_clock());
   REQUIRE(alone.trace_hash());
   bool found = false;
   for (const std::string& line : split_lines(table))

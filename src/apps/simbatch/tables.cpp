@@ -57,9 +57,20 @@ Status timing_table(const batch::Store& store, const Take& take) {
   });
 }
 
+Status laps_table(const batch::Store& store, const Take& take) {
+  take("variant,world,seed,component,laps,mean,p95,longest\n");
+  return store.for_each([&](const batch::Row& row) {
+    for (const batch::LapCost& one : row.cost.laps)
+      take(key_of(row) + "," + one.component + "," + std::to_string(one.laps) + "," +
+           xml::number_text(one.mean) + "," + xml::number_text(one.p95) + "," +
+           xml::number_text(one.longest) + "\n");
+  });
+}
+
 Status write_tables(const batch::Store& store, const std::filesystem::path& folder) {
   if (Status written = write_table(store, runs_table, folder / "runs.csv"); !written.ok()) return written;
-  return write_table(store, timing_table, folder / "timing.csv");
+  if (Status written = write_table(store, timing_table, folder / "timing.csv"); !written.ok()) return written;
+  return write_table(store, laps_table, folder / "laps.csv");
 }
 
 }  // namespace orca::simbatch

@@ -22,7 +22,11 @@ Status runs_table(const batch::Store& store, const Take& take);
 /// @errors  unavailable, with the reason.
 Status timing_table(const batch::Store& store, const Take& take);
 
-/// Writes both tables, as runs.csv and timing.csv.
+/// Hands out the processor time of the laps of each run's components [s], as CSV in the same order.
+/// @errors  unavailable, with the reason.
+Status laps_table(const batch::Store& store, const Take& take);
+
+/// Writes all three, as runs.csv, timing.csv and laps.csv.
 /// @errors  unavailable, with the reason.
 Status write_tables(const batch::Store& store, const std::filesystem::path& folder);
 

@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 using namespace orca;
 using namespace orca::batch;
@@ -203,6 +205,27 @@ TEST_CASE(
   CHECK(other->limit == 2s);
   CHECK(other->memory_limit == 2'000'000'000);
   CHECK(other->metrics == std::vector<std::string>{"way", "jerk"});
+}
+
+TEST_CASE("with factors of computing each variant is one for each factor, with the same settings",
+          "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment =
+      read_experiment(with(std::string(kEnough) + " computing=\"0 1 2.5 1\"",
+                           "<variant name=\"a\"><set arg=\"x\" value=\"1\"/></variant><variant "
+                           "name=\"b\"/><world name=\"w\"/>"),
+                      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  std::vector<std::pair<std::string, double>> found;
+  for (const Variant& variant : experiment->variants) found.emplace_back(variant.name, variant.computing);
+  CHECK(found ==
+        std::vector<std::pair<std::string, double>>{
+            {"a_x0", 0.0}, {"a_x1", 1.0}, {"a_x2.5", 2.5}, {"b_x0", 0.0}, {"b_x1", 1.0}, {"b_x2.5", 2.5}});
+  CHECK(experiment->settings_of({2, 0, 1}) == std::vector<std::string>{"x=1"});
+  CHECK(good().variants.front().computing == 1.0);
+  CHECK_THAT(faults_of(with(std::string(kEnough) + " computing=\"1 -2\"", kVariantAndWorld)),
+             Contains("E005") && Contains("-2"));
 }
 
 TEST_CASE("a graph is no experiment, and one of another version is not read", "[batch]") {

@@ -12,7 +12,9 @@
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
 #include "orca/xml/reporter.hpp"
+#include "orca/xml/values.hpp"
 #include "references.hpp"
 #include "results/metric.hpp"
 #include "rules.hpp"
@@ -50,6 +52,7 @@ class ExperimentReader {
       if (rule == &kWorldRule) world(child);
       if (rule == &kWorldsRule) worlds(child);
     }
+    multiply(factors(attributes));
     check_whole(attributes);
     return std::move(experiment_);
   }
@@ -194,6 +197,35 @@ class ExperimentReader {
       names.push_back(std::move(name));
     }
     return names;
+  }
+
+  // Returns the factors of the time that laps take; none: it is not asked what that changes.
+  std::vector<double> factors(const Attributes& experiment) const {
+    constexpr xml::ValueRule kFactor{.form = xml::ValueRule::Form::number, .min = 0.0, .max = 1e6};
+    std::istringstream words(experiment.text("computing").value_or(""));
+    std::vector<double> read;
+    for (std::string word; words >> word;) {
+      xml::ValueFault fault;
+      if (const auto factor = xml::read_number(word, kFactor, fault)) {
+        if (std::ranges::find(read, *factor) == read.end()) read.push_back(*factor);
+      } else {
+        experiment.error_at("computing", codes::kBadValue, fault.message);
+      }
+    }
+    return read;
+  }
+
+  // Makes of each variant one for each factor.
+  void multiply(const std::vector<double>& factors) {
+    if (factors.empty()) return;
+    std::vector<Variant> all;
+    for (const Variant& variant : experiment_.variants)
+      for (const double factor : factors) {
+        all.push_back(variant);
+        all.back().name += "_x" + xml::number_text(factor);
+        all.back().computing = factor;
+      }
+    experiment_.variants = std::move(all);
   }
 
   std::vector<std::uint64_t> numbers(const Attributes& element, const char* attribute) {

@@ -35,6 +35,10 @@ constexpr std::array kExperiment{
     AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
     AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
     AttributeRule{"metrics", false, "In which variants are compared; \"success time\" if not given."},
+    AttributeRule{
+        "computing", false,
+        "How many times as long as the graphs say laps take: each variant is run with each of these "
+        "factors, \"0 1 10\"; 1 if not given."},
     AttributeRule{"limit", false, "Time after which a run counts as hung; 300 s if not given.", kSeconds},
     AttributeRule{"memory", false, "Largest address space of a run; 8 GB if not given.", kBytes}};
 constexpr std::array kSet{

@@ -13,9 +13,12 @@
 #include <csignal>
 #include <cstring>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "orca/base/time.hpp"
+#include "worker.hpp"
 
 namespace orca::batch {
 namespace {
@@ -138,7 +141,10 @@ void RunProcess::kill_late(Cost& cost) {
 Outcome RunProcess::outcome(Cost& cost) {
   const int status = wait(cost);
   was_killed_ = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-  std::optional<Outcome> read = read_outcome(text_);
+  const std::size_t end = std::min(text_.find(kLapsFollow), text_.size());
+  std::optional<Outcome> read = read_outcome(std::string_view(text_).substr(0, end));
+  if (end < text_.size())
+    cost.laps = read_laps(std::string_view(text_).substr(end + 1)).value_or(std::vector<LapCost>{});
   const bool is_good = read && WIFEXITED(status) && WEXITSTATUS(status) == EXIT_SUCCESS;
   return is_good ? *std::move(read)
                  : Outcome{.ending = Ending::crash, .reason = reason_of(status), .failure = Failure::crash};

@@ -159,6 +159,16 @@ Outcome outcome_of(const host::RunResult& result, const std::vector<Goal>& goals
   return outcome;
 }
 
+std::vector<LapCost> laps_of(const host::RunResult& result) {
+  static_assert(host::LapTimes::kQuantiles == 21);
+  std::vector<LapCost> laps;
+  for (const auto& [component, times] : result.lap_times)
+    if (times.laps > 0)
+      laps.push_back({component, times.laps, times.total / static_cast<double>(times.laps),
+                      times.quantiles[19], times.quantiles.back()});
+  return laps;
+}
+
 // Hands the outcome over as soon as it is known.
 class Reporter final : public host::RunListener {
  public:
@@ -167,7 +177,7 @@ class Reporter final : public host::RunListener {
   Reporter(int to, const std::vector<Goal>& goals, const std::optional<double>& reference)
       : to_(to), goals_(goals), reference_(reference) {}
   void ended(const host::RunResult& result) override {
-    write_all(to_, to_text(outcome_of(result, goals_, reference_)));
+    write_all(to_, to_text(outcome_of(result, goals_, reference_)) + kLapsFollow + laps_text(laps_of(result)));
   }
   [[noreturn]] void abandon(const host::RunResult& result) override {
     ended(result);
@@ -203,6 +213,8 @@ host::RunOptions run_options(const Experiment& experiment, const Run& run, const
   wanted.executive = {ClockKind::virtual_time, options.backend};
   wanted.seed = run.seed;
   wanted.until = experiment.until;
+  wanted.computing = experiment.variants[run.variant].computing;
+  wanted.measures_laps = true;
   wanted.keeps_motion = true;
   if (plan.trace >= 0) wanted.trace_file = "/proc/self/fd/" + std::to_string(plan.trace);
   wanted.trace_values = true;

@@ -7,6 +7,9 @@
 
 namespace orca::batch {
 
+/// The character between the outcome and the line of what its laps cost.
+inline constexpr char kLapsFollow = '\f';
+
 /// The plan of a worker: how a run is made.
 struct WorkPlan {
   int to = -1;             ///< Descriptor of the pipe for the outcome.

@@ -341,6 +341,7 @@ std::string replay_command(const Experiment& experiment, const Run& run) {
   for (const std::string& profile : variant.profiles) text += " --profile " + in_shell_quotes(profile);
   text += " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
           in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
+  if (variant.computing != 1.0) text += " --computing " + xml::number_text(variant.computing);
   for (const std::string& setting : experiment.settings_of(run)) text += " --set " + in_shell_quotes(setting);
   return text;
 }

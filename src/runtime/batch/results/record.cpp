@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,6 +96,30 @@ std::optional<Outcome> read_outcome(std::string_view text) {
   outcome.trace_hash = lines[7];
   outcome.sketch = {std::string(lines[8]), std::string(lines[9]), std::string(lines[10])};
   return outcome;
+}
+
+std::string laps_text(const std::vector<LapCost>& laps) {
+  std::string text;
+  for (const LapCost& one : laps)
+    text += (text.empty() ? "" : ";") + one.component + " " + std::to_string(one.laps) + " " +
+            xml::number_text(one.mean) + " " + xml::number_text(one.p95) + " " +
+            xml::number_text(one.longest);
+  return text;
+}
+
+std::optional<std::vector<LapCost>> read_laps(std::string_view text) {
+  std::vector<LapCost> laps;
+  std::istringstream parts{std::string(text)};
+  for (std::string part; std::getline(parts, part, ';');) {
+    std::istringstream words(part);
+    LapCost one;
+    std::string mean, p95, longest;
+    if (!(words >> one.component >> one.laps >> mean >> p95 >> longest) || !read_number(mean, one.mean) ||
+        !read_number(p95, one.p95) || !read_number(longest, one.longest))
+      return std::nullopt;
+    laps.push_back(std::move(one));
+  }
+  return laps;
 }
 
 }  // namespace orca::batch

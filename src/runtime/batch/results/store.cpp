@@ -28,7 +28,7 @@ constexpr const char* kSchema = R"(
   CREATE TABLE IF NOT EXISTS maps (hash TEXT PRIMARY KEY, walls TEXT NOT NULL) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS timing (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL, wall REAL NOT NULL, cpu REAL NOT NULL,
-    PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
+    laps TEXT NOT NULL, PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS repeats (
     variant TEXT NOT NULL, world TEXT NOT NULL, seed TEXT NOT NULL,
     first TEXT NOT NULL, second TEXT NOT NULL, difference TEXT NOT NULL,
@@ -259,8 +259,8 @@ class SqliteStore final : public Store {
     track << row.variant << row.world << seed << o.sketch.tracks << o.sketch.contacts << map;
     Statement walls(database_.get(), "INSERT OR IGNORE INTO maps VALUES (?, ?)");
     walls << map << o.sketch.walls;
-    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?)");
-    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu;
+    Statement timing(database_.get(), "INSERT OR IGNORE INTO timing VALUES (?, ?, ?, ?, ?, ?)");
+    timing << row.variant << row.world << seed << row.cost.wall << row.cost.cpu << laps_text(row.cost.laps);
     for (Statement* const statement : {&run, &track, &walls, &timing})
       if (statement->step() != SQLITE_DONE) return fault();
     return ok();
@@ -351,7 +351,8 @@ class SqliteStore final : public Store {
     int column = kFirstMeasure;
     for (const Measure& measure : all_measures())
       row.outcome.measures.*measure.value = found.number_if_any(column++);
-    row.cost = {found.number(column), found.number(column + 1)};
+    row.cost = {found.number(column), found.number(column + 1),
+                read_laps(found.text(column + 2)).value_or(std::vector<LapCost>{})};
     return row;
   }
 

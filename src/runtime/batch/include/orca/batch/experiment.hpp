@@ -34,6 +34,7 @@ struct Variant {
   xml::Position position;
   std::vector<std::string>
       profiles{};  ///< The graph's, in the order in which they are merged; none: its default_profile.
+  double computing = 1.0;  ///< Its laps take this many times as long as its graph says.
 };
 
 /// One of the places in which each variant is tried.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orca/batch/measures.hpp"
 
@@ -42,10 +43,21 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
+/// The processor time that the laps of one component took.
+struct LapCost {
+  std::string component;
+  std::uint64_t laps = 0;
+  double mean = 0.0;     ///< [s]
+  double p95 = 0.0;      ///< [s] What 95 % of them took at most, to 6 %.
+  double longest = 0.0;  ///< [s] Likewise.
+  friend bool operator==(const LapCost&, const LapCost&) = default;
+};
+
 /// The cost of a run to the machine. It differs each time.
 struct Cost {
-  double wall = 0.0;  ///< [s]
-  double cpu = 0.0;   ///< [s] of all its threads.
+  double wall = 0.0;            ///< [s]
+  double cpu = 0.0;             ///< [s] of all its threads.
+  std::vector<LapCost> laps{};  ///< None if it did not come to its end.
 };
 
 /// The result of making a run twice, the second time with another memory layout, process, environment and folder. A plain value.
@@ -61,5 +73,9 @@ struct Repeat {
 [[nodiscard]] std::string to_text(const Outcome& outcome);
 /// Reads such a text; nothing if it is not whole.
 [[nodiscard]] std::optional<Outcome> read_outcome(std::string_view text);
+
+/// Write what laps cost as one line, and read it; nothing if it is no such line.
+[[nodiscard]] std::string laps_text(const std::vector<LapCost>& laps);
+[[nodiscard]] std::optional<std::vector<LapCost>> read_laps(std::string_view text);
 
 }  // namespace orca::batch
