@@ -27,9 +27,11 @@ struct Named {
 };
 
 constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatch},
+                             Named{"wheel_size", &ErrorLevels::wheel_size},
                              Named{"track_error", &ErrorLevels::track_error},
                              Named{"slip", &ErrorLevels::slip},
                              Named{"turn_slip", &ErrorLevels::turn_slip},
+                             Named{"common_slip", &ErrorLevels::common_slip},
                              Named{"delay_scale", &ErrorLevels::delay_scale},
                              Named{"sonar_noise", &ErrorLevels::sonar_noise},
                              Named{"sonar_outliers", &ErrorLevels::sonar_outliers, 1.0},
@@ -39,6 +41,7 @@ constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatc
                              Named{"laser_drop_angle", &ErrorLevels::laser_drop_angle, kRightAngle},
                              Named{"infrared_noise", &ErrorLevels::infrared_noise},
                              Named{"slip_length", &ErrorLevels::slip_length},
+                             Named{"common_length", &ErrorLevels::common_length},
                              Named{"slip_angle", &ErrorLevels::slip_angle},
                              Named{"sonar_edges", &ErrorLevels::sonar_edges, 1.0},
                              Named{"sonar_threshold", &ErrorLevels::sonar_threshold, 1.0},
@@ -79,6 +82,7 @@ ErrorLevels error_levels(Realism realism) {
     case Realism::ideal: return {};
     case Realism::nominal:
       return {.wheel_mismatch = 0.005,
+              .wheel_size = 0.0025,
               .track_error = 0.01,
               .slip = 0.003,
               .turn_slip = 0.003,
@@ -95,6 +99,7 @@ ErrorLevels error_levels(Realism realism) {
               .quantised = true};
     case Realism::harsh:
       return {.wheel_mismatch = 0.01,
+              .wheel_size = 0.005,
               .track_error = 0.02,
               .slip = 0.01,
               .turn_slip = 0.01,
@@ -109,6 +114,15 @@ ErrorLevels error_levels(Realism realism) {
               .mixed_pixels = true,
               .infrared_noise = 0.1,
               .quantised = true};
+    case Realism::recorded: {
+      ErrorLevels levels = error_levels(Realism::nominal);
+      levels.wheel_mismatch = 0.03;
+      levels.wheel_size = 0.05;
+      levels.slip = 0.0075;
+      levels.turn_slip = 0.022;
+      levels.common_slip = 0.09;
+      return levels;
+    }
   }
   return {};
 }

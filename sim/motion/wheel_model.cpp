@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "wheel_model.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "orca/base/portable_math.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -17,15 +20,20 @@ WheelErrors WheelErrors::drawn(DriveKind kind, const ErrorLevels& errors, Random
   WheelErrors drawn{.slip = errors.slip,
                     .turn_slip = errors.turn_slip,
                     .slip_length = errors.slip_length,
+                    .common_slip = errors.common_slip,
+                    .common_length = errors.common_length,
                     .slip_angle = errors.slip_angle};
   drawn.track = random.uniform(-errors.track_error, errors.track_error);
   const double half = 0.5 * errors.wheel_mismatch;
   if (kind == DriveKind::differential) {
     const double apart = random.uniform(-errors.wheel_mismatch, errors.wheel_mismatch);
-    const double mean = random.uniform(-half, half);
+    const double mean = random.uniform(-errors.wheel_size, errors.wheel_size);
     drawn.diameter = {mean - 0.5 * apart, mean + 0.5 * apart, 0.0};
   } else {
     for (double& diameter : drawn.diameter) diameter = random.uniform(-half, half);
+    const double left = std::max(0.0, errors.wheel_size - half);
+    const double mean = left > 0.0 ? random.uniform(-left, left) : 0.0;
+    for (double& diameter : drawn.diameter) diameter += mean;
   }
   return drawn;
 }
@@ -35,7 +43,8 @@ WheelModel::WheelModel(const Drive& drive, const WheelErrors& errors)
       errors_(errors),
       track_(drive.track),
       rolling_(wheels(), {errors.slip, errors.slip_length}),
-      turning_(wheels(), {errors.turn_slip, errors.slip_angle}) {}
+      turning_(wheels(), {errors.turn_slip, errors.slip_angle}),
+      common_(errors.common_slip, errors.common_length) {}
 
 // Returns how far each wheel goes over the floor when the base moves like that. A wheel that cannot roll
 // sideways is dragged then, and does not turn.
@@ -61,10 +70,15 @@ Travel2 WheelModel::base_of(const Ways& ways, double track) const {
   return sum;
 }
 
-void WheelModel::draw_slip(const Ways& rolled, double turn, const Footing& footing, RandomStream& random) {
-  for (std::size_t k = 0; k < wheels(); ++k)
-    slip_[k] = footing.slip * (rolling_[k].over(rolled[k], random) + turning_[k].over(turn, random)) -
-               std::copysign(footing.lost[k], rolled[k]);
+void WheelModel::draw_slip(const Travel2& base, const Ways& rolled, const Footing& footing,
+                           RandomStream& random) {
+  const double way = portable::hypot(base.forward, base.left);
+  const double share = way > 0.0 ? common_.over(way, random) / way : 0.0;
+  const Ways common = ways_of({share * base.forward, share * base.left, 0.0}, track_);
+  for (std::size_t k = 0; k < wheels(); ++k) {
+    const double own = rolling_[k].over(rolled[k], random) + turning_[k].over(base.turn, random);
+    slip_[k] = footing.slip * (common[k] + own) - std::copysign(footing.lost[k], rolled[k]);
+  }
 }
 
 std::vector<Vec2> WheelModel::places() const {
@@ -77,7 +91,7 @@ std::vector<Vec2> WheelModel::places() const {
 Travel2 WheelModel::over_ground(const Travel2& rolled, double steering, const Footing& footing,
                                 RandomStream& random) {
   Ways ways = ways_of(rolled, track_);
-  draw_slip(ways, rolled.turn, footing, random);
+  draw_slip(rolled, ways, footing, random);
   for (std::size_t k = 0; k < wheels(); ++k) ways[k] = ways[k] * (1.0 + errors_.diameter[k]) + slip_[k];
   Travel2 real = base_of(ways, true_track());
   if (kind_ != DriveKind::synchro) return real;

@@ -25,10 +25,13 @@ struct WheelErrors {
   double turn_slip = 0.0;  // [m] The same per root of a radian that the base turns, in addition.
   double slip_length =
       0.1;  // [m] Way over which the wheel's slip keeps its ratio: integral of its correlation.
-  double slip_angle = 0.2;  // [rad] The same of turn_slip.
+  double common_slip = 0.0;    // [m] Slip of all wheels in common, per root of a metre that the base drives.
+  double common_length = 1.0;  // [m] As slip_length, of common_slip.
+  double slip_angle = 0.2;     // [rad] The same of turn_slip.
 
   // Draws the errors of one robot. The largest ratio of two diameters lies within the bound of the level. The
-  // diameters of a differential base are drawn by their ratio and their mean, so that they are uncorrelated.
+  // diameters of a differential base are drawn by their ratio and their mean, so that they are uncorrelated. The mean
+  // of three wheels lies within its bound, too: what their ratios leave of it is drawn for all of them.
   [[nodiscard]] static WheelErrors drawn(DriveKind kind, const ErrorLevels& errors, RandomStream& random);
 };
 
@@ -60,7 +63,7 @@ class WheelModel {
  private:
   using Ways = std::array<double, 3>;  // [m] of the wheels
 
-  void draw_slip(const Ways& rolled, double turn, const Footing& footing, RandomStream& random);
+  void draw_slip(const Travel2& base, const Ways& rolled, const Footing& footing, RandomStream& random);
   [[nodiscard]] std::size_t wheels() const { return kind_ == DriveKind::differential ? 2 : 3; }
   [[nodiscard]] double true_track() const { return track_ * (1.0 + errors_.track); }
   [[nodiscard]] Ways ways_of(const Travel2& base, double track) const;
@@ -71,7 +74,8 @@ class WheelModel {
   double track_;
   // Each wheel's slip by what it rolls, and by the turn of the base.
   std::vector<SlipProcess> rolling_, turning_;
-  Ways slip_{};  // In the present tick.
+  SlipProcess common_;  // Of all wheels by what the base drives.
+  Ways slip_{};         // In the present tick.
 };
 
 }  // namespace orca::sim::detail

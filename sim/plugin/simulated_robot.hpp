@@ -123,7 +123,7 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   Param<std::string> realism_{*this,
                               "realism",
                               "nominal",
-                              {.choices = {"ideal", "nominal", "harsh"},
+                              {.choices = {"ideal", "nominal", "harsh", "recorded"},
                                .text = "Level of the errors of sensors, motors and odometry."}};
   Param<std::string> errors_{
       *this,

@@ -43,12 +43,13 @@ std::string_view to_string(Realism realism) {
     case Realism::ideal: return "ideal";
     case Realism::nominal: return "nominal";
     case Realism::harsh: return "harsh";
+    case Realism::recorded: return "recorded";
   }
   return "unknown";
 }
 
 std::optional<Realism> realism_from(std::string_view word) {
-  for (const Realism r : {Realism::ideal, Realism::nominal, Realism::harsh})
+  for (const Realism r : {Realism::ideal, Realism::nominal, Realism::harsh, Realism::recorded})
     if (word == to_string(r)) return r;
   return std::nullopt;
 }

@@ -15,7 +15,7 @@ using xml::ElementRule;
 constexpr ValueRule kDevices = whole(1, 256);
 constexpr ValueRule kReadings = whole(1, 10'000);
 constexpr std::array<std::string_view, 3> kDriveKinds{"differential", "synchro", "holonomic"};
-constexpr std::array<std::string_view, 3> kLevels{"ideal", "nominal", "harsh"};
+constexpr std::array<std::string_view, 4> kLevels{"ideal", "nominal", "harsh", "recorded"};
 constexpr std::array<std::string_view, 6> kJointTypes{"fixed",     "continuous", "revolute",
                                                       "prismatic", "planar",     "floating"};
 

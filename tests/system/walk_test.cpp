@@ -18,7 +18,7 @@ Run walk(const Words& more) {
 
 TEST_CASE("the Scout drives about the office for five minutes and touches nothing, at every realism",
           "[system][walk]") {
-  for (const char* realism : {"ideal", "nominal", "harsh"}) {
+  for (const char* realism : {"ideal", "nominal", "harsh", "recorded"}) {
     for (const char* seed : {"1", "2", "3"}) {
       const Run run = walk({"--set", std::string("realism=") + realism, "--seed", seed});
       INFO(run.err);

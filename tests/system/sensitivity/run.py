@@ -21,7 +21,7 @@ import sys
 import tempfile
 
 TREE = pathlib.Path(__file__).resolve().parents[3]
-WHEELS = ("wheel_mismatch", "track_error", "slip", "turn_slip", "delay_scale")
+WHEELS = ("wheel_mismatch", "wheel_size", "track_error", "slip", "turn_slip", "slip_length", "slip_angle", "delay_scale")
 CONTACT = ("contact_friction", "wheel_grip", "motor_force")
 ERRORS = {
     "laser": WHEELS + ("laser_bias", "laser_sigma", "laser_drop_angle", "laser_spot") + CONTACT,

@@ -187,7 +187,7 @@ FakeCatalogue::FakeCatalogue() {
   add(older_logger());
   add(base_server(true));
   add(device("orca.hw.Sim",
-             {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh"})}));
+             {file("world"), file("robot"), choice("realism", {"ideal", "nominal", "harsh", "recorded"})}));
   add(device("orca.hw.Deep",
              {real("depth", "m", 0.0, 1e4, 0.0), param("ship", ParamType::text, std::string("raft"))}));
   add(device("orca.hw.NomadScout", {param("port", ParamType::text, std::string("/dev/ttyS0")),

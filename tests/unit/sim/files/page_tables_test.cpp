@@ -46,9 +46,11 @@ std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 // The page's names for the members of ErrorLevels, in their order.
 const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
+                       "wheel diameters: bound of their mean's relative error",
                        "track: bound of its relative error",
                        "slip of a wheel per root of a metre, standard deviation",
                        "slip of a wheel per root of a radian of turn, in addition",
+                       "slip that all wheels have in common, per root of a metre",
                        "lag and dead time of the drive, times those of the file",
                        "sonar: standard deviation, relative to the range",
                        "sonar: readings that are arbitrary",
@@ -64,18 +66,25 @@ const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
 // The numbers of one level, as the page writes them, then the estimates that all levels share. The names must cover
 // ErrorLevels: with a member more or less this does not compile.
 Lines numbers_of(Realism realism) {
-  const auto [wheel_mismatch, track_error, slip, turn_slip, delay_scale, sonar_noise, sonar_outliers,
-              critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle, mixed_pixels,
-              infrared_noise, quantised, slip_length, slip_angle, sonar_edges, sonar_threshold, sonar_in_line,
-              laser_spot, contact_friction, wheel_grip, motor_force] = error_levels(realism);
-  return {percent(wheel_mismatch),      percent(track_error),         millimetres(slip),
-          millimetres(turn_slip),       number(delay_scale, ""),      percent(sonar_noise),
-          percent(sonar_outliers),      degrees(critical_angle),      yes_or_no(sonar_crosstalk),
-          millimetres(laser_bias),      millimetres(laser_sigma),     degrees(laser_drop_angle),
-          yes_or_no(mixed_pixels),      number(infrared_noise, "/m"), yes_or_no(quantised),
-          number(slip_length, "m"),     number(slip_angle, "rad"),    number(sonar_edges, ""),
-          number(sonar_threshold, ""),  degrees(sonar_in_line),       number(laser_spot, ""),
-          number(contact_friction, ""), number(wheel_grip, ""),       number(motor_force, "")};
+  const auto [wheel_mismatch, wheel_size, track_error, slip, turn_slip, common_slip, delay_scale, sonar_noise,
+              sonar_outliers, critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle,
+              mixed_pixels, infrared_noise, quantised, slip_length, common_length, slip_angle, sonar_edges,
+              sonar_threshold, sonar_in_line, laser_spot, contact_friction, wheel_grip, motor_force] =
+      error_levels(realism);
+  return {percent(wheel_mismatch),      percent(wheel_size),
+          percent(track_error),         millimetres(slip),
+          millimetres(turn_slip),       millimetres(common_slip),
+          number(delay_scale, ""),      percent(sonar_noise),
+          percent(sonar_outliers),      degrees(critical_angle),
+          yes_or_no(sonar_crosstalk),   millimetres(laser_bias),
+          millimetres(laser_sigma),     degrees(laser_drop_angle),
+          yes_or_no(mixed_pixels),      number(infrared_noise, "/m"),
+          yes_or_no(quantised),         number(slip_length, "m"),
+          number(common_length, "m"),   number(slip_angle, "rad"),
+          number(sonar_edges, ""),      number(sonar_threshold, ""),
+          degrees(sonar_in_line),       number(laser_spot, ""),
+          number(contact_friction, ""), number(wheel_grip, ""),
+          number(motor_force, "")};
 }
 
 Lines column_of(Realism realism) {
@@ -160,17 +169,19 @@ TEST_CASE("docs/simulation.md has the numbers behind each level of realism", "[s
   const Lines ideal = column_of(Realism::ideal);
   const Lines nominal = column_of(Realism::nominal);
   const Lines harsh = column_of(Realism::harsh);
+  const Lines recorded = column_of(Realism::recorded);
   Lines expected;
   for (std::size_t i = 0; i < kErrors.size(); ++i)
-    expected.push_back("| " + kErrors[i] + " | " + ideal[i] + " | " + nominal[i] + " | " + harsh[i] + " |");
-  CHECK(rows_below("| error | ideal | nominal | harsh |") == expected);
+    expected.push_back("| " + kErrors[i] + " | " + ideal[i] + " | " + nominal[i] + " | " + harsh[i] + " | " +
+                       recorded[i] + " |");
+  CHECK(rows_below("| error | ideal | nominal | harsh | recorded |") == expected);
 }
 
 TEST_CASE("docs/simulation.md says of each error where its values come from", "[sim][docs]") {
   Lines named;
-  for (const std::string& row : rows_below("| error | nominal | harsh |")) {
+  for (const std::string& row : rows_below("| error | nominal | harsh | recorded |")) {
     named.push_back(cell(row, 0));
-    for (const std::size_t level : {1U, 2U}) {
+    for (const std::size_t level : {1U, 2U, 3U}) {
       CAPTURE(row);
       CHECK(cell(row, level).size() > 0);
     }
@@ -181,7 +192,7 @@ TEST_CASE("docs/simulation.md says of each error where its values come from", "[
 TEST_CASE("docs/simulation.md has the estimates that all levels share", "[sim][docs]") {
   Lines shown;
   for (const std::string& row : rows_below("| name | estimate | what it is |")) shown.push_back(cell(row, 1));
-  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh}) {
+  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh, Realism::recorded}) {
     const Lines all = numbers_of(level);
     CHECK(Lines(all.begin() + static_cast<std::ptrdiff_t>(kErrors.size()), all.end()) == shown);
   }

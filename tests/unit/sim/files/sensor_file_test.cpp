@@ -129,7 +129,7 @@ TEST_CASE("a robot's file guesses the errors of its ranges and wheels, in genera
       R"x(<range_errors fixed="10 mm" share="2 %"/><range_errors realism="harsh" fixed="3 cm" share="0"/>)x";
   const std::string wheels =
       R"x(<odometry period="50 ms"><wheel_errors realism="nominal" wheel_diameter="0.3 %" track="0.6 %"
-    slip="3 mm"/></odometry>)x";
+    slip="3 mm"/><wheel_errors realism="recorded" wheel_diameter="3 %" track="1 %" slip="7.5 mm"/></odometry>)x";
   std::string errors;
   const auto model = read(replaced(kLaser, "/>", ">" + guesses + "</laser>") + kSonar + wheels, errors);
   INFO(errors);
@@ -139,6 +139,7 @@ TEST_CASE("a robot's file guesses the errors of its ranges and wheels, in genera
   CHECK(model->lasers.at(0).errors.at(Realism::harsh) == orca::RangeErrorGuess{0.03, 0.0});
   CHECK_FALSE(model->sonars.at(0).errors.at(Realism::nominal).is_known());
   CHECK(model->odometer->errors.at(Realism::nominal) == orca::WheelErrorGuess{0.003, 0.006, 0.003});
+  CHECK(model->odometer->errors.at(Realism::recorded) == orca::WheelErrorGuess{0.03, 0.01, 0.0075});
   CHECK_FALSE(model->odometer->errors.at(Realism::harsh).is_known());
 }
 

@@ -21,7 +21,7 @@ TEST_CASE("single errors of a level are multiplied, and nothing else changes", "
 }
 
 TEST_CASE("estimates are multiplied at every level", "[sim][errors]") {
-  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh}) {
+  for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh, Realism::recorded}) {
     CHECK(error_levels(level).contact_friction == ErrorLevels{}.contact_friction);
     CHECK(sim::scaled(error_levels(level), "contact_friction=2").value().contact_friction == 0.32);
   }
@@ -47,11 +47,9 @@ TEST_CASE("what is no error or no factor is refused with what is expected", "[si
   CHECK_THAT(refusal("slop=2"),
              Contains("\"slop\" is no error of a level and no estimate; there are: wheel_mismatch, ") &&
                  Contains("did you mean \"slip\"?"));
-  CHECK_THAT(
-      refusal("friction=2"),
-      Contains(
-          "infrared_noise, slip_length, slip_angle, sonar_edges, sonar_threshold, sonar_in_line, laser_spot, "
-          "contact_friction, wheel_grip, motor_force"));
+  CHECK_THAT(refusal("friction=2"), Contains("infrared_noise, slip_length, common_length, slip_angle, "
+                                             "sonar_edges, sonar_threshold, sonar_in_line, laser_spot, "
+                                             "contact_friction, wheel_grip, motor_force"));
   for (const char* bad : {"slip", "slip=", "slip=two", "slip=-1", "slip=1000", "slip=nan"})
     CHECK_THAT(refusal(bad), Contains("slip expects a factor from 0 to 100, as in slip=2"));
 }

@@ -249,6 +249,37 @@ TEST_CASE("the ratio of the diameters is drawn within the bound, evenly, and apa
   CHECK(std::fabs(products) < 3.0 * squares / 6.0 / std::sqrt(kDrawn));
 }
 
+TEST_CASE("the mean of the diameters is drawn within its bound, whatever their ratio, for bases of each kind",
+          "[sim][wheels]") {
+  const ErrorLevels recorded = error_levels(Realism::recorded);
+  for (const DriveKind kind : {DriveKind::differential, DriveKind::synchro, DriveKind::holonomic}) {
+    const double wheels = kind == DriveKind::differential ? 2.0 : 3.0;
+    double widest = 0.0;
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+      RandomStream random(seed, "dewey", "wheels");
+      const auto [one, two, three] = WheelErrors::drawn(kind, recorded, random).diameter;
+      widest = std::max(widest, std::fabs(one + two + three) / wheels);
+    }
+    CHECK(widest <= recorded.wheel_size);
+    CHECK(widest > 0.85 * recorded.wheel_size);
+  }
+}
+
+TEST_CASE("slip in common scatters the way of a base of each kind, and neither turns it nor drags it aside",
+          "[sim][wheels]") {
+  constexpr int kSlipping = 400;
+  const DriveKind kind = GENERATE(DriveKind::differential, DriveKind::synchro, DriveKind::holonomic);
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSlipping; ++seed) {
+    Base base(kind, {.common_slip = 0.01}, seed);
+    base.roll({40.0, 0.0, 0.0});
+    squares += std::pow(base.pose().x - 40.0, 2) / kSlipping;
+    CHECK(std::fabs(base.pose().y) + std::fabs(base.pose().yaw) < 1e-9);
+  }
+  // Over 40 m the variance is that of 40 m less 1.5 times half the length of 1 m. 400 samples: three sigma.
+  CHECK(std::sqrt(squares) == Approx(0.01 * std::sqrt(40.0 - 0.75)).epsilon(0.12));
+}
+
 // The paper's claim is that of its summary: the systematic errors become smaller by at least one order of magnitude. Its formulas
 // are of first order, so what is left grows with the square of the error. A robot that is off by more than 0.6 m needs a
 // second round.

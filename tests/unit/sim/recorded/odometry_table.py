@@ -24,7 +24,7 @@ PAGE = TREE / "docs/simulation.md"
 BEGIN, END = "<!-- odometry of recorded robots: made by tests/unit/sim/recorded/odometry_table.py -->\n", "<!-- end of odometry -->\n"
 FILES = ("slam/intel_scans.txt.gz", "slam/intel.relations.gz", "localization/aces-corrected.carmen.log.gz")
 ROBOT = TREE / "sim/robots/pioneer_2dx.urdf"
-LEVELS = ("ideal", "nominal", "harsh")
+LEVELS = ("ideal", "nominal", "harsh", "recorded")
 ROBOTS, METRES = 60, 200.0
 DEGREE = math.pi / 180.0
 # What is shown, how it is called, and its unit.

@@ -16,11 +16,14 @@ using robot_file::to_string;
 /// The numbers behind a level, and estimates. docs/simulation.md gives the source of each.
 struct ErrorLevels {
   double wheel_mismatch = 0.0;  ///< Bound of the ratio of two wheels' diameters, less 1.
+  double wheel_size = 0.0;      ///< Bound of the relative error of the wheels' mean diameter.
   double track_error = 0.0;     ///< Bound of the relative error of the track.
   /// [m] Standard deviation of a wheel's way over the floor per root of a metre that it rolls, on long ways.
   double slip = 0.0;
   /// [m] The same per root of a radian that the base turns, in addition.
   double turn_slip = 0.0;
+  /// [m] Standard deviation of the slip that all wheels of a base have in common, per root of a metre that it drives.
+  double common_slip = 0.0;
   double delay_scale = 0.0;     ///< Factor on the drive's lag and dead time.
   double sonar_noise = 0.0;     ///< Relative standard deviation of a range.
   double sonar_outliers = 0.0;  ///< Probability that a reading is arbitrary.
@@ -38,6 +41,7 @@ struct ErrorLevels {
   // Own estimates that every level shares.
   /// [m] Way over which a wheel's slip keeps its share of the way: integral of its correlation.
   double slip_length = 0.1;
+  double common_length = 1.0;    ///< [m] The same of common_slip.
   double slip_angle = 0.2;       ///< [rad] The same of turn_slip, over the turn of the base.
   double sonar_edges = 0.3;      ///< Strength of an edge's echo, as a share of a wall's.
   double sonar_threshold = 0.1;  ///< Weakest sound that is heard, as a share of that on the axis.

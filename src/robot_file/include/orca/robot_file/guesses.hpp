@@ -13,12 +13,13 @@ namespace orca::robot_file {
 /// The level of the simulated devices' errors. Every comparison of results names the level it used.
 enum class Realism {
   ideal,    ///< Exact sensors, wheels and odometry, a drive without lag and dead time.
-  nominal,  ///< Errors as measured on such devices.
+  nominal,  ///< Errors of well calibrated devices on a hard, even floor.
   harsh,    ///< Errors about twice as large.
+  recorded  ///< Wheels as wrong as those of the robots whose logs docs/simulation.md compares; else as nominal.
 };
 
 [[nodiscard]] std::string_view to_string(Realism realism);
-/// Returns the level "ideal", "nominal" or "harsh"; nothing for any other word.
+/// Returns the level "ideal", "nominal", "harsh" or "recorded"; nothing for any other word.
 [[nodiscard]] std::optional<Realism> realism_from(std::string_view word);
 
 /// The guesses of a robot's file about a device's errors: for the device in general, and for levels of realism at which it
@@ -48,7 +49,7 @@ class Guesses {
 
  private:
   std::optional<Guess> general_;
-  std::array<std::optional<Guess>, 3> by_level_;
+  std::array<std::optional<Guess>, 4> by_level_;
 };
 
 }  // namespace orca::robot_file
