@@ -39,6 +39,7 @@ constexpr std::array kErrors{Named{"wheel_mismatch", &ErrorLevels::wheel_mismatc
                              Named{"laser_bias", &ErrorLevels::laser_bias},
                              Named{"laser_sigma", &ErrorLevels::laser_sigma},
                              Named{"laser_drop_angle", &ErrorLevels::laser_drop_angle, kRightAngle},
+                             Named{"laser_threshold", &ErrorLevels::laser_threshold},
                              Named{"infrared_noise", &ErrorLevels::infrared_noise},
                              Named{"slip_length", &ErrorLevels::slip_length},
                              Named{"common_length", &ErrorLevels::common_length},
@@ -94,6 +95,7 @@ ErrorLevels error_levels(Realism realism) {
               .laser_bias = 0.01,
               .laser_sigma = 0.005,
               .laser_drop_angle = 80.0 * kDegree,
+              .laser_threshold = 0.64,
               .mixed_pixels = true,
               .infrared_noise = 0.05,
               .quantised = true};
@@ -111,6 +113,7 @@ ErrorLevels error_levels(Realism realism) {
               .laser_bias = 0.02,
               .laser_sigma = 0.01,
               .laser_drop_angle = 75.0 * kDegree,
+              .laser_threshold = 1.28,
               .mixed_pixels = true,
               .infrared_noise = 0.1,
               .quantised = true};

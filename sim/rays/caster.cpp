@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/caster.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "bodies.hpp"
@@ -23,6 +24,20 @@ detail::Elements elements_of(const WorldModel& world) {
   return elements;
 }
 
+// Returns the finishes of the elements in the order of their numbers: the edges' before the circles'. Empty if all are plain.
+std::vector<Finish> finishes_of(const WorldModel& world) {
+  const auto is_plain = [](const Obstacle& o) { return o.finish == Finish::plain; };
+  if (std::ranges::all_of(world.obstacles, is_plain)) return {};
+  std::vector<Finish> edges, circles;
+  for (const Obstacle& o : world.obstacles) {
+    if (o.mesh != nullptr) continue;
+    if (std::holds_alternative<Circle>(o.shape)) circles.push_back(o.finish);
+    edges.insert(edges.end(), edges_of(o.shape).size(), o.finish);
+  }
+  edges.insert(edges.end(), circles.begin(), circles.end());
+  return edges;
+}
+
 std::vector<std::shared_ptr<const Mesh>> meshes_of(const WorldModel& world) {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const Obstacle& o : world.obstacles)
@@ -33,8 +48,10 @@ std::vector<std::shared_ptr<const Mesh>> meshes_of(const WorldModel& world) {
 }  // namespace
 
 struct Caster::Impl {
-  explicit Impl(const WorldModel& world) : grid(elements_of(world)), meshes(meshes_of(world)) {}
+  explicit Impl(const WorldModel& world)
+      : grid(elements_of(world)), finishes(finishes_of(world)), meshes(meshes_of(world)) {}
   detail::Grid grid;
+  std::vector<Finish> finishes;  // By the numbers of the grid's elements; empty: all are plain.
   detail::MeshSections meshes;
   detail::Bodies bodies;
 
@@ -44,9 +61,15 @@ struct Caster::Impl {
     if (hit.found()) hit.element += kBodies;
     grid.cast(ray, hit, from);
     const double grid_at = hit.range;
-    if (grid_at < bodies_at) hit.element += kStanding;
+    if (grid_at < bodies_at) {
+      if (!finishes.empty()) hit.finish = finishes[hit.element];
+      hit.element += kStanding;
+    }
     meshes.cast(ray, hit);
-    if (hit.range < grid_at) hit.element = kMesh;  // Sections at different heights have different edges.
+    if (hit.range < grid_at) {
+      hit.element = kMesh;  // Sections at different heights have different edges.
+      hit.finish = Finish::plain;
+    }
     hit.point = ray.origin + hit.range * ray.direction;
     hit.direction = ray.direction;
   }

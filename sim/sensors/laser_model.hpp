@@ -36,10 +36,12 @@ class LaserModel {
   [[nodiscard]] Ray ray(const Pose2& X_WB, double beam, std::size_t own_body) const;
   void look(const Caster& caster, std::size_t own_body, const TickSpan& span);
   void shoot(const Caster& caster, const Beam& beam);
+  [[nodiscard]] Hit seen(const Caster& caster, const Ray& ray, Hit hit) const;
   [[nodiscard]] bool returns(const Hit& hit) const;
+  [[nodiscard]] double strength_of(const Hit& hit) const;
   void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
   void complete();
-  [[nodiscard]] double measured(double range);
+  [[nodiscard]] double measured(double range, double strength);
 
   LaserScanner scanner_;
   ErrorLevels errors_;
@@ -50,7 +52,9 @@ class LaserModel {
   Caster::View view_;
   Beam previous_;
   std::vector<double> ranges_;  // [m] The present scan without noise; max_range: nothing came back.
-  Pose2 X_RB_;                  // Pose of the carrier in the robot's frame when the present scan began.
+  std::vector<double>
+      strengths_;  // Of its echoes, as multiples of the weakest that half of the beams return.
+  Pose2 X_RB_;     // Pose of the carrier in the robot's frame when the present scan began.
   std::optional<LaserScan> completed_;
 };
 

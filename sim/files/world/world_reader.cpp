@@ -72,6 +72,12 @@ constexpr std::size_t kMaxItems = 200;
 constexpr std::size_t kMaxEvents = 1000;
 constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
+Finish finish_of(const xml::Attributes& element) {
+  const auto surface = element.has("surface") ? element.choice("surface") : std::nullopt;
+  if (!surface) return Finish::plain;
+  return static_cast<Finish>(std::ranges::find(kFinishes, *surface) - kFinishes.begin());
+}
+
 std::optional<double> height(const xml::Attributes& element) {
   return element.number_or("height", kWallHeight);
 }
@@ -168,18 +174,23 @@ void WorldReader::add(const Attributes& element, Shape shape, double obstacle_he
   if (bottom && *bottom >= obstacle_height)
     return element.error_at("bottom", world_codes::kBottomAboveTop,
                             "the bottom must lie below the height, which is that of the top");
-  if (bottom) world_.obstacles.push_back({own_name(element), std::move(shape), obstacle_height, *bottom});
+  if (bottom)
+    world_.obstacles.push_back(
+        {own_name(element), std::move(shape), obstacle_height, *bottom, nullptr, finish_of(element)});
 }
 
 void WorldReader::add_visitor(const Attributes& element, Shape shape, const Pose2& X_WO,
                               double obstacle_height) {
   if (element.has("name")) (void)own_name(element);
+  if (finish_of(element) != Finish::plain)
+    element.error_at("surface", world_codes::kBadValue, "what comes and goes is plain; leave this out");
   events_.visitor(element, std::move(shape), X_WO, obstacle_height);
 }
 
 void WorldReader::add_wall(const Attributes& element, WallPlan plan) {
   auto pieces = pieces_of(std::move(plan));
   if (!pieces) return element.error(world_codes::kBadWall, pieces.error().message);
+  for (Obstacle& piece : *pieces) piece.finish = finish_of(element);
   std::ranges::move(*pieces, std::back_inserter(world_.obstacles));
 }
 

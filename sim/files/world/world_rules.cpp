@@ -6,6 +6,7 @@
 #include "codes.hpp"
 #include "orca/robot_file/values.hpp"
 #include "orca/sim/event.hpp"
+#include "orca/sim/world_model.hpp"
 
 namespace orca::sim::detail {
 
@@ -22,23 +23,26 @@ constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
 constexpr std::array<std::string_view, 5> kGeneratorKinds{"barn", "u_trap", "narrow_doors", "corridor",
                                                           "office"};
 
+constexpr ValueRule kSurface = one_of(kFinishes);
+
 constexpr std::array kWorld{required("name", kName), required("version", kText), optional("text", kText)};
-constexpr std::array kWall{optional("name", kName), required("from", kText), required("to", kText),
-                           optional("thickness", kLength), optional("height", kLength)};
+constexpr std::array kWall{optional("name", kName),     required("from", kText),
+                           required("to", kText),       optional("thickness", kLength),
+                           optional("height", kLength), optional("surface", kSurface)};
 constexpr std::array kDoor{required("at", kLength), required("width", kLength)};
 constexpr std::array kRoomDoor{required("side", one_of(kSides)), required("at", kLength),
                                required("width", kLength)};
-constexpr std::array kBox{optional("name", kName),     required("x", kCoordinate),
-                          required("y", kCoordinate),  optional("yaw", kAngle),
-                          required("length", kLength), required("width", kLength),
-                          optional("height", kLength), optional("bottom", kLengthOrZero),
-                          optional("comes", kTime),    optional("goes", kTime)};
-constexpr std::array kCylinder{optional("name", kName),     required("x", kCoordinate),
-                               required("y", kCoordinate),  required("radius", kLength),
-                               optional("height", kLength), optional("bottom", kLengthOrZero),
-                               optional("comes", kTime),    optional("goes", kTime)};
+constexpr std::array kBox{
+    optional("name", kName),     required("x", kCoordinate),        required("y", kCoordinate),
+    optional("yaw", kAngle),     required("length", kLength),       required("width", kLength),
+    optional("height", kLength), optional("bottom", kLengthOrZero), optional("comes", kTime),
+    optional("goes", kTime),     optional("surface", kSurface)};
+constexpr std::array kCylinder{
+    optional("name", kName),     required("x", kCoordinate),  required("y", kCoordinate),
+    required("radius", kLength), optional("height", kLength), optional("bottom", kLengthOrZero),
+    optional("comes", kTime),    optional("goes", kTime),     optional("surface", kSurface)};
 constexpr std::array kPolygon{optional("name", kName), required("points", kText), optional("height", kLength),
-                              optional("bottom", kLengthOrZero)};
+                              optional("bottom", kLengthOrZero), optional("surface", kSurface)};
 constexpr std::array kBitmap{optional("name", kName), required("file", kText), optional("width", kLength),
                              optional("resolution", kLength), optional("height", kLength)};
 constexpr std::array kMesh{optional("name", kName),        required("file", kText),

@@ -14,18 +14,29 @@ namespace {
 constexpr double kBias = 0.01;
 constexpr double kSigma = 0.005;
 
-// Errors of all beams of `scans` scans of a wall; the beams meet it at distances that differ by no whole
-// steps.
+constexpr double kWall = 2.0;  // [m] Distance of the wall.
+
+// Returns the deviation of a beam that meets the wall at an angle [rad], relative to that of a strong echo: the wall scatters five
+// times as much light as the reference of 10 %, and the weakest echo is 0.64 of that at 8 m.
+double relative_deviation(double angle) {
+  const double range = kWall / std::cos(angle);
+  const double strength = 5.0 * std::cos(angle) * std::pow(8.0 / range, 2) / 0.64;
+  return std::sqrt(1.0 + 10.0 / strength);
+}
+
+// Errors of all beams of `scans` scans of a wall, each relative to its deviation; the beams meet it at distances that differ by no
+// whole steps.
 std::vector<double> laser_errors(std::uint64_t seed, double quantum, int scans) {
   LaserScanner laser = lms200();
   laser.quantum = quantum;
-  World world(wall_ahead(2.0), {.seed = seed, .realism = Realism::nominal});
+  World world(wall_ahead(kWall), {.seed = seed, .realism = Realism::nominal});
   const RobotId id = *world.add_robot("dewey", scout_with(laser), {});
   std::vector<double> errors;
   for (int i = 0; i < scans; ++i) {
     const LaserScan scan = next_scan(world, id);
     for (std::size_t k = 30; k <= 150; ++k)
-      errors.push_back(scan.ranges[k] - 2.0 / std::cos(angle_of(laser, k)));
+      errors.push_back((scan.ranges[k] - kWall / std::cos(angle_of(laser, k))) /
+                       relative_deviation(angle_of(laser, k)));
   }
   return errors;
 }

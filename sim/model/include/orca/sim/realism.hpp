@@ -34,6 +34,8 @@ struct ErrorLevels {
   double laser_sigma = 0.0;      ///< [m] Standard deviation of a range.
   /// [rad] A surface that is hit at a larger incidence returns nothing.
   double laser_drop_angle = 0.5 * std::numbers::pi;
+  /// Weakest echo that half of the beams return, as a share of that of a surface of 10 % that is met head on at max_range.
+  double laser_threshold = 0.0;
   bool mixed_pixels = false;    ///< A spot on two surfaces reads as something in between.
   double infrared_noise = 0.0;  ///< [1/m] Standard deviation of an infrared range per square of the range.
   bool quantised = false;       ///< Readings come in the device's steps.

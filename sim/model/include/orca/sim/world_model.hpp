@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -36,6 +37,15 @@ struct Walker {
   double stops = 0.0;
 };
 
+/// What a surface does to the light of a laser. Sonars, infrared sensors and bumpers do not tell them apart.
+enum class Finish : std::uint8_t {
+  plain,  ///< It scatters half of the light.
+  black,  ///< It scatters 2.4 % of it.
+  glass   ///< It returns light that meets it head on, as a plain one does; other light goes through.
+};
+/// Their names, in the same order.
+inline constexpr std::array<std::string_view, 3> kFinishes{"plain", "black", "glass"};
+
 /// A solid that never moves: an upright body over its plan.
 struct Obstacle {
   std::string name;     ///< For people, e.g. "wall" or "desk_2"; need not be unique.
@@ -46,6 +56,7 @@ struct Obstacle {
   /// hull seen from above, and it lies between `bottom` and `height`. The mesh is shared, because models are
   /// copied and meshes are large.
   std::shared_ptr<const Mesh> mesh{};
+  Finish finish = Finish::plain;  ///< Of all its sides; a mesh is plain.
 };
 
 /// Returns an obstacle of a mesh that is given in the world frame. @pre  the mesh has triangles.

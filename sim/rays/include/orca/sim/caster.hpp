@@ -36,8 +36,9 @@ struct Hit {
   /// Number of that boundary element. It stays the same when the element moves; all meshes share one number.
   /// 0: nothing was met.
   std::uint64_t element = 0;
-  Vec2 point;      ///< End of the ray, in the world frame.
-  Vec2 direction;  ///< The ray's direction, a unit vector.
+  Vec2 point;                     ///< End of the ray, in the world frame.
+  Vec2 direction;                 ///< The ray's direction, a unit vector.
+  Finish finish = Finish::plain;  ///< Of what was met; bodies and meshes are plain.
   [[nodiscard]] bool found() const { return surface.index() != 0; }
   /// Returns the angle between ray and surface normal, 0 (head on) to pi/2 (grazing) [rad]. @pre  found()
   [[nodiscard]] double incidence() const;
