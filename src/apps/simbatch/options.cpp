@@ -30,8 +30,8 @@ Each run is made in a process of its own, so one that crashes, hangs or takes to
 too. Ctrl-C and kill -9 lose nothing that was finished. The same experiment gives the same bytes, whatever --jobs and the
 machine's load are.
 
-The first run of each variant is made twice, the second time with other addresses, environment, process and folder. If the two
-differ, a warning names the first delivery that does, and the batch goes on. A run that an overloaded machine does not let end
+Some runs of each variant, one in a hundred or more, are made twice, the second time with other addresses, environment, process
+and folder. If the two differ, a warning names the first delivery that does, and the batch goes on. A run that an overloaded machine does not let end
 is no result: it is made again. --resume and join refuse results of other plugins, files or programs.
 )";
 

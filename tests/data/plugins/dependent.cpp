@@ -63,6 +63,8 @@ class Dependent final : public orca::Component {
     if (*on_ == "environment") said_ = number_of(user == nullptr ? "" : user);
     if (*on_ == "folder") said_ = number_of(std::filesystem::current_path().string());
     if (*on_ == "garbage") said_ = garbage();
+    if (*on_ == "bit")
+      said_ = (reinterpret_cast<std::uintptr_t>(things_.front().get()) >> 14U) % 2 == 0 ? 0.1 : 0.3;
     return orca::ok();
   }
 
@@ -87,7 +89,7 @@ class Dependent final : public orca::Component {
       *this,
       "on",
       "nothing",
-      {.choices = {"nothing", "addresses", "hashes", "environment", "folder", "garbage"}}};
+      {.choices = {"nothing", "addresses", "hashes", "environment", "folder", "garbage", "bit"}}};
   std::vector<std::unique_ptr<Thing>> things_;
   double said_ = 0.0;
 };

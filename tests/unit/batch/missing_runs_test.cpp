@@ -76,16 +76,48 @@ TEST_CASE("the parts of an experiment hold each run once, and never part the var
   }
 }
 
-TEST_CASE("the first run of each variant in a part is to be made twice, unless one of that variant was",
+TEST_CASE("one run in seven of each variant is to be made twice, up to seven, and one in a hundred beyond",
+          "[batch]") {
+  const TempFolder folder;
+  const auto store = Store::open(folder.file("r.sqlite"), "1").value();
+  const auto twice = [&](const std::string& seeds) {
+    return MissingRuns(large(seeds), *store, {}).not_repeated().size() / 2;
+  };
+  CHECK(twice("1") == 1);        // of 2 runs of each variant
+  CHECK(twice("1-10") == 3);     // of 20
+  CHECK(twice("1-50") == 7);     // of 100
+  CHECK(twice("1-300") == 7);    // of 600
+  CHECK(twice("1-1000") == 20);  // of 2000
+}
+
+TEST_CASE("the runs that are made twice are spread over worlds and seeds, the same places for each variant",
+          "[batch]") {
+  const TempFolder folder;
+  const auto store = Store::open(folder.file("r.sqlite"), "1").value();
+  const Experiment experiment = large("1-50");
+  std::set<std::size_t> worlds;
+  std::set<std::uint64_t> seeds;
+  const std::vector<std::size_t> runs = MissingRuns(experiment, *store, {}).not_repeated();
+  REQUIRE(runs.size() == 14);
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    CHECK(runs[i] + 1 == runs[i + 1]);
+    worlds.insert(experiment.run(runs[i]).world);
+    seeds.insert(experiment.run(runs[i]).seed);
+  }
+  CHECK(worlds.size() == 2);
+  CHECK(seeds.size() == 7);
+}
+
+TEST_CASE("runs of each variant in a part are to be made twice, unless as many of that variant were",
           "[batch]") {
   const TempFolder folder;
   const auto store = Store::open(folder.file("r.sqlite"), "1").value();
   const Experiment experiment = large("1-5");
-  CHECK(MissingRuns(experiment, *store, {}).not_repeated() == std::vector<std::size_t>{0, 1});
+  CHECK(MissingRuns(experiment, *store, {}).not_repeated() == std::vector<std::size_t>{0, 1, 10, 11});
   CHECK(MissingRuns(experiment, *store, {3, 7}).not_repeated() == std::vector<std::size_t>{4, 5});
   CHECK(MissingRuns(experiment, *store, {30, 30}).not_repeated().empty());
   REQUIRE(store->add(RepeatRow{"a", "x", 4, {"1", "1"}}).ok());
-  CHECK(MissingRuns(experiment, *store, {}).not_repeated() == std::vector<std::size_t>{1});
+  CHECK(MissingRuns(experiment, *store, {}).not_repeated() == std::vector<std::size_t>{1, 10, 11});
 }
 
 // Sanitizers keep what was freed.

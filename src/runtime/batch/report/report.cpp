@@ -61,14 +61,30 @@ class Writer {
     for (const Variant& variant : experiment_.variants)
       table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings, variant.profiles)});
     document_.add(std::move(table));
-    for (const RepeatRow& row : store_.repeats())
-      if (!row.repeat.difference.empty())
-        document_.add(Paragraph{
-            "Variant " + row.variant + " depends on more than world and seed: made twice, its run in " +
-            row.world + " with seed " + std::to_string(row.seed) +
-            " differed. Its figures are those of this machine and this time. " + row.repeat.difference});
+    warn_of_dependent();
     if (!experiment_.settings.empty())
       document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_.settings)});
+  }
+
+  // Names each variant that was not the same when it was made again, with the first run that was not.
+  void warn_of_dependent() {
+    std::map<std::string, std::pair<std::size_t, std::size_t>>
+        repeated;  // number of runs, and of those that differed
+    std::map<std::string, RepeatRow> first;
+    for (const RepeatRow& row : store_.repeats()) {
+      auto& [all, different] = repeated[row.variant];
+      ++all;
+      if (row.repeat.difference.empty()) continue;
+      ++different;
+      first.try_emplace(row.variant, row);
+    }
+    for (const auto& [variant, row] : first)
+      document_.add(Paragraph{"Variant " + variant + " depends on more than world and seed: of " +
+                              std::to_string(repeated[variant].first) + " runs that were made twice " +
+                              std::to_string(repeated[variant].second) + " differed, first that in " +
+                              row.world + " with seed " + std::to_string(row.seed) +
+                              ". Its figures are those of this machine and this time. " +
+                              row.repeat.difference});
   }
 
   void success() {

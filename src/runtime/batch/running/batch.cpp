@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "crew.hpp"
@@ -101,9 +102,16 @@ class Batch {
     return listener_.finished(task.number, outcome, cost);
   }
 
+  // The deliveries are looked at in one run of each variant only.
   Repeat compared_runs(std::size_t number, const Outcome& first, const Outcome& second) {
     Repeat repeat{mark_of(first), mark_of(second)};
-    if (!are_same(first, second)) find_difference(number, first, second, repeat);
+    if (are_same(first, second)) return repeat;
+    if (different_.contains(experiment_.run(number).variant)) {
+      repeat.difference = "it differs as well";
+      return repeat;
+    }
+    find_difference(number, first, second, repeat);
+    if (!repeat.difference.empty()) different_.insert(experiment_.run(number).variant);
     return repeat;
   }
 
@@ -131,6 +139,7 @@ class Batch {
   const BatchPlan& plan_;
   const BatchOptions& options_;
   BatchListener& listener_;
+  std::set<std::size_t> different_;  // variants of which a run was different when it was made again
   StopRequests requests_;
   Crew crew_{experiment_, options_, listener_, requests_};
 };

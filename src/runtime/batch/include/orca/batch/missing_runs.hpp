@@ -36,8 +36,8 @@ class MissingRuns {
   /// Returns how many the store does not hold now, from the first run of the shard on.
   [[nodiscard]] std::size_t count() const;
 
-  /// Returns the first run of each variant in the shard, for those variants of which the store has no run that was made
-  /// twice.
+  /// Returns the runs of the shard that are to be made twice, evenly spread over its worlds and seeds: one in seven of each
+  /// variant up to seven, and one in a hundred beyond. Those of which the store has as many are left out.
   [[nodiscard]] std::vector<std::size_t> not_repeated() const;
 
  private:
