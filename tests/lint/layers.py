@@ -181,7 +181,7 @@ LAYERS = (
     Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp"), ("batch_measures",
           "xml", "base"), ("sqlite",), module=BATCH),
     Layer("batch_experiment", (f"{BATCH}/experiment",), ("orca/batch/experiment.hpp",), ("batch_results",
-          "batch_measures", "geometry", "xml", "base"), module=BATCH),
+          "batch_measures", "batch_statistics", "geometry", "xml", "base"), module=BATCH),
     Layer("batch_report", (f"{BATCH}/report",), ("orca/batch/report.hpp",), ("batch_experiment", "batch_results",
           "batch_statistics", "geometry", "xml", "base"), module=BATCH),
     Layer("batch_making", (f"{BATCH}/making",), ("orca/batch/one_run.hpp",), ("batch_experiment", "batch_results",

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -102,6 +103,21 @@ std::filesystem::path folder_of(const Options& options, const batch::Experiment&
          ".batch";
 }
 
+// Returns the time of now, "2026-11-28 21:40 UTC".
+std::string date_of_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
+  return text;
+}
+
+// Keeps what the experiment asks, before anybody looks at an answer.
+Status declare(const batch::Experiment& experiment, batch::Store& store) {
+  return store.declare(batch::declarations_of(experiment, date_of_now()));
+}
+
 // Makes the report on results that are there, however many of the runs they are.
 ExitCode report_again(const Options& options) {
   xml::Diagnostics diagnostics;
@@ -113,7 +129,9 @@ ExitCode report_again(const Options& options) {
     return refuse(fail(Code::not_found, in_quotes(folder.string()) + " holds no results of a batch"));
   const Result<std::unique_ptr<batch::Store>> store =
       batch::Store::open(results_in(folder).string(), batch::identity_of(*experiment));
-  return store ? report(*experiment, **store, folder) : refuse(store.error());
+  if (!store) return refuse(store.error());
+  if (const Status declared = declare(*experiment, **store); !declared.ok()) return refuse(declared.error());
+  return report(*experiment, **store, folder);
 }
 
 // Makes the runs that are missing. Returns why it could not make all; empty: it did.
@@ -151,6 +169,7 @@ ExitCode run(const Options& options) {
   if (!store) return refuse(store.error());
   if (const Status kept = (*store)->keep(batch::inputs_of(*experiment)); !kept.ok())
     return refuse(kept.error());
+  if (const Status declared = declare(*experiment, **store); !declared.ok()) return refuse(declared.error());
   if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
     std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
     return ExitCode::could_not_finish;

@@ -72,6 +72,51 @@ TEST_CASE("numbered worlds are a family, and a single one is its own unless it n
   CHECK(families == std::vector<std::string>{"posts", "posts", "office", "offices"});
 }
 
+TEST_CASE("contrasts are asked instead of all pairs, and may stand before their variants", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(
+      R"(<experiment name="e" graph="g.xml" seeds="1" until="1 s">
+         <contrast first="b" second="a" metric="time" claim="not_worse" margin="500 ms"/>
+         <contrast first="a" second="b" metric="success" claim="equal" margin="5 %"/>
+         <contrast first="a" second="b" metric="way"/>
+         <variant name="b"/><variant name="a"/><world name="w"/></experiment>)",
+      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  const std::vector<Contrast> asked = questions_of(*experiment);
+  REQUIRE(asked.size() == 3);
+  CHECK(asked[0].text() == "b - a, time: not worse by 500 ms");
+  CHECK(asked[0].asked.margin == 0.5);
+  CHECK_FALSE(asked[0].asked.more_is_better);
+  CHECK(asked[1].text() == "a - b, success: equal within 5 %");
+  CHECK(asked[1].asked.margin == 0.05);
+  CHECK(asked[1].asked.more_is_better);
+  CHECK(asked[2].text() == "a - b, way: difference");
+  const std::vector<Contrast> all = questions_of(good());
+  REQUIRE(all.size() == 2);  // one pair, in success and in time
+  CHECK(all[1].text() == "a - b, time: difference");
+}
+
+TEST_CASE("what is wrong with contrasts is reported, each at its place", "[batch]") {
+  const std::string faults = faults_of(with(kEnough, std::string(kVariantAndWorld) + R"(<variant name="b"/>
+    <contrast first="a" second="c" metric="time"/>
+    <contrast first="a" second="a" metric="tme"/>
+    <contrast first="a" second="b" metric="time" claim="equal"/>
+    <contrast first="a" second="b" metric="time" margin="1 s"/>
+    <contrast first="a" second="b" metric="time" claim="equal" margin="1 m"/>
+    <contrast first="a" second="b" metric="success" claim="equal" margin="0 %"/>
+    <contrast first="a" second="b" metric="success" claim="better" margin="1 %"/>)"));
+  CHECK_THAT(faults, Contains("error E014: there is no variant \"c\"; there are a, b"));
+  CHECK_THAT(faults, Contains("error E014: a contrast needs two variants"));
+  CHECK_THAT(faults,
+             Contains("error E005: there is no metric \"tme\"") && Contains("did you mean \"time\"?"));
+  CHECK_THAT(faults, Contains("e.xml:4:5: error E014: claims of not_worse and equal need a margin") &&
+                         Contains("e.xml:5:5: error E014: claims of not_worse and equal need a margin"));
+  CHECK_THAT(faults, Contains("e.xml:6:") && Contains("error E014: ") && Contains("measures"));
+  CHECK_THAT(faults, Contains("error E014: a margin is above 0"));
+  CHECK_THAT(faults, Contains("error E005: ") && Contains("better"));
+}
+
 TEST_CASE("each variant meets each world and seed once, and pairs stand together", "[batch]") {
   const Experiment experiment = good();
   REQUIRE(experiment.run_count() == 24);

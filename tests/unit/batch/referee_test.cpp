@@ -34,10 +34,10 @@ Scene scene_of(std::vector<Scene::Robot> robots) {
 
 Goal goal_at(double x, double radius = 0.25) { return {.position = {x, 0.0}, .radius = radius}; }
 
-Claim reached_at(double seconds, const std::string& robot = "") { return {robot, after(seconds), true}; }
-Claim given_up_at(double seconds) { return {"", after(seconds), false}; }
+GoalClaim reached_at(double seconds, const std::string& robot = "") { return {robot, after(seconds), true}; }
+GoalClaim given_up_at(double seconds) { return {"", after(seconds), false}; }
 
-Judgement judged(const std::vector<Goal>& goals, const Scene& scene, const std::vector<Claim>& claims,
+Judgement judged(const std::vector<Goal>& goals, const Scene& scene, const std::vector<GoalClaim>& claims,
                  double end) {
   const Result<Judgement> judgement = judge_goals(goals, scene, claims, after(end));
   INFO((judgement ? "" : judgement.error().message));

@@ -5,80 +5,18 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <map>
 
 #include "approval.hpp"
+#include "made_results.hpp"
 #include "orca/xml/document.hpp"
-#include "report/comparison.hpp"
 #include "report/document.hpp"
-#include "report/families.hpp"
 #include "report/numbers.hpp"
 #include "report/plots.hpp"
-#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::batch;
 using Catch::Contains;
-using Catch::StartsWith;
 using orca::test::TempFolder;
-
-namespace {
-
-// Twenty worlds with one seed each; the first `failures` of them fail, and the others take `time` and more.
-void add(std::vector<Row>& rows, const std::string& variant, int failures, double time = 60.0) {
-  for (int world = 10; world < 30; ++world) {
-    Row row{variant, "w" + std::to_string(world), 1, {}, {}};
-    const bool fails = world - 10 < failures;
-    row.outcome.ending = fails ? Ending::time_out : Ending::success;
-    row.outcome.failure = fails ? Failure::trap : Failure::none;
-    row.outcome.time = fails ? 200.0 : time + 0.1 * world;
-    row.outcome.measures.way = 30.0;
-    row.outcome.measures.clearance = 0.2;
-    row.outcome.sketch = {"0.00 0.00,1.00 0.50", fails ? "0.50 0.25" : "",
-                          "-1.00 -1.00,3.00 -1.00,3.00 2.00"};
-    rows.push_back(row);
-  }
-}
-
-// Makes one world with twenty seeds of the twenty worlds.
-void move_into_one_world(std::vector<Row>& rows) {
-  for (Row& row : rows) {
-    row.seed = std::stoull(row.world.substr(1));
-    row.world = "w10";
-  }
-}
-
-Experiment experiment() {
-  xml::Diagnostics diagnostics;
-  std::string worlds;
-  for (int world = 10; world < 30; ++world) worlds += "<world name=\"w" + std::to_string(world) + "\"/>";
-  const auto read = read_experiment(
-      R"(<experiment name="e" graph="g.xml" seeds="1" until="200 s"><variant name="bad"><set arg="a" value="it's &lt;1&gt;"/></variant><variant name="good"/>)" +
-          worlds + "</experiment>",
-      "/top/e.xml", diagnostics);
-  REQUIRE(read);
-  return *read;
-}
-
-Report report_on(const std::vector<Row>& rows, const Experiment& experiment) {
-  const TempFolder folder;
-  const auto store = Store::open(folder.file("r.sqlite"), "1").value();
-  for (const Row& row : rows) REQUIRE(store->add(row).ok());
-  const auto made = make_report(experiment, *store);
-  REQUIRE(made);
-  return *made;
-}
-
-Report report_on(const std::vector<Row>& rows) { return report_on(rows, experiment()); }
-
-const Difference& in(const BatchResult& result, const std::string& metric) {
-  for (const Difference& one : result.differences)
-    if (one.metric == metric) return one;
-  FAIL("no difference in " << metric);
-  return result.differences.front();
-}
-
-}  // namespace
 
 TEST_CASE("a clear difference between two variants is called established", "[batch][report]") {
   std::vector<Row> rows;
@@ -87,8 +25,8 @@ TEST_CASE("a clear difference between two variants is called established", "[bat
   const Report report = report_on(rows);
   CHECK_THAT(report.summary, Contains("bad: 20 runs, 25.0 % (") && Contains(", 15 time_out"));
   CHECK_THAT(report.summary, Contains("good: 20 runs, 100.0 %"));
-  CHECK_THAT(report.summary,
-             Contains("bad - good, success: -75.0 % (") && Contains("), difference established"));
+  CHECK_THAT(report.summary, Contains("bad - good, success: -75.0 % (") &&
+                                 Contains("), difference established: good is better"));
 }
 
 TEST_CASE("equal variants, and ones with few runs, are not told apart", "[batch][report]") {
@@ -114,7 +52,7 @@ TEST_CASE("times are compared where both succeed, by the means of worlds", "[bat
   std::vector<Row> rows;
   add(rows, "fast", 2, 50.0);
   add(rows, "slow", 5, 60.0);
-  const auto result = compare(rows, {{"success", "time"}, {}});
+  const auto result = compare(rows, {pairs_in(rows, {"success", "time"}), {}});
   REQUIRE(result);
   const Difference& time = in(*result, "time");
   CHECK(time.finding.runs == 15);
@@ -128,140 +66,11 @@ TEST_CASE("times are compared where both succeed, by the means of worlds", "[bat
   CHECK(result->matrix.at({"slow", "w12"}) == std::pair<std::size_t, std::size_t>(0, 1));
 }
 
-TEST_CASE("in one world runs are compared, and the claim is about this world", "[batch][report]") {
-  std::vector<Row> rows;
-  add(rows, "bad", 0, 50.0);
-  add(rows, "good", 0, 60.0);
-  move_into_one_world(rows);
-  const Report report = report_on(rows);
-  CHECK_THAT(report.markdown, Contains("(sign flips, 20 runs)") && !Contains("worlds)"));
-  CHECK_THAT(report.summary,
-             Contains("20 runs, 100.0 % (83.9 % to 100.0 %) succeed (95 % over seeds, in this world)"));
-  CHECK_THAT(report.summary,
-             Contains("time [s]: -10.0 (-10.0 to -10.0), difference established in this world"));
-}
-
-TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][report]") {
-  std::vector<Row> rows;
-  add(rows, "fast", 0, 50.0);
-  add(rows, "slow", 0, 60.0);
-  move_into_one_world(rows);
-  for (Row& row : rows) row.outcome.trace_hash = row.variant;  // as without errors
-  const auto same = compare(rows, {{"success", "time"}, {}});
-  REQUIRE(same);
-  CHECK(in(*same, "time").finding.runs == 1);
-  CHECK_FALSE(in(*same, "time").verdict.established());
-  CHECK(same->variants[0].runs == 1);
-  CHECK(same->matrix.at({"fast", "w10"}) == std::pair<std::size_t, std::size_t>(1, 1));
-  for (const std::string& text : {report_on(rows).summary, report_on(rows).markdown})
-    CHECK_THAT(text, Contains("20 seeds gave 1 run in world w10: without errors a seed changes nothing"));
-  CHECK_THAT(report_on(rows).summary,
-             Contains("time [s]: -10.0 (of one), not established: too few runs (1 of each"));
-  CHECK_THAT(report_on(rows).summary, Contains("fast: 1 run, 100.0 % (0.0 % to 100.0 %)"));
-}
-
-TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
-  std::vector<Row> rows;
-  add(rows, "fixed", 0, 50.0);
-  add(rows, "noisy", 0, 60.0);
-  move_into_one_world(rows);
-  for (Row& row : rows)
-    row.outcome.trace_hash = row.variant == "fixed" ? "f" : "n" + std::to_string(row.seed / 2);
-  const auto result = compare(rows, {{"time"}, {}});
-  REQUIRE(result);
-  CHECK(in(*result, "time").finding.runs == 10);
-  CHECK(result->variants[0].runs == 1);
-  CHECK(result->variants[1].runs == 10);
-  REQUIRE(result->same_runs.size() == 2);
-  CHECK(line_of(result->same_runs[0], 2) ==
-        "20 seeds gave 1 run of fixed in world w10: without errors a seed changes nothing");
-  CHECK(line_of(result->same_runs[1], 2) ==
-        "20 seeds gave 10 runs of noisy in world w10: the other seeds repeat these");
-}
-
-TEST_CASE("families of worlds that contradict each other are a reversal, and nothing is claimed of all",
-          "[batch][report]") {
-  // As commit 103f5d5c had it: Dwa 95 and 7 %, LaserAvoid 85 and 87 %; together 77 and 85 %, which is not established.
-  std::vector<Row> rows;
-  std::map<std::string, std::string> families;
-  const auto add_family = [&](const std::string& family, int worlds, int dwa, int laser_avoid) {
-    for (int i = 0; i < worlds; ++i) {
-      const std::string world = family + "_" + std::to_string(i);
-      families[world] = family;
-      for (const auto& [variant, successes] : {std::pair("Dwa", dwa), std::pair("LaserAvoid", laser_avoid)}) {
-        const int turned = successes == laser_avoid ? worlds - 1 - i : i;  // they fail in different worlds
-        Row row{variant, world, 1, {}, {}};
-        row.outcome.ending = turned < successes ? Ending::success : Ending::time_out;
-        rows.push_back(row);
-      }
-    }
-  };
-  add_family("posts", 160, 152, 136);
-  add_family("offices", 40, 3, 35);
-  const auto pooled = compare(rows, {{"success"}, {}});
-  REQUIRE(pooled);
-  CHECK(pooled->families.empty());
-  CHECK_THAT(line_of(in(*pooled, "success")),
-             Contains("Dwa - LaserAvoid, success: -8.0 %") && Contains("not established"));
-  const auto result = compare(rows, {{"success"}, families});
-  REQUIRE(result);
-  REQUIRE(result->families.size() == 2);
-  CHECK(result->families[1].name == "posts");
-  CHECK(result->families[1].worlds == 160);
-  CHECK(result->families[1].success.at("Dwa").mean.value == Approx(0.95));
-  CHECK(result->families[0].success.at("LaserAvoid").mean.value == Approx(0.875));
-  REQUIRE(result->reversals.size() == 1);
-  CHECK_THAT(line_of(result->reversals[0]),
-             Contains("reversal in success: Dwa is better than LaserAvoid in posts, 10.0 % (") &&
-                 Contains("), and worse in offices, -80.0 % (") &&
-                 Contains("nothing is claimed about all worlds together"));
-  CHECK(in(*result, "success").verdict.text == "not claimed: families of worlds contradict each other");
-}
-
-TEST_CASE("a reversal is said first, on stdout and on both pages, and families have their tables and curves",
-          "[batch][report]") {
-  std::vector<Row> rows;
-  for (const std::string variant : {"a", "b"})
-    for (const std::string family : {"left", "right"})
-      for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-        Row row{variant, family, seed, {}, {}};
-        row.outcome.ending = Ending::success;
-        row.outcome.time = 50.0 + (variant == family.substr(0, 1) ? 1.0 : 0.0) +
-                           0.1 * static_cast<double>(seed) +
-                           (variant == "a" && family == "right" ? 3.0 : 0.0) +
-                           (variant == "b" && family == "left" ? 3.0 : 0.0);
-        rows.push_back(row);
-      }
-  xml::Diagnostics diagnostics;
-  const auto experiment = read_experiment(
-      R"(<experiment name="e" graph="g.xml" seeds="1-12" until="200 s"><variant name="a"/><variant name="b"/>
-         <world name="left"/><world name="right"/></experiment>)",
-      "/top/e.xml", diagnostics);
-  REQUIRE(experiment);
-  const Report report = report_on(rows, *experiment);
-  CHECK(report.summary.rfind("reversal in time: a is better than b in left, -3.000 (", 0) == 0);
-  CHECK_THAT(report.markdown, StartsWith("# Comparison: e\n\nRead this first: reversal in time"));
-  CHECK(report.html.find("Read this first") < report.html.find("<h2>"));
-  CHECK_THAT(report.markdown, Contains("## Family by family") && Contains("| left | 1 | 100.0 %") &&
-                                  Contains("| time [s] | a - b | right | 3.000 (3.000 to 3.000) | 12 |") &&
-                                  Contains("Family right: share of the runs that were done by then."));
-}
-
-TEST_CASE("worlds of one family, and families without runs enough, have no section of their own",
-          "[batch][report]") {
-  std::vector<Row> rows;
-  add(rows, "bad", 5);
-  add(rows, "good", 0);
-  CHECK_THAT(report_on(rows).markdown, !Contains("Family by family"));  // twenty families of one run
-  std::map<std::string, std::string> one;
-  for (const Row& row : rows) one[row.world] = "all";
-  CHECK(compare(rows, {{"success"}, one})->families.empty());
-}
-
 TEST_CASE("a metric that there is not is refused", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "a", 0);
-  CHECK_FALSE(compare(rows, {{"beauty"}, {}}));
+  add(rows, "b", 0);
+  CHECK_FALSE(compare(rows, {pairs_in(rows, {"beauty"}), {}}));
   xml::Diagnostics diagnostics;
   CHECK_FALSE(
       read_experiment(R"(<experiment name="e" graph="g.xml" seeds="1" until="1 s" metrics="success tme">

@@ -219,3 +219,34 @@ TEST_CASE("results that do not fit are not put together, and nothing of them is 
   CHECK_THAT(store->take_over(folder.file("three")).error().message, Catch::Contains("plugin p.so"));
   CHECK(rows_of(*store).size() == 2);
 }
+
+TEST_CASE("a declaration keeps its first date, and changes no run", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  CHECK(store->declarations().empty());
+  REQUIRE(store->declare({{"metrics", "time", "2026-11-28"}, {"seeds", "1-5", "2026-11-28"}}).ok());
+  REQUIRE(store->add(row("a", "w", 1)).ok());
+  REQUIRE(store->declare({{"metrics", "time", "2026-11-29"}, {"seeds", "1-9", "2026-11-29"}}).ok());
+  const std::vector<Declaration> all = store->declarations();
+  REQUIRE(all.size() == 3);
+  CHECK(all[0].what == "metrics");
+  CHECK(all[0].date == "2026-11-28");
+  CHECK(all[2].text == "1-9");
+  CHECK(all[2].date == "2026-11-29");
+  CHECK(rows_of(*store).size() == 1);
+}
+
+TEST_CASE("joined parts keep the earliest date of a declaration", "[batch]") {
+  const TempFolder folder;
+  const auto first = opened(folder.file("a.sqlite"));
+  {
+    const auto second = opened(folder.file("b.sqlite"));
+    REQUIRE(second->declare({{"metrics", "time", "2026-11-27"}, {"seeds", "1", "2026-11-27"}}).ok());
+  }
+  REQUIRE(first->declare({{"metrics", "time", "2026-11-28"}}).ok());
+  REQUIRE(first->take_over(folder.file("b.sqlite")).ok());
+  const std::vector<Declaration> all = first->declarations();
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].date == "2026-11-27");
+  CHECK(all[1].what == "seeds");
+}

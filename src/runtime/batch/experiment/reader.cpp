@@ -13,6 +13,7 @@
 #include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
+#include "orca/xml/quantity.hpp"
 #include "orca/xml/reporter.hpp"
 #include "orca/xml/values.hpp"
 #include "references.hpp"
@@ -51,8 +52,10 @@ class ExperimentReader {
       if (rule == &kVariantRule) variant(child);
       if (rule == &kWorldRule) world(child);
       if (rule == &kWorldsRule) worlds(child);
+      if (rule == &kContrastRule) contrasts_.push_back(child);
     }
     multiply(factors(attributes));
+    for (const Attributes& element : contrasts_) contrast(element);
     check_whole(attributes);
     return std::move(experiment_);
   }
@@ -168,6 +171,49 @@ class ExperimentReader {
     to.push_back(std::move(goal));
   }
 
+  void contrast(const Attributes& element) {
+    Contrast contrast{variant_in(element, "first"), variant_in(element, "second"), "", {}, "", {}};
+    contrast.position = element.element().position();
+    if (contrast.first == contrast.second && !contrast.first.empty())
+      element.error_at("second", codes::kContrast, "a contrast needs two variants");
+    contrast.metric = element.text("metric").value_or("");
+    const Metric* const metric =
+        contrast.metric.empty() ? nullptr : metric_in(element, "metric", contrast.metric);
+    const std::string claim = element.choice("claim").value_or("difference");
+    if (claim != "difference") contrast.asked.claim = claim == "equal" ? Claim::equal : Claim::not_worse;
+    if ((claim == "difference") == element.has("margin"))
+      element.error(codes::kContrast, "claims of not_worse and equal need a margin, and no other has one");
+    if (metric != nullptr) {
+      contrast.asked.more_is_better = metric->more_is_better;
+      margin(element, *metric, contrast);
+    }
+    experiment_.contrasts.push_back(std::move(contrast));
+  }
+
+  static void margin(const Attributes& element, const Metric& metric, Contrast& contrast) {
+    if (!element.has("margin")) return;
+    contrast.margin = element.text("margin").value_or("");
+    const Result<double> read = xml::parse_quantity(contrast.margin, metric.unit);
+    if (!read)
+      element.error_at("margin", codes::kContrast, read.error().message);
+    else if (!(*read > 0.0))
+      element.error_at("margin", codes::kContrast, "a margin is above 0");
+    else
+      contrast.asked.margin = *read;
+  }
+
+  // Returns the name of a variant that there is.
+  [[nodiscard]] std::string variant_in(const Attributes& element, const char* attribute) const {
+    const std::string name = element.text(attribute).value_or("");
+    std::vector<std::string> known;
+    for (const Variant& variant : experiment_.variants) known.push_back(variant.name);
+    if (!name.empty() && std::ranges::find(known, name) == known.end())
+      element.error_at(attribute, codes::kContrast,
+                       "there is no variant " + in_quotes(name) + "; there are " + listed(known) +
+                           xml::did_you_mean(xml::nearest_name(name, known)));
+    return name;
+  }
+
   void settings(const Attributes& element, std::vector<Setting>& to) {
     for (const auto& [child, rule] : element.children()) set(element.of_child(*child, *rule), to);
   }
@@ -187,13 +233,7 @@ class ExperimentReader {
     std::istringstream words(experiment.text("metrics").value_or("success time"));
     std::vector<std::string> names;
     for (std::string name; words >> name;) {
-      if (find_metric(name) == nullptr) {
-        std::vector<std::string> known;
-        for (const Metric& metric : all_metrics()) known.push_back(metric.name);
-        experiment.error_at("metrics", codes::kBadValue,
-                            "there is no metric " + in_quotes(name) + "; there are " + listed(known) +
-                                xml::did_you_mean(xml::nearest_name(name, known)));
-      }
+      (void)metric_in(experiment, "metrics", name);
       names.push_back(std::move(name));
     }
     return names;
@@ -226,6 +266,18 @@ class ExperimentReader {
         all.back().computing = factor;
       }
     experiment_.variants = std::move(all);
+  }
+
+  // Returns the metric of that name; reports that there is none.
+  static const Metric* metric_in(const Attributes& element, const char* attribute, const std::string& name) {
+    const Metric* const metric = find_metric(name);
+    if (metric != nullptr) return metric;
+    std::vector<std::string> known;
+    for (const Metric& one : all_metrics()) known.push_back(one.name);
+    element.error_at(attribute, codes::kBadValue,
+                     "there is no metric " + in_quotes(name) + "; there are " + listed(known) +
+                         xml::did_you_mean(xml::nearest_name(name, known)));
+    return nullptr;
   }
 
   std::vector<std::uint64_t> numbers(const Attributes& element, const char* attribute) {
@@ -270,6 +322,7 @@ class ExperimentReader {
   Experiment experiment_;
   std::string graph_;                  // of variants that name none
   std::vector<std::string> profiles_;  // likewise
+  std::vector<Attributes> contrasts_;  // read when all variants are known
   std::map<std::pair<std::string, std::string>, xml::Position> names_;
 };
 

@@ -57,6 +57,14 @@ constexpr std::array kGoal{
 constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
                               AttributeRule{"graph", false, "Its graph, if it is not that of all."},
                               AttributeRule{"profile", false, "Its profiles, if they are not those of all."}};
+constexpr std::array<std::string_view, 3> kClaims{"difference", "not_worse", "equal"};
+constexpr std::array kContrast{
+    AttributeRule{"first", true, "Name of a variant."},
+    AttributeRule{"second", true, "Name of the variant that it is compared with."},
+    AttributeRule{"metric", true, "In which they are compared."},
+    AttributeRule{"claim", false, "What is to be shown; \"difference\" if not given.", {.choices = kClaims}},
+    AttributeRule{"margin", false,
+                  "Of not_worse and equal: a difference that would matter, in the metric's unit."}};
 constexpr std::array kWorld{
     AttributeRule{"name", true, "Name of the world.", kName},
     AttributeRule{"reference", false, "Length of the way that runs are compared with.", kMetres},
@@ -99,9 +107,13 @@ constexpr ElementRule kWorldsRule{.name = "worlds",
                                   .children = kInWorld,
                                   .text = "Many such places, by their numbers in a file."};
 
+constexpr ElementRule kContrastRule{
+    .name = "contrast", .attributes = kContrast, .text = "A question about two variants."};
+
 namespace {
 
-constexpr std::array kInExperiment{&kSetRule, &kGoalRule, &kVariantRule, &kWorldRule, &kWorldsRule};
+constexpr std::array kInExperiment{&kSetRule,   &kGoalRule,   &kVariantRule,
+                                   &kWorldRule, &kWorldsRule, &kContrastRule};
 
 }  // namespace
 
@@ -112,8 +124,8 @@ constexpr ElementRule kExperimentRule{.name = "experiment",
 
 namespace {
 
-constexpr std::array kElements{&kExperimentRule, &kSetRule,   &kGoalRule,
-                               &kVariantRule,    &kWorldRule, &kWorldsRule};
+constexpr std::array kElements{&kExperimentRule, &kSetRule,    &kGoalRule,    &kVariantRule,
+                               &kWorldRule,      &kWorldsRule, &kContrastRule};
 
 }  // namespace
 

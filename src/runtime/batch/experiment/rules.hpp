@@ -19,11 +19,13 @@ inline constexpr const char* kNoGraph = "E010";
 inline constexpr const char* kTooMany = "E011";
 inline constexpr const char* kReferences = "E012";
 inline constexpr const char* kGoalPlace = "E013";
+inline constexpr const char* kContrast = "E014";
 
 }  // namespace orca::batch::codes
 
 namespace orca::batch {
 
+extern const xml::ElementRule kContrastRule;
 extern const xml::ElementRule kExperimentRule;
 extern const xml::ElementRule kSetRule;
 extern const xml::ElementRule kGoalRule;

@@ -80,13 +80,13 @@ void scramble_heap() {
 }
 
 // Returns what components said of their goals, in the order of the times.
-std::vector<Claim> claims_of(const host::RunResult& result) {
-  std::vector<Claim> claims;
+std::vector<GoalClaim> claims_of(const host::RunResult& result) {
+  std::vector<GoalClaim> claims;
   for (const idl::Arrived& arrived : result.arrivals)
     claims.push_back({result.robots.of(arrived.origin()), to_time_point(arrived.creation_time()), true});
   for (const idl::GoalFailed& failed : result.failures)
     claims.push_back({result.robots.of(failed.origin()), to_time_point(failed.creation_time()), false});
-  std::ranges::stable_sort(claims, {}, &Claim::time);
+  std::ranges::stable_sort(claims, {}, &GoalClaim::time);
   return claims;
 }
 
@@ -177,7 +177,8 @@ class Reporter final : public host::RunListener {
   Reporter(int to, const std::vector<Goal>& goals, const std::optional<double>& reference)
       : to_(to), goals_(goals), reference_(reference) {}
   void ended(const host::RunResult& result) override {
-    write_all(to_, to_text(outcome_of(result, goals_, reference_)) + kLapsFollow + laps_text(laps_of(result)));
+    write_all(to_,
+              to_text(outcome_of(result, goals_, reference_)) + kLapsFollow + laps_text(laps_of(result)));
   }
   [[noreturn]] void abandon(const host::RunResult& result) override {
     ended(result);

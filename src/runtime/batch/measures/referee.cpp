@@ -82,11 +82,11 @@ std::optional<TimePoint> time_of(const Target& target, Steps steps, TimePoint la
 struct Course {
   std::vector<Scene::Step> motion;
   std::vector<Target> targets{};
-  std::vector<Claim> claims{};
+  std::vector<GoalClaim> claims{};
 };
 
 // Returns whether the robot was in the goal when that was said, by the true pose before or the one after.
-bool is_right(const Claim& claim, const Target& target, Steps motion) {
+bool is_right(const GoalClaim& claim, const Target& target, Steps motion) {
   const Steps after = batch::since(motion, claim.time);
   const auto index = static_cast<std::size_t>(motion.size() - after.size());
   return (index > 0 && target.holds(motion[index - 1].pose)) ||
@@ -149,7 +149,7 @@ std::string goal_text(const Goal& goal) {
 }
 
 Result<Judgement> judge_goals(const std::vector<Goal>& goals, const Scene& scene,
-                              const std::vector<Claim>& claims, TimePoint end) {
+                              const std::vector<GoalClaim>& claims, TimePoint end) {
   std::map<std::string, Course> courses;
   for (const Goal& goal : goals) {
     const Result<const Scene::Robot*> robot = robot_of(goal, scene);
@@ -160,7 +160,7 @@ Result<Judgement> judge_goals(const std::vector<Goal>& goals, const Scene& scene
     if (is_new) course->second.motion = motion_of(**robot, end);
     course->second.targets.push_back({goal, *position});
   }
-  for (const Claim& claim : claims) {
+  for (const GoalClaim& claim : claims) {
     const auto course =
         claim.robot.empty() && courses.size() == 1 ? courses.begin() : courses.find(claim.robot);
     if (course != courses.end()) course->second.claims.push_back(claim);

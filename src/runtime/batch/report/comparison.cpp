@@ -100,15 +100,17 @@ Result<VariantResult> result_of(const std::string& name, const Runs& made) {
 }
 
 // Returns nothing where the two have no pair.
-Result<std::optional<Difference>> difference_of(const RunsOfVariants& runs, const std::string& first,
-                                                const std::string& second, const Metric& metric) {
-  const Paired pairs = paired(runs.at(first), runs.at(second), metric);
+Result<std::optional<Difference>> difference_of(const RunsOfVariants& runs, const Contrast& contrast,
+                                                const Metric& metric) {
+  const auto first = runs.find(contrast.first);
+  const auto second = runs.find(contrast.second);
+  if (first == runs.end() || second == runs.end()) return std::optional<Difference>();
+  const Paired pairs = paired(first->second, second->second, metric);
   if (pairs.first.empty()) return std::optional<Difference>();
   const Quantity quantity = metric.is_success() ? Quantity::success : Quantity::number;
-  const Result<Finding> finding = find_difference(pairs.first, pairs.second, quantity);
+  const Result<Finding> finding = find_difference(pairs.first, pairs.second, quantity, contrast.asked);
   if (!finding) return finding.error();
-  Difference found{
-      .first = first, .second = second, .metric = metric.name, .finding = *finding, .verdict = {}};
+  Difference found{.asked = contrast, .finding = *finding, .verdict = {}};
   found.adjusted_p = finding->p;
   const Result<double> larger = probability_of_improvement(pairs.first, pairs.second);
   if (!larger) return larger.error();
@@ -135,18 +137,15 @@ Status judge_all(const std::vector<Difference*>& differences) {
 
 // Returns what is found, without verdicts.
 Result<std::vector<Difference>> differences_of(const RunsOfVariants& runs,
-                                               const std::vector<std::string>& compared) {
+                                               const std::vector<Contrast>& contrasts) {
   std::vector<Difference> differences;
-  for (const std::string& name : compared) {
-    const Metric* const metric = find_metric(name);
-    if (metric == nullptr) return fail(Code::invalid_argument, "there is no metric \"" + name + "\"");
-    for (auto first = runs.begin(); first != runs.end(); ++first) {
-      for (auto second = std::next(first); second != runs.end(); ++second) {
-        Result<std::optional<Difference>> found = difference_of(runs, first->first, second->first, *metric);
-        if (!found) return found.error();
-        if (*found) differences.push_back(*std::move(*found));
-      }
-    }
+  for (const Contrast& contrast : contrasts) {
+    const Metric* const metric = find_metric(contrast.metric);
+    if (metric == nullptr)
+      return fail(Code::invalid_argument, "there is no metric \"" + contrast.metric + "\"");
+    Result<std::optional<Difference>> found = difference_of(runs, contrast, *metric);
+    if (!found) return found.error();
+    if (*found) differences.push_back(*std::move(*found));
   }
   return differences;
 }
@@ -205,7 +204,7 @@ Result<FamilyResult> family_of(const std::string& name, const RunsOfVariants& ru
     family.success[variant] = *summary;
   }
   family.worlds = worlds.size();
-  Result<std::vector<Difference>> differences = differences_of(runs, question.metrics);
+  Result<std::vector<Difference>> differences = differences_of(runs, question.contrasts);
   if (!differences) return differences.error();
   family.differences = *std::move(differences);
   return family;
@@ -248,6 +247,7 @@ std::optional<std::pair<std::string, Difference>> surest(const std::vector<Famil
 // Finds what the families contradict each other in, and takes back what is claimed of all worlds together.
 void find_reversals(BatchResult& result) {
   for (Difference& pooled : result.differences) {
+    if (pooled.finding.asked.claim != Claim::difference) continue;
     const auto more = surest(result.families, pooled, true);
     const auto less = surest(result.families, pooled, false);
     if (!more || !less) continue;
@@ -259,7 +259,7 @@ void find_reversals(BatchResult& result) {
 }  // namespace
 
 bool same_question(const Difference& one, const Difference& other) {
-  return one.first == other.first && one.second == other.second && one.metric == other.metric;
+  return one.asked.text() == other.asked.text();
 }
 
 Result<BatchResult> compare(const std::vector<Row>& rows, const Question& question) {
@@ -278,7 +278,7 @@ Result<BatchResult> compare(const std::vector<Row>& rows, const Question& questi
     if (!variant) return variant.error();
     result.variants.push_back(*std::move(variant));
   }
-  Result<std::vector<Difference>> differences = differences_of(runs, question.metrics);
+  Result<std::vector<Difference>> differences = differences_of(runs, question.contrasts);
   if (!differences) return differences.error();
   result.differences = *std::move(differences);
   if (const Status judged = judge_all(pointers_to(result.differences)); !judged.ok()) return judged.error();

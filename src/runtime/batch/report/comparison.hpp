@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/batch/experiment.hpp"
 #include "orca/batch/statistics/verdict.hpp"
 #include "orca/batch/store.hpp"
 #include "results/metric.hpp"
@@ -32,10 +33,9 @@ struct VariantResult {
   std::map<std::string, Summary> metrics{};  ///< By name; without those that no run has.
 };
 
-/// A test of the difference of two variants in one metric.
+/// The answer to a question about two variants.
 struct Difference {
-  std::string first, second;  ///< Variants.
-  std::string metric;
+  Contrast asked;
   Finding finding;          ///< Over pairs of runs in the same world with the same seed.
   double adjusted_p = 1.0;  ///< For all tests that could find something, by Holm's method.
   double improvement =
@@ -43,7 +43,7 @@ struct Difference {
   Verdict verdict;
 };
 
-/// Returns whether both compare the same variants in the same metric.
+/// Returns whether both answer the same question.
 [[nodiscard]] bool same_question(const Difference& one, const Difference& other);
 
 /// Seeds that gave fewer runs than there are seeds: the trace hashes of some are equal.
@@ -75,15 +75,15 @@ struct BatchResult {
   std::vector<SameRuns> same_runs;
   /// Number of successes and runs by variant and world.
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
-  /// One for each pair of variants in each metric that is compared. None of them that a reversal contradicts is established.
+  /// One for each contrast that has a pair of runs. None of them that a reversal contradicts is established.
   std::vector<Difference> differences;
   std::vector<FamilyResult> families;  ///< By name; none if all worlds are of one.
   std::vector<Reversal> reversals;
 };
 
-/// What rows are asked.
+/// The question that rows answer.
 struct Question {
-  std::vector<std::string> metrics;             ///< Names of those in which variants are compared.
+  std::vector<Contrast> contrasts;
   std::map<std::string, std::string> families;  ///< By world; one that is not there is of no family.
 };
 

@@ -25,6 +25,18 @@ std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+// Returns "Dwa is not worse than LaserAvoid by 2 s": what is claimed, or which one is better.
+std::string statement(const Difference& difference) {
+  const Contrast& asked = difference.asked;
+  switch (asked.asked.claim) {
+    case Claim::not_worse: return asked.first + " is not worse than " + asked.second + " by " + asked.margin;
+    case Claim::equal: return asked.first + " and " + asked.second + " are equal within " + asked.margin;
+    case Claim::difference: break;
+  }
+  const bool more = difference.finding.difference.value > 0.0;
+  return (more == find_metric(asked.metric)->more_is_better ? asked.first : asked.second) + " is better";
+}
+
 }  // namespace
 
 std::string value_text(double value, const Metric& metric) {
@@ -66,6 +78,26 @@ std::string scope_text(const Scope& scope) {
   return scope.over_worlds() ? "over worlds" : "over seeds," + scope.text();
 }
 
+std::string question_text(const Contrast& contrast) {
+  const std::string pair = contrast.first + " - " + contrast.second;
+  if (contrast.asked.claim == Claim::difference) return pair;
+  return pair + (contrast.asked.claim == Claim::equal ? ", equal within " : ", not worse by ") +
+         contrast.margin;
+}
+
+std::string claim_text(const Difference& difference) {
+  const std::string& text = difference.verdict.text;
+  if (difference.verdict.established()) return text + ": " + statement(difference);
+  return difference.asked.asked.claim == Claim::difference ? text : text + " (" + statement(difference) + ")";
+}
+
+std::string needed_text(const Finding& finding) {
+  const std::optional<std::size_t> needed = finding.values_needed();
+  if (!needed) return {};
+  return (*needed >= kMostNeeded ? "more than " : "") +
+         counted(*needed, finding.scope.over_worlds() ? "world" : "run");
+}
+
 std::string test_text(const Finding& finding) {
   const std::string test = finding.test == Test::student ? "t" : "sign flips";
   return test + ", " +
@@ -93,9 +125,9 @@ std::string line_of(const VariantResult& variant) {
 }
 
 std::string line_of(const Difference& difference) {
-  const Metric& metric = *find_metric(difference.metric);
-  return difference.first + " - " + difference.second + ", " + title_of(metric) + ": " +
-         estimate_text(difference.finding.difference, metric) + ", " + difference.verdict.text;
+  const Metric& metric = *find_metric(difference.asked.metric);
+  return difference.asked.first + " - " + difference.asked.second + ", " + title_of(metric) + ": " +
+         estimate_text(difference.finding.difference, metric) + ", " + claim_text(difference);
 }
 
 }  // namespace orca::batch

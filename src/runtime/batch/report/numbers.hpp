@@ -23,6 +23,12 @@ namespace orca::batch {
 [[nodiscard]] std::string false_words_of(const VariantResult& variant);
 /// Returns "over worlds", or over which runs where there are few.
 [[nodiscard]] std::string scope_text(const Scope& scope);
+/// Returns "VfhPlus - LaserAvoid", with what is asked if that is no difference: "VfhPlus - LaserAvoid, not worse by 2 s".
+[[nodiscard]] std::string question_text(const Contrast& contrast);
+/// Returns the verdict with what it says: "difference established in this world: narrow is better".
+[[nodiscard]] std::string claim_text(const Difference& difference);
+/// Returns "25 worlds", or "25 runs" where the worlds are fixed: Finding::values_needed(); nothing if that is not known.
+[[nodiscard]] std::string needed_text(const Finding& finding);
 /// Returns "sign flips, 20 worlds".
 [[nodiscard]] std::string test_text(const Finding& finding);
 /// Returns the sentence about seeds that change nothing.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "comparison.hpp"
+#include "declared.hpp"
 #include "document.hpp"
 #include "families.hpp"
 #include "numbers.hpp"
@@ -47,6 +48,7 @@ class Writer {
     distributions();
     tracks();
     failures();
+    add_declarations(store_.declarations(), document_);
     return std::move(document_);
   }
 
@@ -137,27 +139,37 @@ class Writer {
   void claims() {
     if (result_.differences.empty()) return;
     document_.add(Heading{"What may be claimed"});
-    Table table{{"metric", "variants", "difference (95 %)", "better in", "pairs", "p", "claim"}, {}};
+    Table table{{"metric", "question", "difference (95 %)", "better in", "pairs", "p", "claim", "needed"},
+                {}};
     for (const Difference& one : result_.differences) {
-      const Metric& metric = *find_metric(one.metric);
+      const Metric& metric = *find_metric(one.asked.metric);
       table.rows.push_back(
-          {title_of(metric), one.first + " - " + one.second, estimate_text(one.finding.difference, metric),
+          {title_of(metric), question_text(one.asked), estimate_text(one.finding.difference, metric),
            value_text(one.improvement, *find_metric("success")), std::to_string(one.finding.runs),
-           p_text(one.adjusted_p) + " (" + test_text(one.finding) + ")", one.verdict.text});
+           p_text(one.adjusted_p) + " (" + test_text(one.finding) + ")", claim_text(one),
+           needed_text(one.finding)});
     }
     document_.add(std::move(table));
     document_.add(Paragraph{
         "Paired by world and seed; time only where both succeed. From three worlds on a pair of variants has "
         "one "
         "difference for each world, the mean of its seeds; in one or two worlds it has one for each run, and "
-        "the claim "
-        "says nothing of others. The p-value is that of a permutation test that flips the signs of these "
-        "differences, or of Student's t test where there are too few for that, adjusted by Holm's "
-        "method for the number of tests with runs and worlds enough. \"Better in\" is the probability that a "
-        "run of the first is better than one of the second in the same "
-        "world. A difference is called established only with at least 9 runs of each, p of 0.05 or less, and "
-        "an "
-        "interval without 0. \"Not established\" does not mean equal."});
+        "the "
+        "claim says nothing of others. The p-value is that of a permutation test that flips the signs of "
+        "these "
+        "differences, or of Student's t test where there are too few for that, adjusted by Holm's method for "
+        "the "
+        "number of tests with runs and worlds enough. \"Better in\" is the probability that a run of the "
+        "first is "
+        "better than one of the second in the same world. A difference is called established only with at "
+        "least 9 "
+        "runs of each, p of 0.05 or less, and an interval without 0. \"Not established\" does not mean "
+        "equal. \"Not "
+        "worse\" and \"equal\" need an interval within the margin and one-sided tests of 2.5 %. The last "
+        "column "
+        "says how many worlds (or runs, where the worlds are fixed) show the claim with a probability of 80 "
+        "%, if they "
+        "spread as these do, and if the true difference is the observed one, or 0 where there is a margin."});
   }
 
   void metrics() {
@@ -367,7 +379,7 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   if (const Status read = store.for_each([&](const Row& row) { rows.push_back(row); }); !read.ok())
     return read.error();
   if (rows.empty()) return fail(Code::failed_precondition, "there are no results yet");
-  const Result<BatchResult> result = compare(rows, {experiment.metrics, families_of(experiment)});
+  const Result<BatchResult> result = compare(rows, {questions_of(experiment), families_of(experiment)});
   if (!result) return result.error();
   const Document document = Writer(experiment, store, rows, *result).write();
   std::string summary;

@@ -34,6 +34,8 @@ constexpr const char* kSchema = R"(
     first TEXT NOT NULL, second TEXT NOT NULL, difference TEXT NOT NULL,
     PRIMARY KEY (variant, world, seed)) WITHOUT ROWID;
   CREATE TABLE IF NOT EXISTS inputs (name TEXT PRIMARY KEY NOT NULL, content TEXT NOT NULL) WITHOUT ROWID;
+  CREATE TABLE IF NOT EXISTS declarations (
+    what TEXT NOT NULL, text TEXT NOT NULL, date TEXT NOT NULL, UNIQUE (what, text));
 )";
 
 constexpr const char* kBetweenFolders = "\n";
@@ -214,6 +216,23 @@ class SqliteStore final : public Store {
     return inputs;
   }
 
+  Status declare(const std::vector<Declaration>& declarations) override {
+    return in_transaction([&] {
+      for (const auto& [what, text, date] : declarations) {
+        Statement note(database_.get(), "INSERT OR IGNORE INTO declarations VALUES (?, ?, ?)");
+        if ((note << what << text << date).step() != SQLITE_DONE) return fault();
+      }
+      return ok();
+    });
+  }
+
+  [[nodiscard]] std::vector<Declaration> declarations() const override {
+    Statement all(database_.get(), "SELECT what, text, date FROM declarations ORDER BY date, rowid");
+    std::vector<Declaration> declarations;
+    while (all.step() == SQLITE_ROW) declarations.push_back({all.text(0), all.text(1), all.text(2)});
+    return declarations;
+  }
+
   Status take_over(const std::string& other) override {
     const Result<std::unique_ptr<Store>> store = Store::open(other, identity());
     if (!store) return store.error();
@@ -296,7 +315,9 @@ class SqliteStore final : public Store {
       INSERT OR IGNORE INTO main.maps SELECT * FROM other.maps;
       INSERT OR IGNORE INTO main.timing SELECT * FROM other.timing;
       INSERT OR IGNORE INTO main.repeats SELECT * FROM other.repeats;
-      INSERT OR IGNORE INTO main.inputs SELECT * FROM other.inputs;)");
+      INSERT OR IGNORE INTO main.inputs SELECT * FROM other.inputs;
+      INSERT INTO main.declarations SELECT * FROM other.declarations WHERE true ORDER BY rowid
+        ON CONFLICT DO UPDATE SET date = min(date, excluded.date);)");
   }
 
   // Inputs that are not known yet are those of more worlds.

@@ -32,7 +32,7 @@ std::vector<Doubt> doubts_of(const Finding& finding, double adjusted_p) {
   if (finding.runs < kLeastRuns) doubts.push_back(Doubt::too_few_runs);
   if (finding.has_too_few_worlds()) doubts.push_back(Doubt::too_few_worlds);
   if (!doubts.empty()) return doubts;
-  if (finding.difference.interval.contains(0.0)) doubts.push_back(Doubt::interval_includes_zero);
+  if (!finding.interval_supports_claim()) doubts.push_back(Doubt::interval_too_wide);
   if (adjusted_p > kLargestPValue) doubts.push_back(Doubt::p_value_too_large);
   return doubts;
 }
@@ -45,7 +45,9 @@ std::string text_of(Doubt doubt, const Finding& finding, double adjusted_p) {
     case Doubt::too_few_worlds:
       return "too few worlds (" + std::to_string(finding.scope.worlds) + ", at least " +
              std::to_string(kFewestFlipped) + " are needed)";
-    case Doubt::interval_includes_zero: return "the interval includes 0";
+    case Doubt::interval_too_wide:
+      return finding.asked.claim == Claim::difference ? "the interval includes 0"
+                                                      : "the interval reaches the margin";
     case Doubt::p_value_too_large:
       return "the adjusted p-value " + three_digits(adjusted_p) + " is above " + three_digits(kLargestPValue);
     case Doubt::reversed: break;
@@ -60,7 +62,10 @@ bool is_enough(const Finding& finding) { return finding.runs >= kLeastRuns && !f
 Result<Verdict> judge(const Finding& finding, double adjusted_p) {
   if (const Status status = check(finding, adjusted_p); !status) return status.error();
   const std::vector<Doubt> doubts = doubts_of(finding, adjusted_p);
-  if (doubts.empty()) return Verdict{doubts, "difference established" + finding.scope.text()};
+  if (doubts.empty())
+    return Verdict{doubts,
+                   (finding.asked.claim == Claim::difference ? "difference established" : "established") +
+                       finding.scope.text()};
   std::vector<std::string> reasons;
   for (const Doubt doubt : doubts) reasons.push_back(text_of(doubt, finding, adjusted_p));
   return Verdict{doubts, "not established: " + joined(reasons, "; ")};

@@ -33,7 +33,11 @@ std::string error_of(const Result<T>& result) {
 
 // What nine runs in twenty worlds found.
 Finding finding_of(const Interval& interval, std::size_t runs = 9, std::size_t worlds = 20) {
-  return {.runs = runs, .scope = {worlds}, .difference = {0.5 * (interval.low + interval.high), interval}};
+  Finding finding;
+  finding.runs = runs;
+  finding.scope = {worlds};
+  finding.difference = {0.5 * (interval.low + interval.high), interval};
+  return finding;
 }
 
 Verdict verdict_of(const Finding& finding, double p) { return judge(finding, p).value(); }
@@ -232,6 +236,40 @@ TEST_CASE("Student's test speaks of three worlds, and flipped signs need six", "
   const Nested six(6, {1.0, 1.0});
   const Nested no_six(6, {0.0, 0.0});
   CHECK(find_difference(six, no_six, Quantity::success).value().p == 0.03125);
+}
+
+TEST_CASE("a claim with a margin looks where the interval lies beside it", "[batch][statistics]") {
+  const auto text_of = [](const Asked& asked, const Interval& interval) {
+    Finding finding = finding_of(interval);
+    finding.asked = asked;
+    return verdict_of(finding, 0.01).text;
+  };
+  const Asked slower{.claim = Claim::not_worse, .margin = 2.0, .more_is_better = false};
+  CHECK(text_of(slower, {-9.0, 1.9}) == "established");
+  CHECK(text_of(slower, {-1.0, 2.0}) == "not established: the interval reaches the margin");
+  const Asked weaker{.claim = Claim::not_worse, .margin = 0.05, .more_is_better = true};
+  CHECK(text_of(weaker, {-0.04, 0.3}) == "established");
+  CHECK(text_of(weaker, {-0.05, 0.3}) == "not established: the interval reaches the margin");
+  const Asked same{.claim = Claim::equal, .margin = 2.0};
+  CHECK(text_of(same, {-1.9, 1.9}) == "established");
+  CHECK(text_of(same, {-2.0, 1.0}) == "not established: the interval reaches the margin");
+  CHECK(text_of(same, {-1.0, 2.0}) == "not established: the interval reaches the margin");
+}
+
+TEST_CASE("a test with a margin is one-sided, and two of them for equality", "[batch][statistics]") {
+  const Nested first{{1.5}, {2.0}, {2.5}, {3.5}, {2.0}, {2.5}, {1.0}, {2.0}};
+  const Nested zeros(8, {0.0});
+  const auto p_of = [&](Claim claim, double margin, bool more_is_better) {
+    return find_difference(first, zeros, Quantity::number, {claim, margin, more_is_better}).value().p;
+  };
+  CHECK(p_of(Claim::difference, 0.0, false) == 2.0 / 256.0);
+  CHECK(p_of(Claim::not_worse, 1.0, true) == 2.0 / 256.0);                   // all values are above -1
+  CHECK(p_of(Claim::not_worse, 4.0, false) == 2.0 / 256.0);                  // and below 4
+  CHECK(p_of(Claim::not_worse, 2.0, false) == 1.0);                          // the mean is 2.125
+  const std::vector<double> below{1.5, 1.0, 0.5, -0.5, 1.0, 0.5, 2.0, 1.0};  // 3 - first
+  CHECK(p_of(Claim::not_worse, 3.0, false) == sign_flips(below).value().p);
+  CHECK(p_of(Claim::equal, 3.0, false) == sign_flips(below).value().p);  // the side that is nearer
+  CHECK(p_of(Claim::equal, 2.0, false) == 1.0);
 }
 
 TEST_CASE("a comparison without numbers has no verdict", "[batch][statistics]") {

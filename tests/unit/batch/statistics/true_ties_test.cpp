@@ -66,7 +66,7 @@ Pairs drawn_pairs(const Kind& kind, RandomStream& random) {
 
 Finding finding_in(const Kind& kind, RandomStream& random) {
   const Pairs pairs = drawn_pairs(kind, random);
-  return find_difference(pairs.first, pairs.second, kind.quantity, kFewDraws).value();
+  return find_difference(pairs.first, pairs.second, kind.quantity, {}, kFewDraws).value();
 }
 
 int established(const Kind& kind, int experiments) {
@@ -142,7 +142,8 @@ TEST_CASE("a small true difference in 100 worlds with 5 seeds is found as often 
     int by_worlds = 0;  // of plain percentiles, beside the permutation test or Wilcoxon's
     for (int i = 0; i < experiments; ++i) {
       const Pairs pairs = drawn_pairs(kind, random);
-      const Finding finding = find_difference(pairs.first, pairs.second, kind.quantity, kFewDraws).value();
+      const Finding finding =
+          find_difference(pairs.first, pairs.second, kind.quantity, {}, kFewDraws).value();
       found += judge(finding, finding.p).value().established() ? 1 : 0;
       const std::vector<double> means =
           world_means(paired_differences(pairs.first, pairs.second).value()).value();
@@ -153,5 +154,50 @@ TEST_CASE("a small true difference in 100 worlds with 5 seeds is found as often 
     CAPTURE(kind.quantity == Quantity::success, kind.interact, found, by_worlds, experiments);
     CHECK(found >= by_worlds);
     CHECK(by_worlds > experiments / 5);
+  }
+}
+
+TEST_CASE(
+    "algorithms that differ by the margin are called equal, or not worse, in at most 5 % of the experiments",
+    "[batch][statistics]") {
+  const int experiments = test::part_of(2000);
+  const double expected = 0.05 * experiments;
+  for (const std::size_t worlds : {3U, 10U, 40U})
+    for (const Claim claim : {Claim::not_worse, Claim::equal}) {
+      RandomStream random(34, "true_ties_test", "margins");
+      int count = 0;
+      for (int i = 0; i < experiments; ++i) {
+        const Pairs pairs = drawn_pairs({Quantity::number, worlds, 5, true, -2.0}, random);  // 2 s slower
+        const Finding finding =
+            find_difference(pairs.first, pairs.second, Quantity::number, {claim, 2.0}, kFewDraws).value();
+        count += judge(finding, finding.p).value().established() ? 1 : 0;
+      }
+      CAPTURE(worlds, claim == Claim::equal, count);
+      CHECK(count <= expected);  // the level is 2.5 %
+    }
+}
+
+TEST_CASE("as many worlds as a report says show the claim in about 80 % of the experiments",
+          "[batch][statistics]") {
+  const int experiments = test::part_of(2000);
+  const double noise = 4.0 * std::sqrt(0.8 * 0.2 / experiments);
+  for (const Claim claim : {Claim::difference, Claim::not_worse, Claim::equal}) {
+    Finding known;
+    known.asked = {claim, 1.5};
+    known.difference.value = 1.5;
+    known.spread = std::sqrt(9.0 + 2.0 * 9.0 / 5.0);  // that of add_times() with 5 seeds
+    const std::size_t worlds = known.values_needed().value();
+    RandomStream random(35, "true_ties_test", "power");
+    int count = 0;
+    for (int i = 0; i < experiments; ++i) {
+      const double advantage = claim == Claim::difference ? -1.5 : 0.0;
+      const Pairs pairs = drawn_pairs({Quantity::number, worlds, 5, true, advantage}, random);
+      const Finding finding =
+          find_difference(pairs.first, pairs.second, Quantity::number, {claim, 1.5}, kFewDraws).value();
+      count += judge(finding, finding.p).value().established() ? 1 : 0;
+    }
+    const double power = static_cast<double>(count) / experiments;
+    CAPTURE(claim == Claim::equal, worlds, power);
+    CHECK(power == Approx(0.8).epsilon(0.0).margin(noise));
   }
 }

@@ -27,7 +27,7 @@ std::vector<double> flat(const std::vector<std::vector<double>>& nested) {
 
 // As a report with this one comparison does. Fewer draws are enough for many reports.
 Verdict verdict_on(const Scores& scores, const FindingOptions& options = {{.draws = 1000}, {.draws = 2000}}) {
-  const Finding finding = find_difference(scores.first, scores.second, Quantity::number, options).value();
+  const Finding finding = find_difference(scores.first, scores.second, Quantity::number, {}, options).value();
   return judge(finding, finding.p).value();
 }
 

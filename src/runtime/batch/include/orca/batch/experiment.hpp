@@ -10,6 +10,7 @@
 
 #include "orca/base/time.hpp"
 #include "orca/batch/referee.hpp"
+#include "orca/batch/statistics/finding.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::batch {
@@ -47,6 +48,18 @@ struct World {
   std::string family{};               ///< Worlds of one kind; its own name if it is the only one.
 };
 
+/// A question about two variants, declared before anything runs. A plain value.
+struct Contrast {
+  std::string first, second;  ///< Variants.
+  std::string metric;
+  Asked asked{};
+  std::string margin{};  ///< As it is written, "2 s"; empty: none.
+  xml::Position position{};
+
+  /// Returns "VfhPlus - LaserAvoid, time: equal within 2 s".
+  [[nodiscard]] std::string text() const;
+};
+
 /// One run of an experiment: a variant in a world with a seed.
 struct Run {
   std::size_t variant;  ///< Index.
@@ -64,9 +77,10 @@ struct Experiment {
   std::vector<World> worlds;
   std::vector<std::uint64_t> seeds;
   std::vector<std::string> metrics;  ///< In which variants are compared.
-  Duration until{0};                 ///< Limit of each run [s of its clock].
-  Duration limit{0};                 ///< Limit of each run [s of the wall clock].
-  std::uint64_t memory_limit = 0;    ///< [bytes] of address space of each run.
+  std::vector<Contrast> contrasts;  ///< If there are none, all pairs of variants are compared in all metrics.
+  Duration until{0};                ///< Limit of each run [s of its clock].
+  Duration limit{0};                ///< Limit of each run [s of the wall clock].
+  std::uint64_t memory_limit = 0;   ///< [bytes] of address space of each run.
 
   [[nodiscard]] std::size_t run_count() const { return variants.size() * worlds.size() * seeds.size(); }
   /// Returns a run. Those that differ in the variant only stand together, so that what a stopped batch has finished can be
@@ -81,6 +95,9 @@ struct Experiment {
   /// Returns the goals that a run is judged by.
   [[nodiscard]] const std::vector<Goal>& goals_of(const Run& run) const;
 };
+
+/// Returns what an experiment asks: its contrasts, or the difference of all pairs of variants in all of its metrics.
+[[nodiscard]] std::vector<Contrast> questions_of(const Experiment& experiment);
 
 /// Reads an experiment. It does not look at the graphs.
 /// @param diagnostics  receives everything that is wrong with it (docs/comparing.md).

@@ -33,7 +33,7 @@ struct Goal {
 [[nodiscard]] std::string goal_text(const Goal& goal);
 
 /// A word of a component on a goal of its robot: reached, or given up. A plain value.
-struct Claim {
+struct GoalClaim {
   std::string robot{};  ///< Empty: not known.
   TimePoint time{};     ///< By the run's clock.
   bool reached = false;
@@ -64,6 +64,6 @@ struct Judgement {
 ///          or none.
 /// @thread  no shared state; any thread.
 [[nodiscard]] Result<Judgement> judge_goals(const std::vector<Goal>& goals, const Scene& scene,
-                                            const std::vector<Claim>& claims, TimePoint end);
+                                            const std::vector<GoalClaim>& claims, TimePoint end);
 
 }  // namespace orca::batch

@@ -17,6 +17,9 @@ struct Report {
   std::string summary;   ///< The findings, established or not, a line each, for a terminal.
 };
 
+/// Returns what an experiment declares: its metrics, contrasts, seeds and worlds.
+[[nodiscard]] std::vector<Declaration> declarations_of(const Experiment& experiment, const std::string& date);
+
 /// Makes the report on those results of an experiment that there are.
 /// @errors  those of the store; failed_precondition if it holds no run of the experiment.
 /// @thread  one thread, which may use the store.

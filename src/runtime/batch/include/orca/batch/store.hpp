@@ -32,6 +32,13 @@ struct Origin {
 /// The files and programs that runs depend on: names and hashes of their content.
 using Inputs = std::map<std::string, std::string>;
 
+/// Something that an experiment declares before its results are looked at. A plain value.
+struct Declaration {
+  std::string what;  ///< "metrics", "contrasts", "seeds" or "worlds".
+  std::string text;  ///< For people.
+  std::string date;  ///< The first time that it was declared, "2026-11-28 21:40 UTC".
+};
+
 /// A run that was made twice, by the names of the experiment.
 struct RepeatRow {
   std::string variant;
@@ -40,7 +47,7 @@ struct RepeatRow {
   Repeat repeat;
 };
 
-/// The results of an experiment in a file, an SQLite database: its tables are `runs`, `timing`, `repeats` and `experiment`. When add()
+/// The results of an experiment in a file, an SQLite database: its tables are `runs`, `timing`, `repeats`, `declarations` and `experiment`. When add()
 /// returns, the result is in the file, whatever becomes of this process.
 ///
 /// Thread contract: not synchronised; one thread. One process at a time writes to a file.
@@ -82,6 +89,12 @@ class Store {
   virtual Status keep(const Inputs& inputs) = 0;
   /// Returns all that the runs depend on.
   [[nodiscard]] virtual Inputs inputs() const = 0;
+
+  /// Keeps what the experiment declares. A declaration that is there already keeps its date. No run depends on it.
+  /// @errors  unavailable, with the reason. Then nothing is kept.
+  virtual Status declare(const std::vector<Declaration>& declarations) = 0;
+  /// Returns everything that was ever declared, the earliest first.
+  [[nodiscard]] virtual std::vector<Declaration> declarations() const = 0;
 
   /// Adds everything of another file of results. Runs that are in both must be the same.
   /// @errors  failed_precondition if it is of another experiment, or of other inputs, or another outcome of the same run is
