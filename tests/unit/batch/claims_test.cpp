@@ -192,13 +192,13 @@ TEST_CASE("the page says what was declared when, and what was changed since", "[
   const auto store = Store::open(folder.file("r.sqlite"), "1").value();
   std::vector<Row> rows;
   add(rows, "good", 3);
-  for (const Row& row : rows) REQUIRE(store->add(row).ok());
   const Experiment declared = experiment();
   REQUIRE(store->declare(declarations_of(declared, "2026-11-28 10:00 UTC")).ok());
+  for (const Row& row : rows) REQUIRE(store->add(row).ok());
   const std::string before = make_report(declared, *store)->markdown;
   CHECK_THAT(before, Contains("| 2026-11-28 10:00 UTC | metrics | success, time |") &&
                          Contains("| contrasts | all pairs of variants in all metrics |") &&
-                         Contains("| seeds | 1 |") && Contains("| worlds | 1 of w10, 1 of w11") &&
+                         Contains("| seeds | 1 |") && Contains("| worlds | w10, w11, w12") &&
                          Contains("Nothing was added or exchanged since then."));
   Experiment more = declared;
   more.seeds = {1, 2, 3, 7};
@@ -208,4 +208,15 @@ TEST_CASE("the page says what was declared when, and what was changed since", "[
              Contains("| 2026-11-29 11:00 UTC | metrics, changed | clearance |") &&
                  Contains("| 2026-11-29 11:00 UTC | seeds, changed | 1-3 7 |") &&
                  !Contains("worlds, changed") && Contains("Not all of it was declared at first."));
+}
+
+TEST_CASE("a question that no pair of runs answers is not left out without a word", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0);
+  add(rows, "good", 0);
+  const auto result = compare(rows, {pairs_in(rows, {"success", "barn_score"}), {}});
+  REQUIRE(result);
+  REQUIRE(result->unanswered.size() == 1);
+  CHECK(line_of(result->unanswered[0]) ==
+        "bad - good, barn_score: no answer, since in no world and seed both have a value");
 }

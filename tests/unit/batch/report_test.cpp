@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "approval.hpp"
@@ -191,4 +192,13 @@ TEST_CASE("where there are few worlds each shows how far its seeds are apart", "
 TEST_CASE("small p-values are not rounded to 0", "[batch][report]") {
   CHECK(p_text(0.0123) == "0.0123");
   CHECK(p_text(1e-7) == "< 0.0001");
+}
+
+TEST_CASE("worlds stand in the order of the experiment", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "good", 0);
+  Experiment turned = experiment();
+  std::ranges::reverse(turned.worlds);
+  const std::string page = report_on(rows, turned).markdown;
+  CHECK(page.find("| w29 | 1 of 1 |") < page.find("| w10 | 1 of 1 |"));
 }

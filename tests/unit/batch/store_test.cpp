@@ -236,6 +236,14 @@ TEST_CASE("a declaration keeps its first date, and changes no run", "[batch]") {
   CHECK(rows_of(*store).size() == 1);
 }
 
+TEST_CASE("what is declared after the first runs says so", "[batch]") {
+  const TempFolder folder;
+  const auto store = opened(folder.file("r.sqlite"));
+  REQUIRE(store->add(row("a", "w", 1)).ok());
+  REQUIRE(store->declare({{"metrics", "time", "2026-11-28"}}).ok());
+  CHECK(store->declarations().at(0).date == "2026-11-28, after the first runs");
+}
+
 TEST_CASE("joined parts keep the earliest date of a declaration", "[batch]") {
   const TempFolder folder;
   const auto first = opened(folder.file("a.sqlite"));

@@ -150,6 +150,11 @@ Result<std::vector<Difference>> differences_of(const RunsOfVariants& runs,
   return differences;
 }
 
+bool is_answered(const Contrast& contrast, const BatchResult& result) {
+  return std::ranges::any_of(result.differences,
+                             [&](const Difference& one) { return one.asked.text() == contrast.text(); });
+}
+
 // Returns in which worlds how many seeds of a variant gave fewer runs.
 std::map<std::pair<std::size_t, std::size_t>, std::vector<std::string>> repeated_worlds(const Runs& runs) {
   std::map<std::string, std::size_t> seeds;
@@ -282,6 +287,9 @@ Result<BatchResult> compare(const std::vector<Row>& rows, const Question& questi
   if (!differences) return differences.error();
   result.differences = *std::move(differences);
   if (const Status judged = judge_all(pointers_to(result.differences)); !judged.ok()) return judged.error();
+  for (const Contrast& contrast : question.contrasts)
+    if (runs.contains(contrast.first) && runs.contains(contrast.second) && !is_answered(contrast, result))
+      result.unanswered.push_back(contrast);
   Result<std::vector<FamilyResult>> families = families_of(runs, question);
   if (!families) return families.error();
   result.families = *std::move(families);

@@ -77,6 +77,7 @@ struct BatchResult {
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, std::size_t>> matrix;
   /// One for each contrast that has a pair of runs. None of them that a reversal contradicts is established.
   std::vector<Difference> differences;
+  std::vector<Contrast> unanswered;    ///< Those that no pair of runs answers.
   std::vector<FamilyResult> families;  ///< By name; none if all worlds are of one.
   std::vector<Reversal> reversals;
 };

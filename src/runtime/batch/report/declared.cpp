@@ -39,7 +39,8 @@ std::string worlds_text(const std::vector<World>& worlds) {
   }
   if (names.size() <= kListed) return joined(names, ", ");
   std::vector<std::string> counts;
-  for (const auto& [family, count] : families) counts.push_back(std::to_string(count) + " of " + family);
+  for (const auto& [family, count] : families)
+    counts.push_back(count == 1 ? family : std::to_string(count) + " of " + family);
   return listed(counts) + "; list " + std::to_string(hash.value() % 10'000);
 }
 

@@ -130,4 +130,9 @@ std::string line_of(const Difference& difference) {
          estimate_text(difference.finding.difference, metric) + ", " + claim_text(difference);
 }
 
+std::string line_of(const Contrast& unanswered) {
+  return question_text(unanswered) + ", " + title_of(*find_metric(unanswered.metric)) +
+         ": no answer, since in no world and seed both have a value";
+}
+
 }  // namespace orca::batch

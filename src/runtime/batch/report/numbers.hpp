@@ -36,5 +36,7 @@ namespace orca::batch {
 /// Returns a line for the terminal on a variant, and one on a difference.
 [[nodiscard]] std::string line_of(const VariantResult& variant);
 [[nodiscard]] std::string line_of(const Difference& difference);
+/// Returns the line for a question that has no answer.
+[[nodiscard]] std::string line_of(const Contrast& unanswered);
 
 }  // namespace orca::batch

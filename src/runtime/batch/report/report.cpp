@@ -29,6 +29,16 @@ std::string settings_text(const std::vector<Setting>& settings,
   return text;
 }
 
+// Puts worlds in the order of the experiment: posts_2 before posts_10.
+void put_in_order(const Experiment& experiment, std::vector<std::string>& worlds) {
+  std::map<std::string, std::size_t> places;
+  for (const World& world : experiment.worlds) places.emplace(world.name, places.size());
+  std::ranges::stable_sort(worlds, {}, [&](const std::string& world) {
+    const auto known = places.find(world);
+    return known == places.end() ? places.size() : known->second;
+  });
+}
+
 class Writer {
  public:
   Writer(const Experiment& experiment, const Store& store, const std::vector<Row>& rows,
@@ -137,8 +147,9 @@ class Writer {
   }
 
   void claims() {
-    if (result_.differences.empty()) return;
+    if (result_.differences.empty() && result_.unanswered.empty()) return;
     document_.add(Heading{"What may be claimed"});
+    for (const Contrast& contrast : result_.unanswered) document_.add(Paragraph{line_of(contrast) + "."});
     Table table{{"metric", "question", "difference (95 %)", "better in", "pairs", "p", "claim", "needed"},
                 {}};
     for (const Difference& one : result_.differences) {
@@ -379,14 +390,16 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   if (const Status read = store.for_each([&](const Row& row) { rows.push_back(row); }); !read.ok())
     return read.error();
   if (rows.empty()) return fail(Code::failed_precondition, "there are no results yet");
-  const Result<BatchResult> result = compare(rows, {questions_of(experiment), families_of(experiment)});
+  Result<BatchResult> result = compare(rows, {questions_of(experiment), families_of(experiment)});
   if (!result) return result.error();
+  put_in_order(experiment, result->worlds);
   const Document document = Writer(experiment, store, rows, *result).write();
   std::string summary;
   for (const Reversal& reversal : result->reversals) summary += line_of(reversal) + "\n";
   for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
   for (const SameRuns& same : result->same_runs) summary += line_of(same, result->variants.size()) + "\n";
   for (const Difference& difference : result->differences) summary += line_of(difference) + "\n";
+  for (const Contrast& contrast : result->unanswered) summary += line_of(contrast) + "\n";
   return Report{to_html(document), to_markdown(document), std::move(summary)};
 }
 

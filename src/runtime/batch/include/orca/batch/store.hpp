@@ -90,7 +90,8 @@ class Store {
   /// Returns all that the runs depend on.
   [[nodiscard]] virtual Inputs inputs() const = 0;
 
-  /// Keeps what the experiment declares. A declaration that is there already keeps its date. No run depends on it.
+  /// Keeps what the experiment declares. A declaration that is there already keeps its date. The
+  /// dates of the first ones say so if there are runs already. No run depends on it.
   /// @errors  unavailable, with the reason. Then nothing is kept.
   virtual Status declare(const std::vector<Declaration>& declarations) = 0;
   /// Returns everything that was ever declared, the earliest first.
