@@ -36,16 +36,15 @@ Table success_table(const BatchResult& result) {
 
 // The families of one question stand one below the other.
 Table claims_table(const BatchResult& result) {
-  Table table{{"metric", "question", "family", "difference (95 %)", "pairs", "p", "claim"}, {}};
+  Table table{{"metric", "question", "family", "claim", "difference (95 %)", "p", "test", "pairs"}, {}};
   for (const Difference& pooled : result.differences) {
     const Metric& metric = *find_metric(pooled.asked.metric);
     for (const FamilyResult& family : result.families)
       for (const Difference& one : family.differences)
         if (same_question(one, pooled) && is_enough(one.finding))
-          table.rows.push_back(
-              {title_of(metric), question_text(one.asked), family.name,
-               estimate_text(one.finding.difference, metric), std::to_string(one.finding.runs),
-               p_text(one.adjusted_p) + " (" + test_text(one.finding) + ")", claim_text(one)});
+          table.rows.push_back({title_of(metric), question_text(one.asked), family.name, claim_text(one),
+                                estimate_text(one.finding.difference, metric), p_text(one.adjusted_p),
+                                test_text(one.finding), std::to_string(one.finding.runs)});
   }
   return table;
 }
@@ -81,7 +80,7 @@ std::string line_of(const Reversal& reversal) {
   const Metric& metric = *find_metric(reversal.more.asked.metric);
   const std::string more = in_family(reversal.more, reversal.more_family, metric);
   const std::string less = in_family(reversal.less, reversal.less_family, metric);
-  return "reversal in " + metric.name + ": " + reversal.more.asked.first + " is better than " +
+  return "Reversal in " + metric.name + ": " + reversal.more.asked.first + " is better than " +
          reversal.more.asked.second + " " + (metric.more_is_better ? more : less) + ", and worse " +
          (metric.more_is_better ? less : more) + "; nothing is claimed about all worlds together";
 }

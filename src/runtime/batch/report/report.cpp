@@ -47,8 +47,8 @@ class Writer {
 
   Document write() {
     document_.title = "Comparison: " + experiment_.name;
-    for (const Reversal& reversal : result_.reversals)
-      document_.add(Paragraph{"Read this first: " + line_of(reversal) + "."});
+    if (!result_.reversals.empty()) document_.add(Heading{"Read this first"});
+    for (const Reversal& reversal : result_.reversals) document_.add(Paragraph{line_of(reversal) + "."});
     introduce();
     success();
     claims();
@@ -150,15 +150,15 @@ class Writer {
     if (result_.differences.empty() && result_.unanswered.empty()) return;
     document_.add(Heading{"What may be claimed"});
     for (const Contrast& contrast : result_.unanswered) document_.add(Paragraph{line_of(contrast) + "."});
-    Table table{{"metric", "question", "difference (95 %)", "better in", "pairs", "p", "claim", "needed"},
-                {}};
+    Table table{
+        {"metric", "question", "claim", "difference (95 %)", "p", "test", "better in", "pairs", "needed"},
+        {}};
     for (const Difference& one : result_.differences) {
       const Metric& metric = *find_metric(one.asked.metric);
-      table.rows.push_back(
-          {title_of(metric), question_text(one.asked), estimate_text(one.finding.difference, metric),
-           value_text(one.improvement, *find_metric("success")), std::to_string(one.finding.runs),
-           p_text(one.adjusted_p) + " (" + test_text(one.finding) + ")", claim_text(one),
-           needed_text(one.finding)});
+      table.rows.push_back({title_of(metric), question_text(one.asked), claim_text(one),
+                            estimate_text(one.finding.difference, metric), p_text(one.adjusted_p),
+                            test_text(one.finding), value_text(one.improvement, *find_metric("success")),
+                            std::to_string(one.finding.runs), needed_text(one.finding)});
     }
     document_.add(std::move(table));
     document_.add(Paragraph{
