@@ -106,7 +106,8 @@ idl::Robot describe(const RobotModel& model, const std::string& name) {
 }
 
 void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
-          std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion, Scene& to) {
+          std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion,
+          std::vector<Scene::Encounter> encounters, Scene& to) {
   if (to.walls.empty()) {
     for (const Segment& edge : from.edges) to.walls.push_back({edge.a, edge.b});
     for (const Circle& circle : from.circles) draw_circle(circle, to);
@@ -114,7 +115,8 @@ void draw(const Snapshot& from, const std::string& name, const RobotModel& model
   }
   for (const RobotSnapshot& body : from.robots) {
     if (body.name != name) continue;
-    Scene::Robot drawn{body.name, body.pose, model.radius, {}, {}, std::move(moments), std::move(motion)};
+    Scene::Robot drawn{body.name, body.pose,          model.radius,      {},
+                       {},        std::move(moments), std::move(motion), std::move(encounters)};
     for (const Segment& edge : edges_of(model.footprint)) drawn.outline.push_back({edge.a, edge.b});
     for (const RobotSnapshot::Sample& sample : body.trajectory) drawn.track.push_back(sample.pose.position());
     to.robots.push_back(std::move(drawn));

@@ -58,6 +58,7 @@ void describe_sensors(const RobotModel& model, idl::Robot& robot);
 /// Adds the robot of that name to the scene, and the walls and places if no other robot of the same world has added
 /// them.
 void draw(const Snapshot& from, const std::string& name, const RobotModel& model,
-          std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion, Scene& to);
+          std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion,
+          std::vector<Scene::Encounter> encounters, Scene& to);
 
 }  // namespace orca::sim

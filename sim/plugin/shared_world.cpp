@@ -144,11 +144,23 @@ void SharedWorld::collect_motion(Member& member) {
                            world_.velocity(member.robot), world_.clearance(member.robot, Scene::kFar)});
 }
 
+void SharedWorld::collect_encounters(Member& member) {
+  if (!member.next_step) return;
+  const RobotId robot = member.robot;
+  const Shape outline = placed(world_.robot_model(robot).footprint, world_.body_pose(robot));
+  const Twist2 velocity = world_.velocity(robot);
+  const Encounters::Now now{on_run_clock(world_.time()), outline, norm({velocity.forward, velocity.left})};
+  for (const Person& person : people_in(world_)) member.encounters.look(person, now);
+  for (const ContactEvent& contact : world_.contacts())
+    if (contact.robot == member.name && contact.person_speed) member.encounters.touch(contact, now.time);
+}
+
 void SharedWorld::collect(Member& member) {
   collect_readings(member);
   collect_turret(member);
   collect_gripper(member);
   collect_motion(member);
+  collect_encounters(member);
   if (const auto& odometry = world_.odometry(member.robot)) {
     member.inbox.odometry.push_back(*odometry);
     member.inbox.odometry.back().stamp = on_run_clock(odometry->stamp);
@@ -183,6 +195,16 @@ void SharedWorld::keep_motion(RobotId robot) {
 std::vector<Scene::Step> SharedWorld::motion(RobotId robot) const {
   const std::lock_guard lock(mutex_);
   return member(robot).motion;
+}
+
+std::vector<Scene::Encounter> SharedWorld::encounters(RobotId robot) const {
+  const std::lock_guard lock(mutex_);
+  return member(robot).encounters.all();
+}
+
+std::size_t SharedWorld::people() const {
+  const std::lock_guard lock(mutex_);
+  return people_in(world_).size();
 }
 
 Snapshot SharedWorld::snapshot() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "encounters.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/hw/endpoints.hpp"
@@ -98,6 +99,10 @@ class SharedWorld {
   /// Keeps the robot's true motion from now on, ten steps a second, for motion().
   void keep_motion(RobotId robot);
   [[nodiscard]] std::vector<Scene::Step> motion(RobotId robot) const;
+  /// Returns the robot's encounters with people while its motion was kept.
+  [[nodiscard]] std::vector<Scene::Encounter> encounters(RobotId robot) const;
+  /// Returns how many people walk about.
+  [[nodiscard]] std::size_t people() const;
   [[nodiscard]] Snapshot snapshot() const;
 
  private:
@@ -112,6 +117,7 @@ class SharedWorld {
     Inbox inbox;
     std::optional<TimePoint> next_step{};  // Only if its motion is kept.
     std::vector<Scene::Step> motion{};
+    Encounters encounters{};
   };
 
   [[nodiscard]] Member& member(RobotId robot);
@@ -123,6 +129,7 @@ class SharedWorld {
   void collect_turret(Member& member);
   void collect_gripper(Member& member);
   void collect_motion(Member& member);
+  void collect_encounters(Member& member);
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;

@@ -46,6 +46,17 @@ void append(const xml::Diagnostics& diagnostics, const char* param, std::vector<
   }
 }
 
+// Says what touched what, and how fast a robot and a person were who met.
+std::string text_of(const ContactEvent& contact) {
+  const std::string touch = contact.robot + " touches " + contact.other;
+  if (!contact.person_speed) return touch;
+  const auto way = [](double speed) {
+    return speed > 0.0 ? " moves at " + xml::number_text(std::round(100.0 * speed) / 100.0) + " m/s"
+                       : " stands";
+  };
+  return touch + ": the robot" + way(contact.speed) + ", the person" + way(*contact.person_speed);
+}
+
 }  // namespace
 
 std::vector<HardwareFault> SimulatedRobot::prepare() {
@@ -188,7 +199,7 @@ std::string SimulatedRobot::settings() const {
 }
 
 void SimulatedRobot::report(const SharedWorld::Inbox::Contact& contact) {
-  host().write_log(log::Level::warning, contact.event.robot + " touches " + contact.event.other);
+  host().write_log(log::Level::warning, text_of(contact.event));
   idl::Contact touched;
   touched.robot() = contact.event.robot;
   touched.other() = contact.event.other;
@@ -199,8 +210,10 @@ void SimulatedRobot::report(const SharedWorld::Inbox::Contact& contact) {
 }
 
 void SimulatedRobot::draw(Scene& scene) {
-  if (moments_)
-    sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), shared_->motion(id_), scene);
+  if (!moments_) return;
+  scene.people = shared_->people();
+  sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), shared_->motion(id_),
+            shared_->encounters(id_), scene);
 }
 
 idl::Robot SimulatedRobot::description() const { return describe(*robot_, *name_); }

@@ -63,11 +63,13 @@ void Movers::set_off(Duration tick, const std::deque<Robot>& robots) {
                            return in_the_way(robot, here, radius, walk.stops);
                          });
     walk.sets_off = !blocked;
+    walk.pace = 0.0;
     if (blocked) continue;
     // One that a robot held in a corner of its track stands a little beside it, and does not run to be back on it.
     const Vec2 way = walk.track.at(walk.walked + tick).position - mover.pose.position();
-    physics_.carry_mover(number,
-                         standing(mover.pose.position() + shortened(way, walk.speed * to_seconds(tick))));
+    const Vec2 step = shortened(way, walk.speed * to_seconds(tick));
+    walk.pace = norm(step) / to_seconds(tick);
+    physics_.carry_mover(number, standing(mover.pose.position() + step));
   }
 }
 
@@ -82,6 +84,18 @@ void Movers::arrive(Duration tick) {
     mover.pose = physics_.mover_pose(number);
     caster_.move_body(mover.body, mover.placed());
   }
+}
+
+std::optional<double> Movers::walking_speed(std::size_t number) const {
+  const std::optional<Walk>& walk = movers_.at(number).walk;
+  return walk ? std::optional(walk->pace) : std::nullopt;
+}
+
+std::vector<Person> Movers::people() const {
+  std::vector<Person> people;
+  for (const Mover& m : movers_)
+    if (m.walk) people.push_back({m.name, m.pose.position(), std::get<Circle>(m.shape).radius, m.walk->pace});
+  return people;
 }
 
 bool Movers::is_obstacle(std::size_t number) const {

@@ -11,6 +11,7 @@
 #include "orca/base/hash.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/sim/caster.hpp"
+#include "orca/sim/readings.hpp"
 #include "orca/sim/snapshot.hpp"
 #include "robot.hpp"
 
@@ -41,6 +42,10 @@ class Movers {
   // Returns the name of a mover that overlaps `body` and is taller than `bottom` [m], or null.
   [[nodiscard]] const std::string* at(const Shape& body, double bottom) const;
 
+  // Returns the speed [m/s] at which a walker set off in the last tick; nothing if it is an obstacle.
+  [[nodiscard]] std::optional<double> walking_speed(std::size_t number) const;
+  [[nodiscard]] std::vector<Person> people() const;
+
   void draw(Snapshot& snapshot) const;
   void add_to(Fnv1a& hash) const;
 
@@ -51,6 +56,7 @@ class Movers {
     double speed = 0.0;  // [m/s]
     Duration walked{0};
     bool sets_off = false;  // In the present tick.
+    double pace = 0.0;      // [m/s] At which it does.
   };
   struct Mover {
     std::string name;

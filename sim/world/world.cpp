@@ -180,7 +180,8 @@ void World::Impl::report_contacts() {
   for (const detail::Pair& p : contact_log.update(physics)) {
     const detail::Robot& r = robots[p.robot];
     if (r.model.fixed) continue;  // What has driven into it says so.
-    contacts.push_back({r.name, now, name_of(p), r.speed()});
+    contacts.push_back({r.name, now, name_of(p), r.speed(),
+                        p.kind == detail::Kind::mover ? movers.walking_speed(p.other) : std::nullopt});
   }
 }
 
@@ -363,6 +364,8 @@ Snapshot World::snapshot() const {
   for (const detail::Robot& r : impl_->robots) snapshot.robots.push_back(r.drawn());
   return snapshot;
 }
+
+std::vector<Person> people_in(const World& world) { return world.impl_->movers.people(); }
 
 std::uint64_t World::state_hash() const {
   Fnv1a hash;

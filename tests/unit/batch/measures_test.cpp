@@ -55,6 +55,24 @@ TEST_CASE("a straight way has its length, no jerk and no reversals", "[batch][me
   CHECK_FALSE(measures.spl);
 }
 
+TEST_CASE("people who were touched, run into and nearly missed are counted where people are",
+          "[batch][measures]") {
+  Scene scene = straight(10.0, 0.5);
+  CHECK_FALSE(measure(scene, {}).people_touched);
+  scene.people = 2;
+  CHECK(measure(scene, {}).people_touched == 0.0);
+  CHECK(measure(scene, {}).near_misses == 0.0);
+  scene.robots[0].encounters = {{at(1.0), "anna", 0.2, 0.5, 1.0, false},
+                                {at(2.0), "bert", 0.0, 0.4, 0.0, true},
+                                {at(3.0), "anna", 0.0, 0.04, 1.2, true},
+                                {at(4.0), "bert", 0.1, 0.0, 1.0, false},
+                                {at(5.0), "bert", 0.29, 0.0, 1.0, false}};
+  const Measures measures = measure(scene, {});
+  CHECK(measures.people_touched == 2.0);
+  CHECK(measures.people_run_into == 1.0);
+  CHECK(measures.near_misses == 3.0);
+}
+
 TEST_CASE("the way of all robots counts, and the nearest of them", "[batch][measures]") {
   Scene scene = straight(10.0, 0.5);
   scene.robots.push_back(straight(10.0, 0.25).robots.front());

@@ -17,6 +17,7 @@ namespace {
 using Steps = std::span<const Scene::Step>;
 
 constexpr Duration kEndOfRun = std::chrono::seconds(20);
+constexpr double kStands = 0.05;    // [m/s] A robot that is slower stands.
 constexpr double kSmallArea = 1.0;  // [m] diagonal of its box
 constexpr std::size_t kManyReversals = 10;
 
@@ -43,7 +44,12 @@ constexpr std::array kMeasures{
     Measure{"jerk", "m/s3", "Root of the mean square of the forward jerk, of speeds over half a second.",
             &Measures::jerk},
     Measure{"reversals", "1/m", "Changes between turning left and right, per metre.", &Measures::reversals},
-    Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed}};
+    Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed},
+    Measure{"people_touched", "", "Touches between a robot and a person.", &Measures::people_touched},
+    Measure{"people_run_into", "", "Those in which the robot moved, by more than 0.05 m/s.",
+            &Measures::people_run_into},
+    Measure{"near_misses", "", "Times that a robot came nearer than 0.3 m to a person and touched nobody.",
+            &Measures::near_misses}};
 
 constexpr std::array<std::pair<Failure, const char*>, 7> kFailures{{{Failure::none, ""},
                                                                     {Failure::crash, "crash"},
@@ -66,6 +72,18 @@ double barn_score(const std::vector<Steps>& motions, const RunEnd& end) {
   for (const Steps& steps : motions) start = std::min(start, time_of_way(steps, kHasMoved).value_or(end.end));
   const double best = *end.reference / kBestSpeed;
   return best / std::clamp(to_seconds(end.end - start), 2.0 * best, 8.0 * best);
+}
+
+// Counts the encounters with people. In a world without people there is nothing to count.
+void count_people(const Scene& scene, Measures& measures) {
+  if (scene.people == 0) return;
+  measures.people_touched = measures.people_run_into = measures.near_misses = 0.0;
+  for (const Scene::Robot& robot : scene.robots)
+    for (const Scene::Encounter& encounter : robot.encounters) {
+      if (encounter.touched) ++*measures.people_touched;
+      if (encounter.touched && encounter.robot_speed > kStands) ++*measures.people_run_into;
+      if (!encounter.touched) ++*measures.near_misses;
+    }
 }
 
 void compare_with_reference(const std::vector<Steps>& motions, const RunEnd& end, Measures& measures) {
@@ -112,6 +130,7 @@ Measures measure(const Scene& scene, const RunEnd& end) {
     for (const Steps& steps : motions)
       measures.impact_speed =
           std::max(measures.impact_speed.value_or(0.0), speed_before(steps, *end.first_contact));
+  count_people(scene, measures);
   if (end.reference) compare_with_reference(motions, end, measures);
   return measures;
 }

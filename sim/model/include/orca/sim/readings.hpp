@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -86,8 +87,17 @@ struct GripperReading {
 struct ContactEvent {
   std::string robot;
   TimePoint time;
-  std::string other;   ///< Name of the obstacle or of the other robot.
-  double speed = 0.0;  ///< [m/s] The robot's speed just before.
+  std::string other;                     ///< Name of the obstacle or of the other robot.
+  double speed = 0.0;                    ///< [m/s] The robot's speed just before.
+  std::optional<double> person_speed{};  ///< [m/s] That of the other, if it is a person.
+};
+
+/// A person who walks about, at one moment.
+struct Person {
+  std::string name;
+  Vec2 position;
+  double radius = 0.0;  ///< [m]
+  double speed = 0.0;   ///< [m/s] At which it sets off; 0 while it rests or stands.
 };
 
 /// What the paddles of a gripper are told: `stay` leaves them to their former order, `halt` stops them where they are.

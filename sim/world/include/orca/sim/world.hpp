@@ -177,9 +177,14 @@ class World {
   /// Returns an FNV-1a hash over the bits of time, poses, velocities, odometry, grippers and items: equal for equal runs.
   [[nodiscard]] std::uint64_t state_hash() const;
 
+  friend std::vector<Person> people_in(const World& world);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Returns the people who walk about in a world, as they are now.
+[[nodiscard]] std::vector<Person> people_in(const World& world);
 
 }  // namespace orca::sim

@@ -47,7 +47,17 @@ struct Scene {
     Twist2 velocity;           ///< In the robot's frame.
     double clearance_m = 0.0;  ///< From its outline; at most kFar, 0 or less where it touches.
   };
-  static constexpr double kFar = 2.0;  ///< [m] How far Step::clearance_m looks.
+  /// A robot came nearer than kNear to a person who walks about.
+  struct Encounter {
+    TimePoint begin;  ///< Of the run's clock.
+    std::string person;
+    double gap_m = 0.0;         ///< Least distance between the two; 0 if they touched.
+    double robot_speed = 0.0;   ///< [m/s] When they were that near; just before they touched.
+    double person_speed = 0.0;  ///< [m/s] The same of the person.
+    bool touched = false;
+  };
+  static constexpr double kNear = 0.3;  ///< [m] Where an encounter begins; it ends 5 cm farther away.
+  static constexpr double kFar = 2.0;   ///< [m] How far Step::clearance_m looks.
   struct Robot {
     std::string name;
     Pose2 pose;
@@ -56,6 +66,7 @@ struct Scene {
     std::vector<Vec2> track;      ///< Where it has been, oldest first.
     std::vector<Moment> moments;  ///< Oldest first.
     std::vector<Step> motion;     ///< Evenly spaced, oldest first; only after Drawable::keep_motion().
+    std::vector<Encounter> encounters{};  ///< Oldest first; only after Drawable::keep_motion().
   };
   struct Mark {
     std::string label;
@@ -73,6 +84,7 @@ struct Scene {
   std::vector<Line> walls;
   std::vector<Place> places;
   std::vector<Robot> robots;
+  std::size_t people = 0;      ///< Who walk about in the world.
   std::vector<Mark> arrivals;  ///< Where a robot said it had arrived.
   std::vector<Mark> contacts;  ///< Where a robot touched something.
 };

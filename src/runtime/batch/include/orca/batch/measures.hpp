@@ -45,6 +45,9 @@ struct Measures {
   std::optional<double> jerk{};
   std::optional<double> reversals{};
   std::optional<double> impact_speed{};
+  std::optional<double> people_touched{};
+  std::optional<double> people_run_into{};
+  std::optional<double> near_misses{};
   friend bool operator==(const Measures&, const Measures&) = default;
 };
 
