@@ -133,6 +133,26 @@ TEST_CASE("a reversal is said first, on stdout and on both pages, and families h
                                   Contains("Family right: share of the runs that were done by then."));
 }
 
+TEST_CASE("a claim over all worlds says in which families it is established", "[batch][report]") {
+  std::vector<Row> rows;
+  std::map<std::string, std::string> families;
+  for (const std::string variant : {"bad", "good"})
+    for (const std::string family : {"easy", "hard"})
+      for (int i = 0; i < 12; ++i) {
+        const std::string world = family + std::to_string(i);
+        families[world] = family;
+        Row row{variant, world, 1, {}, {}};
+        row.outcome.ending =
+            variant == "bad" && family == "hard" && i < 10 ? Ending::time_out : Ending::success;
+        rows.push_back(row);
+      }
+  const auto result = compare(rows, {pairs_in(rows, {"success"}), families});
+  REQUIRE(result);
+  const Difference& pooled = in(*result, "success");
+  CHECK(claim_text(pooled) + families_text(pooled, *result) ==
+        "difference established: good is better; by family: good is better in hard");
+}
+
 TEST_CASE("worlds of one family, and families without runs enough, have no section of their own",
           "[batch][report]") {
   std::vector<Row> rows;

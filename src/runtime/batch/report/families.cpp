@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "numbers.hpp"
+#include "orca/base/text.hpp"
 #include "plots.hpp"
 
 namespace orca::batch {
@@ -83,6 +84,17 @@ std::string line_of(const Reversal& reversal) {
   return "Reversal in " + metric.name + ": " + reversal.more.asked.first + " is better than " +
          reversal.more.asked.second + " " + (metric.more_is_better ? more : less) + ", and worse " +
          (metric.more_is_better ? less : more) + "; nothing is claimed about all worlds together";
+}
+
+std::string families_text(const Difference& pooled, const BatchResult& result) {
+  std::map<std::string, std::vector<std::string>> families;  // by statement
+  for (const FamilyResult& family : result.families)
+    for (const Difference& one : family.differences)
+      if (same_question(one, pooled) && one.verdict.established())
+        families[statement_of(one)].push_back(family.name);
+  if (families.size() != 1) return {};  // two are a reversal
+  const auto& [statement, names] = *families.begin();
+  return "; by family: " + statement + " in " + listed(names);
 }
 
 void add_families(const std::vector<Row>& rows, const std::map<std::string, std::string>& families,

@@ -17,6 +17,10 @@ namespace orca::batch {
 /// Returns the sentence about a reversal.
 [[nodiscard]] std::string line_of(const Reversal& reversal);
 
+/// Returns what is established in which families about a question that was asked of all worlds: "; by family: VfhPlus is better in harsh,
+/// nominal". Nothing if there is nothing, or a reversal, which has its own line.
+[[nodiscard]] std::string families_text(const Difference& pooled, const BatchResult& result);
+
 /// Adds what is found in each family of worlds: how often variants succeed, their differences, and how times are distributed. Nothing where
 /// no family has runs enough for a claim.
 void add_families(const std::vector<Row>& rows, const std::map<std::string, std::string>& families,

@@ -25,18 +25,6 @@ std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// Returns "Dwa is not worse than LaserAvoid by 2 s": what is claimed, or which one is better.
-std::string statement(const Difference& difference) {
-  const Contrast& asked = difference.asked;
-  switch (asked.asked.claim) {
-    case Claim::not_worse: return asked.first + " is not worse than " + asked.second + " by " + asked.margin;
-    case Claim::equal: return asked.first + " and " + asked.second + " are equal within " + asked.margin;
-    case Claim::difference: break;
-  }
-  const bool more = difference.finding.difference.value > 0.0;
-  return (more == find_metric(asked.metric)->more_is_better ? asked.first : asked.second) + " is better";
-}
-
 }  // namespace
 
 std::string value_text(double value, const Metric& metric) {
@@ -85,10 +73,22 @@ std::string question_text(const Contrast& contrast) {
          contrast.margin;
 }
 
+std::string statement_of(const Difference& difference) {
+  const Contrast& asked = difference.asked;
+  switch (asked.asked.claim) {
+    case Claim::not_worse: return asked.first + " is not worse than " + asked.second + " by " + asked.margin;
+    case Claim::equal: return asked.first + " and " + asked.second + " are equal within " + asked.margin;
+    case Claim::difference: break;
+  }
+  const bool more = difference.finding.difference.value > 0.0;
+  return (more == find_metric(asked.metric)->more_is_better ? asked.first : asked.second) + " is better";
+}
+
 std::string claim_text(const Difference& difference) {
   const std::string& text = difference.verdict.text;
-  if (difference.verdict.established()) return text + ": " + statement(difference);
-  return difference.asked.asked.claim == Claim::difference ? text : text + " (" + statement(difference) + ")";
+  if (difference.verdict.established()) return text + ": " + statement_of(difference);
+  return difference.asked.asked.claim == Claim::difference ? text
+                                                           : text + " (" + statement_of(difference) + ")";
 }
 
 std::string needed_text(const Finding& finding) {

@@ -25,6 +25,8 @@ namespace orca::batch {
 [[nodiscard]] std::string scope_text(const Scope& scope);
 /// Returns "VfhPlus - LaserAvoid", with what is asked if that is no difference: "VfhPlus - LaserAvoid, not worse by 2 s".
 [[nodiscard]] std::string question_text(const Contrast& contrast);
+/// Returns "Dwa is not worse than LaserAvoid by 2 s": what a question claims, or which variant is better.
+[[nodiscard]] std::string statement_of(const Difference& difference);
 /// Returns the verdict with what it says: "difference established in this world: narrow is better".
 [[nodiscard]] std::string claim_text(const Difference& difference);
 /// Returns "25 worlds", or "25 runs" where the worlds are fixed: Finding::values_needed(); nothing if that is not known.

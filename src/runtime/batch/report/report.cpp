@@ -155,7 +155,8 @@ class Writer {
         {}};
     for (const Difference& one : result_.differences) {
       const Metric& metric = *find_metric(one.asked.metric);
-      table.rows.push_back({title_of(metric), question_text(one.asked), claim_text(one),
+      table.rows.push_back({title_of(metric), question_text(one.asked),
+                            claim_text(one) + families_text(one, result_),
                             estimate_text(one.finding.difference, metric), p_text(one.adjusted_p),
                             test_text(one.finding), value_text(one.improvement, *find_metric("success")),
                             std::to_string(one.finding.runs), needed_text(one.finding)});
@@ -398,7 +399,8 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   for (const Reversal& reversal : result->reversals) summary += line_of(reversal) + "\n";
   for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
   for (const SameRuns& same : result->same_runs) summary += line_of(same, result->variants.size()) + "\n";
-  for (const Difference& difference : result->differences) summary += line_of(difference) + "\n";
+  for (const Difference& difference : result->differences)
+    summary += line_of(difference) + families_text(difference, *result) + "\n";
   for (const Contrast& contrast : result->unanswered) summary += line_of(contrast) + "\n";
   return Report{to_html(document), to_markdown(document), std::move(summary)};
 }
