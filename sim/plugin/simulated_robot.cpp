@@ -25,6 +25,14 @@ bool is_word(const std::string& name) {
   return !name.empty() && name.find(' ') == std::string::npos && printable(name) == name;
 }
 
+// A world is known by its file's name, so that it may lie elsewhere, and something in it may be moved, with the same robots.
+std::uint64_t seed_in(const std::string& world, std::uint64_t run_seed) {
+  Fnv1a key;
+  key.add_u64(run_seed);
+  key.add_text(std::filesystem::path(world).filename().string());
+  return key.value();
+}
+
 std::optional<double> given(double value) { return value > 0.0 ? std::optional(value) : std::nullopt; }
 
 // Reports a fault inside a file with its place there, and a fault of the file as a whole, for instance that
@@ -164,7 +172,8 @@ Status SimulatedRobot::open() {
   const std::string key =
       std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
   auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-    return World(*world_, {.seed = world_seed(),
+    return World(*world_, {.seed = *specimen_ == kOneInAllWorlds ? host().run_seed()
+                                                                 : seed_in(*world_file_, host().run_seed()),
                            .errors = levels().value(),
                            .threads = static_cast<unsigned>(*threads_)});
   });
@@ -177,15 +186,6 @@ Status SimulatedRobot::open() {
   if (keeps_motion_) shared_->keep_motion(id_);
   moments_.emplace(*robot_);
   return ok();
-}
-
-// A world is known by its file's name, so that it may lie elsewhere, and something in it may be moved, with the same robots.
-std::uint64_t SimulatedRobot::world_seed() const {
-  if (*specimen_ == kOneInAllWorlds) return host().run_seed();
-  Fnv1a key;
-  key.add_u64(host().run_seed());
-  key.add_text(std::filesystem::path(*world_file_).filename().string());
-  return key.value();
 }
 
 std::string SimulatedRobot::settings() const {

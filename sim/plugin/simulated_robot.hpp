@@ -61,7 +61,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   [[nodiscard]] const char* setting_unlike(const SimulatedRobot& other) const;
   [[nodiscard]] const char* start_param() const { return place_->empty() ? "x" : "place"; }
   [[nodiscard]] Result<ErrorLevels> levels() const { return scaled(error_levels(realism()), *errors_); }
-  [[nodiscard]] std::uint64_t world_seed() const;
   [[nodiscard]] std::string settings() const;
   void report(const SharedWorld::Inbox::Contact& contact);
   void note_lost(Duration lost);
@@ -136,8 +135,9 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
       "specimen",
       "world",
       {.choices = {"world", kOneInAllWorlds},
-       .text = "What the robot's wheels, sensors and chances are drawn from: the run's seed and the name of the "
-               "world's file, so that a seed is another robot in each world, or the seed alone."}};
+       .text =
+           "What the robot's wheels, sensors and chances are drawn from: the run's seed and the name of the "
+           "world's file, so that a seed is another robot in each world, or the seed alone."}};
   Param<std::int64_t> threads_{*this,
                                "threads",
                                1,

@@ -34,7 +34,7 @@ struct Variant {
   std::vector<Setting> settings;
   xml::Position position;
   std::vector<std::string>
-      profiles{};  ///< The graph's, in the order in which they are merged; none: its default_profile.
+      profiles{};          ///< The graph's, in the order in which they are merged; none: its default_profile.
   double computing = 1.0;  ///< Its laps take this many times as long as its graph says.
 };
 
