@@ -236,6 +236,7 @@ void SimulatedRobot::go_on() {
   for (const std::string& event : inbox.happened)
     host().write_log(log::Level::info, "in the world: " + event);
   note_lost(inbox.lost);
+  if (!inbox.truth.empty()) host().truly_at(*name_, inbox.truth.back().pose);
   if (keeps_moments_) moments_->add(inbox);
   sense(inbox);
 }

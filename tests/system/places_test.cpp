@@ -68,6 +68,29 @@ TEST_CASE("a robot without a map knows from where it starts", "[system][places]"
   CHECK(is_near(run.arrivals()[0], 4.2, 9.8));
 }
 
+TEST_CASE("a robot that says it has arrived where it is not is contradicted, in simulation",
+          "[system][places]") {
+  const Words blind{source_file("graphs/pioneer_laser_goto.xml"),
+                    "--profile",
+                    "sim",
+                    "--profile",
+                    "odometry",
+                    "--set",
+                    "command.reach_radius=0.4 m"};
+  const Run wrong =
+      run_deployer(blind +
+                   Words{"--set", "localizer.start_place=", "--set", "localizer.start_x=0.5 m", "--set",
+                         "localizer.start_y=6 m", "--set", "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"} +
+                   virtual_clock());
+  INFO(wrong.out << wrong.err);
+  REQUIRE(wrong.arrivals().size() == 1);
+  CHECK(wrong.says("goto: says that it has arrived at \"kitchen\", and truly the robot is 0.5"));
+  const Run right =
+      run_deployer(blind + Words{"--set", "goals=kitchen: 3.6 6 > 3.6 7.6 > 4.2 9.8"} + virtual_clock());
+  CHECK(right.arrivals().size() == 1);
+  CHECK_FALSE(right.says("truly the robot is"));
+}
+
 TEST_CASE("a start that is no place of the world is refused", "[system][places]") {
   const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--profile", "sim",
                                      "--profile", "odometry", "--set", "localizer.start_place=dock"} +

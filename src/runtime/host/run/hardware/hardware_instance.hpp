@@ -59,6 +59,9 @@ class HardwareInstance final : public hw::HardwareHost {
   void held(const std::optional<std::string>& reason) override;
   void pausing() override { pause_plugin_turn(); }
   [[nodiscard]] Executive& executive() override { return run_.executive; }
+  void truly_at(const std::string& robot, const Pose2& X_WR) override {
+    run_.reporter.note_truth(robot, X_WR);
+  }
 
  private:
   [[nodiscard]] std::string find_robot() const;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "reporter.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 
+#include "orca/base/text.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/passed_on.hpp"
 #include "orca/idl/time.hpp"
@@ -12,6 +15,7 @@ namespace orca::host {
 namespace {
 
 constexpr Duration kTroubleInterval = 10s;
+constexpr double kFarOff = 0.2;  // [m] what a robot drives meanwhile is less
 
 // Returns the component of "component.port".
 std::string component_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
@@ -77,10 +81,35 @@ void Reporter::follow_mission(std::string_view component, std::string_view port,
 }
 
 void Reporter::hear(const idl::Arrived& arrived) {
+  std::string doubt;
+  {
+    const std::lock_guard lock(mutex_);
+    if (is_passed_on(arrivals_, arrived)) return;
+    arrivals_.push_back(arrived);
+    listener_.arrived(arrived);
+    doubt = this->doubt(arrived);
+  }
+  if (!doubt.empty()) log(log::Level::warning, arrived.origin(), doubt, arrived.mission());
+}
+
+// Returns what is wrong with the place at which a robot says that it has arrived; empty: nothing, or it is not simulated. Goals may be
+// in the frame of the world or, without a localizer, in that of the odometry, which begins where the robot started.
+std::string Reporter::doubt(const idl::Arrived& arrived) const {
+  const auto truth = truths_.size() == 1 ? truths_.begin() : truths_.find(robots_.of(arrived.origin()));
+  if (truth == truths_.end()) return {};
+  const auto& [X_WS, X_WR] = truth->second;
+  const Vec2 said{arrived.x(), arrived.y()};
+  const double off = std::min(norm(X_WR.position() - said), norm((inverse(X_WS) * X_WR).position() - said));
+  if (off <= kFarOff) return {};
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f m", off);
+  return "says that it has arrived at " + in_quotes(arrived.name()) + ", and truly the robot is " + text +
+         " from where it says it is";
+}
+
+void Reporter::note_truth(const std::string& robot, const Pose2& X_WR) {
   const std::lock_guard lock(mutex_);
-  if (is_passed_on(arrivals_, arrived)) return;
-  arrivals_.push_back(arrived);
-  listener_.arrived(arrived);
+  truths_.try_emplace(robot, Truth{X_WR, X_WR}).first->second.now = X_WR;
 }
 
 void Reporter::hear(const idl::GoalFailed& failed) {

@@ -63,6 +63,8 @@ class Reporter final : public LinkObserver {
   /// Reports a contact.
   /// @param origin  the hardware container that reports it.
   void report(const std::string& origin, const idl::Contact& contact);
+  /// Notes where a simulated robot truly is: a warning follows an arrival that is said to be elsewhere.
+  void note_truth(const std::string& robot, const Pose2& X_WR);
   /// Writes an alarm to the log and reports it.
   void raise(idl::Alarm alarm);
   /// Reports an alarm whose text is in the log already, whatever it is about.
@@ -88,8 +90,15 @@ class Reporter final : public LinkObserver {
   void fill(RunResult& result) const;
 
  private:
+  // The true poses of a simulated robot in the frame of the world.
+  struct Truth {
+    Pose2 start;
+    Pose2 now;
+  };
+
   void hear(const idl::Arrived& arrived);
   void hear(const idl::GoalFailed& failed);
+  [[nodiscard]] std::string doubt(const idl::Arrived& arrived) const;
   void follow_mission(std::string_view component, std::string_view port, const ObjectRef& object);
 
   const Executive& executive_;
@@ -107,6 +116,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
   RobotNames robots_;
+  std::map<std::string, Truth, std::less<>> truths_;  // by robot
   LineLimit trouble_lines_;
   std::set<std::string, std::less<>> with_foreign_threads_;  // components
   // Mission of the last object that a port has sent, by component and port.

@@ -10,6 +10,7 @@
 #include "orca/base/strand.hpp"
 #include "orca/component/host.hpp"
 #include "orca/component/param.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/hw/drawable.hpp"
 #include "orca/hw/endpoint_list.hpp"
 #include "orca/hw/hardware_state.hpp"
@@ -37,6 +38,9 @@ class HardwareHost : public PluginHost {
   /// Reports that the container's strand has done something and is about to wait.
   virtual void pausing() = 0;
   [[nodiscard]] virtual Executive& executive() = 0;
+  /// Reports where a robot truly is, which only a simulator knows. Whoever runs the system compares it with what components say.
+  /// @param X_WR  of the robot in the frame of the world.
+  virtual void truly_at(const std::string& /*robot*/, const Pose2& /*X_WR*/) {}
 };
 
 /// What a driver does with its device when the container asks for it. All of it runs on the container's own strand and never
