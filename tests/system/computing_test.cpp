@@ -48,6 +48,23 @@ TEST_CASE("what laps took on this machine is written to a file, from which a gra
   CHECK(drawn.trace_hash() != measured.trace_hash());
 }
 
+TEST_CASE("laps of a process with one core wait for each other", "[system][computing]") {
+  const auto drive_on_one_core = [](const std::string& factor) {
+    const Run run = run_deployer(Words{source_file("graphs/pioneer_one_core.xml"), "--until", "10 s",
+                                       "--stats", "--computing", factor} +
+                                     virtual_clock(),
+                                 Seconds(60));
+    INFO(run.err);
+    REQUIRE(run.exit_code() == 0);
+    REQUIRE(run.trace_hash());
+    return run;
+  };
+  const Run slow = drive_on_one_core("500");
+  CHECK_THAT(slow.err, Contains("computes") && Contains("waited [s]"));
+  CHECK(slow.trace_hash() == drive_on_one_core("500").trace_hash());
+  CHECK(slow.trace_hash() != drive_on_one_core("0").trace_hash());
+}
+
 TEST_CASE("the time of laps needs virtual time, and its measurement a run in one process",
           "[system][computing]") {
   const std::string graph = source_file("graphs/pioneer_planner.xml");

@@ -56,10 +56,10 @@ std::string client_table(const host::RunCounters& counters) {
 
 std::string computing_table(const host::RunCounters& counters) {
   if (counters.computing.empty()) return {};
-  std::vector<Row> rows{{"computes", "laps", "time [s]", "overruns"}};
+  std::vector<Row> rows{{"computes", "laps", "time [s]", "waited [s]", "overruns"}};
   for (const auto& [component, counted] : counters.computing)
     rows.push_back({component, std::to_string(counted.laps), fixed(to_seconds(counted.time), 3),
-                    std::to_string(counted.overruns)});
+                    fixed(to_seconds(counted.waited), 3), std::to_string(counted.overruns)});
   return aligned(rows) + "\n";
 }
 

@@ -15,7 +15,11 @@ void Computing::begin(Duration time) {
 // A computer that computes hears nothing: what wakes the strand is looked at by its next wait.
 bool Computing::spend() {
   const Executive& executive = strand_.executive();
-  const TimePoint end = saturating_add(executive.now(), std::exchange(owed_, Duration{0}));
+  const TimePoint now = executive.now();
+  const Duration time = std::exchange(owed_, Duration{0});
+  const TimePoint alone = saturating_add(now, time);
+  const TimePoint end = cores_ == nullptr ? alone : cores_->reserve(now, time);
+  waited_ += (end - alone).count();
   strand_.note_activity();  // so that the lap is not taken for one that has only waited so far
   while (executive.now() < end && !strand_.is_ending()) strand_.pause_until(end);
   return executive.now() >= end;

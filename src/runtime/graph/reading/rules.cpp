@@ -92,6 +92,10 @@ constexpr std::array kProcess{
         seconds(0.0, 0.1)},
     AttributeRule{"processors", false,
                   "Numbers of the processors that it may use, counted from 0; all if not given."},
+    AttributeRule{"cores", false,
+                  "Number of laps with takes that compute at once in virtual time, the others wait; any "
+                  "number if not given.",
+                  integer(1, 1024)},
     AttributeRule{"priority", false, "Real-time priority from 1 to 99 (SCHED_FIFO); none if not given.",
                   integer(1, 99)},
     AttributeRule{"lock_memory", false, "Whether its memory always stays in RAM; false if not given.",

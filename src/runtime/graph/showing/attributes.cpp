@@ -80,6 +80,7 @@ Attributes attributes_of(const ProcessNode& node) {
   if (node.executor == Backend::fiber) add(result, "executor", "fiber");
   if (node.spin != standard.spin) add(result, "spin", seconds_text(node.spin));
   add(result, "processors", processors_text(node.processors));
+  if (node.cores > 0) add(result, "cores", std::to_string(node.cores));
   if (node.priority) add(result, "priority", std::to_string(*node.priority));
   if (node.lock_memory) add(result, "lock_memory", "true");
   if (node.memory) add(result, "memory", std::to_string(*node.memory) + " B");

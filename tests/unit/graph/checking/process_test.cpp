@@ -37,11 +37,13 @@ const std::string kTwoMachines = "<machine name='m'/><machine name='n'/>";
 TEST_CASE("the attributes of a process are read, in SI", "[graph][process]") {
   const Graph graph = must_load(robot_in_processes(
       "<machine name='m'/><process name='a' machine='m' executor='fiber' spin='50 us' processors='0 3, 1;3' "
+      "cores='2' "
       "priority='10' lock_memory='true' memory='200 MB' restart='transient' hang_limit='0.2 s' text='x'/>"
       "<process name='main' machine='m'/>",
       "process='a'", "", ""));
   ProcessNode expected{.name = "a", .machine = "m", .executor = Backend::fiber, .spin = 50us};
   expected.processors = {0, 3, 1};
+  expected.cores = 2;
   expected.priority = 10;
   expected.lock_memory = true;
   expected.memory = 200'000'000;
@@ -62,6 +64,7 @@ TEST_CASE("a process that says nothing has threads, no limits and is started aga
   CHECK(plain.hang_limit == 500ms);
   CHECK_FALSE(plain.priority);
   CHECK_FALSE(plain.memory);
+  CHECK(plain.cores == 0);
 }
 
 TEST_CASE("a process that is started on demand ends after 10 s without use unless the graph says otherwise",

@@ -67,10 +67,10 @@ class RandomGraph {
                       "/>" + "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
                 : "") +
            "<process name='p1'" + on("robot") + maybe(" executor='fiber'") +
-           maybe(" spin='" + integer(0, 99) + " us'") + maybe(" processors='3 0,1'") + maybe(" text='x'") +
-           "/><process name='p2'" + on("robot") + maybe(" priority='" + integer(1, 99) + "'") +
-           maybe(" lock_memory='true'") + maybe(" memory='" + integer(1, 4000) + " MiB'") +
-           maybe(" hang_limit='" + real(0.01, 9) + "'") +
+           maybe(" spin='" + integer(0, 99) + " us'") + maybe(" processors='3 0,1'") + maybe(" cores='2'") +
+           maybe(" text='x'") + "/><process name='p2'" + on("robot") +
+           maybe(" priority='" + integer(1, 99) + "'") + maybe(" lock_memory='true'") +
+           maybe(" memory='" + integer(1, 4000) + " MiB'") + maybe(" hang_limit='" + real(0.01, 9) + "'") +
            maybe(" restart='" + choice({"permanent", "transient", "temporary"}) + "'") + "/>";
   }
   std::string process() {

@@ -82,6 +82,14 @@ TEST_CASE("what a lap sends waits for its computing, and everything after that h
                 "poked by relay", "end hears 1 after 30 ms", "end gives 1 after 30 ms"});
 }
 
+TEST_CASE("a handler takes no time, however long the laps of its component do", "[host][computing]") {
+  std::string elements = relay("", "sends");
+  const std::string life = "type=\"test.Life\"";
+  elements.replace(elements.find(life), life.size(), life + " takes=\"10 s\"");
+  for (const ExecutiveOptions& kind : virtual_executives())
+    CHECK(said(kind, elements, 1ms, "poked") == Lines{"poked by relay"});
+}
+
 TEST_CASE("a question is a part of what computes, and does not wait", "[host][computing]") {
   for (const ExecutiveOptions& kind : virtual_executives())
     CHECK(said(kind, relay("takes=\"30 ms\"", "asks"), 50ms, "relay") ==
@@ -152,4 +160,31 @@ TEST_CASE("in real time the machine computes, and what the graph says of it mean
     CHECK(run.result.counters.edges.at(1).counters.delivered > 0);  // to the end
     CHECK(run.warnings.empty());
   }
+}
+
+TEST_CASE("on one core laps compute one after the other, and on two side by side", "[host][computing]") {
+  const auto two = [](const std::string& cores) {
+    return "<process name=\"main\"" + cores + R"x(/>
+      <component name="arriver" type="test.Arriver"/>
+      <component name="first" type="test.Relay" takes="30 ms"/>
+      <component name="second" type="test.Relay" takes="40 ms"/>
+      <connect from="arriver.out" to="first.in"/><connect from="arriver.out" to="second.in"/>)x";
+  };
+  for (const ExecutiveOptions& kind : virtual_executives()) {
+    const auto gives = [&](const std::string& cores) {
+      Lines lines = said(kind, two(cores), 90ms);
+      std::erase_if(lines, [](const std::string& line) { return line.find("gives") == std::string::npos; });
+      return lines;
+    };
+    const Lines apart{"first gives 1 after 30 ms", "second gives 1 after 40 ms"};
+    CHECK(gives("") == apart);
+    CHECK(gives(" cores=\"2\"") == apart);
+    CHECK(gives(" cores=\"1\"") == Lines{"first gives 1 after 30 ms", "second gives 1 after 70 ms"});
+  }
+  RunOptions options = virtual_run();
+  options.until = 950ms;
+  const auto counted = record_run("", two(" cores=\"1\""), options).result.counters.computing;
+  CHECK(counted.at("first").waited == 0s);
+  CHECK(counted.at("second").time == 400ms);
+  CHECK(counted.at("second").waited == 300ms);
 }

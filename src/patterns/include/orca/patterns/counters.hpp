@@ -3,8 +3,6 @@
 
 #include <cstdint>
 
-#include "orca/base/time.hpp"
-
 namespace orca {
 
 /// The counters of one Push edge, from its start until now. A plain value.
@@ -50,13 +48,6 @@ struct IntakeCounters {
     high_water += other.high_water;
     return *this;
   }
-};
-
-/// The counters of the laps of one component that take time in virtual time, from its start until now. A plain value.
-struct ComputingCounters {
-  std::uint64_t laps = 0;      ///< Laps that have begun.
-  Duration time{0};            ///< [s] that they took together, by the run's clock.
-  std::uint64_t overruns = 0;  ///< Laps that were computing still when the next one was due already.
 };
 
 /// The counters of one SendProxy or QueryProxy, from its start until now. A plain value.

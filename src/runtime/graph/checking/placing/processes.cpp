@@ -56,6 +56,7 @@ class ProcessReader {
     read_time(node_, "spin", value.spin, report_);
     read_time(node_, "hang_limit", value.hang_limit, report_);
     value.priority = read_int(node_, "priority", report_);
+    value.cores = static_cast<std::uint32_t>(read_int(node_, "cores", report_).value_or(0));
     value.lock_memory = read_attribute<bool>(node_, "lock_memory", report_).value_or(false);
     if (const auto bytes = read_attribute<double>(node_, "memory", report_))
       value.memory = static_cast<std::uint64_t>(std::llround(*bytes));

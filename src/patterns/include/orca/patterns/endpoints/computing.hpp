@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+
 #include "orca/base/strand.hpp"
-#include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/cores.hpp"
 #include "orca/patterns/endpoints/published.hpp"
 
 namespace orca {
+
+/// The counters of the laps of one component that take time in virtual time, from its start until now. A plain value.
+struct ComputingCounters {
+  std::uint64_t laps = 0;      ///< Laps that have begun.
+  Duration time{0};            ///< [s] that they took together, by the run's clock.
+  Duration waited{0};          ///< [s] for which they waited for a core before that.
+  std::uint64_t overruns = 0;  ///< Laps that were computing still when the next one was due already.
+};
 
 /// The time that a component's laps compute, where the graph says that they take some. It serves virtual time, in which code
 /// itself takes none.
@@ -18,6 +28,10 @@ class Computing {
  public:
   explicit Computing(Strand& strand) : strand_(strand) {}
 
+  /// Lets the laps compute on these cores, with those of other components. @thread  before the component runs.
+  /// @param cores  outlive this object.
+  void share(Cores& cores) { cores_ = &cores; }
+
   /// Begins a lap that computes for this long [s]; 0 s: it takes no time, and is not counted.
   void begin(Duration time);
   /// Lets the time pass that the present lap still has to compute. To be called before it gives anything out, and at its end.
@@ -28,15 +42,19 @@ class Computing {
   /// Counts that the next lap was due before the present one had computed.
   void note_overrun() { ++overruns_; }
 
-  [[nodiscard]] ComputingCounters counters() const { return {laps_, Duration(time_), overruns_}; }
+  [[nodiscard]] ComputingCounters counters() const {
+    return {laps_, Duration(time_), Duration(waited_), overruns_};
+  }
 
  private:
   bool spend();
 
   Strand& strand_;
+  Cores* cores_ = nullptr;  // null: each lap has one of its own
   Duration owed_{0};
   Published<std::uint64_t> laps_;
   Published<Duration::rep> time_;
+  Published<Duration::rep> waited_;
   Published<std::uint64_t> overruns_;
 };
 

@@ -63,12 +63,13 @@ struct Uncompared : Value {
 };
 using Place = Uncompared<xml::Position>;  ///< Of the element from which a part was read.
 
-/// A host process of the system. Virtual time takes no notice of it: all parts run in one process there.
+/// A host process of the system. Virtual time takes no notice of it but for its cores: all parts run in one process there.
 struct ProcessNode {
   std::string name{};
   std::string machine{};               ///< Name of a MachineNode; empty: the graph declares no machines.
   Backend executor = Backend::thread;  ///< Thread or fiber.
   Duration spin{0};  ///< Longest time [s] that an idle strand spins before it sleeps; 0: it sleeps at once.
+  std::uint32_t cores = 0;                ///< Laps that compute at once in virtual time; 0: any number.
   std::vector<int> processors{};          ///< Numbers of the processors that it may use; empty: all.
   std::optional<int> priority{};          ///< SCHED_FIFO priority, 1 to 99; nothing: not real-time.
   bool lock_memory = false;               ///< Its memory is never paged out.

@@ -15,6 +15,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/patterns/counters.hpp"
+#include "orca/patterns/endpoints/computing.hpp"
 
 namespace orca::host {
 
