@@ -89,6 +89,7 @@ ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
       return could_not_write(written);
   }
   std::fputs(made->summary.c_str(), stdout);
+  std::fputs(laps_summary(store).c_str(), stderr);
   std::fprintf(stderr, "report: %s\n", (folder / "report.html").c_str());
   return ExitCode::done;
 }

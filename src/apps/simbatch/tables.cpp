@@ -2,6 +2,9 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "tables.hpp"
 
+#include <cstdint>
+#include <cstdio>
+#include <map>
 #include <string>
 
 #include "orca/base/output_file.hpp"
@@ -65,6 +68,32 @@ Status laps_table(const batch::Store& store, const Take& take) {
            xml::number_text(one.mean) + "," + xml::number_text(one.p95) + "," +
            xml::number_text(one.longest) + "\n");
   });
+}
+
+std::string laps_summary(const batch::Store& store) {
+  struct Sum {
+    double time = 0.0;  // [s]
+    std::uint64_t laps = 0;
+  };
+  std::map<std::string, std::map<std::string, Sum>> sums;  // by variant and component
+  (void)store.for_each([&](const batch::Row& row) {
+    for (const batch::LapCost& one : row.cost.laps) {
+      Sum& sum = sums[row.variant][one.component];
+      sum.time += one.mean * static_cast<double>(one.laps);
+      sum.laps += one.laps;
+    }
+  });
+  std::string text;
+  for (const auto& [variant, components] : sums) {
+    text += variant + ": processor time per lap:";
+    for (const auto& [component, sum] : components) {
+      char part[32];
+      std::snprintf(part, sizeof part, " %.3g ms", 1e3 * sum.time / static_cast<double>(sum.laps));
+      text += (text.ends_with(':') ? " " : ", ") + component + part;
+    }
+    text += "\n";
+  }
+  return text;
 }
 
 Status write_tables(const batch::Store& store, const std::filesystem::path& folder) {

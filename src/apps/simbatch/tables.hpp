@@ -26,6 +26,9 @@ Status timing_table(const batch::Store& store, const Take& take);
 /// @errors  unavailable, with the reason.
 Status laps_table(const batch::Store& store, const Take& take);
 
+/// Returns a line for each variant with the mean processor time per lap of each component.
+[[nodiscard]] std::string laps_summary(const batch::Store& store);
+
 /// Writes all three, as runs.csv, timing.csv and laps.csv.
 /// @errors  unavailable, with the reason.
 Status write_tables(const batch::Store& store, const std::filesystem::path& folder);
