@@ -46,8 +46,6 @@ class ComponentInstance final {
   /// Lets other processes wake its strand.
   /// @pre  it has not been loaded or declared yet.
   void set_doorbell(DoorbellWord& word) { parts_.strand.set_doorbell(word); }
-  /// Lets its laps compute on these cores, with those of other components. @pre  as set_doorbell().
-  void compute_on(Cores& cores) { parts_.home.computing.share(cores); }
   /// @param first  called on the strand before anything else; empty: nothing is.
   void start(std::function<void()> first = {});
   /// Lets the component leave IDLE: the whole system is up.

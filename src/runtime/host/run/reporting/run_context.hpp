@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "orca/base/executive.hpp"
 #include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "orca/patterns/endpoints/cores.hpp"
 #include "reporter.hpp"
 #include "run/recording/trace.hpp"
 
@@ -46,6 +48,8 @@ struct RunContext {
   double computing = 1.0;
   /// Whether the processor time of each component's laps is measured.
   bool measures_laps = false;
+  /// Cores on which laps compute in virtual time, by process; only of processes whose graph numbers them.
+  std::map<std::string, Cores> cores{};
 };
 
 }  // namespace orca::host

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "component_making.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace orca::host {
@@ -22,6 +23,12 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   for (const PlannedFailure& failure : failures)
     if (failure.component == node.name) settings.failure = failure;
   return settings;
+}
+
+Cores* cores_of(const graph::Graph& graph, const std::string& process, std::map<std::string, Cores>& cores) {
+  const auto node = std::ranges::find(graph.processes, process, &graph::ProcessNode::name);
+  if (node == graph.processes.end() || node->cores == 0) return nullptr;
+  return &cores.try_emplace(process, node->cores).first->second;
 }
 
 Status declare(const graph::Graph& graph, const graph::ComponentNode& node, ComponentInstance& instance,

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/patterns/endpoints/cores.hpp"
 #include "orca/patterns/endpoints/links.hpp"
 #include "run/component/component_instance.hpp"
 
@@ -15,6 +17,12 @@ namespace orca::host {
 /// Returns what the graph sets for a component, and how the run's options make it fail.
 [[nodiscard]] ComponentSettings settings_of(const graph::ComponentNode& node,
                                             const std::vector<PlannedFailure>& failures = {});
+
+/// Returns the cores that the components of a process share, which are made when they are first asked for; null: each lap has a core
+/// of its own.
+/// @param cores  by process.
+[[nodiscard]] Cores* cores_of(const graph::Graph& graph, const std::string& process,
+                              std::map<std::string, Cores>& cores);
 
 /// Makes the ports of a component that is loaded on demand. They exist from the start.
 /// @errors  those of the catalogue.

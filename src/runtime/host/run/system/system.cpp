@@ -60,23 +60,16 @@ Result<std::unique_ptr<ComponentInstance>> System::make(const graph::ComponentNo
                                                         ComponentSettings settings,
                                                         PluginCatalogue& catalogue) {
   HardwarePlace* const place = hardware(node.hardware);
+  settings.cores = cores_of(graph_, node.process, run_.cores);
   auto instance = std::make_unique<ComponentInstance>(
       run_, std::move(settings),
       [&catalogue, type = node.type] { return catalogue.acquire(PluginKind::component, type); },
       [&catalogue](LoadedType type) { return catalogue.release(std::move(type)); },
       place != nullptr ? &place->seat() : nullptr);
-  if (Cores* const cores = cores_of(node.process)) instance->compute_on(*cores);
   if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
   const Status made = node.on_demand ? declare(graph_, node, *instance, catalogue) : instance->load();
   if (!made.ok()) return made.error();
   return instance;
-}
-
-// Returns the cores that the components of a process share; null: each of their laps has one of its own.
-Cores* System::cores_of(const std::string& process) {
-  const auto node = std::ranges::find(graph_.processes, process, &graph::ProcessNode::name);
-  if (node == graph_.processes.end() || node->cores == 0) return nullptr;
-  return &cores_.try_emplace(process, node->cores).first->second;
 }
 
 Status System::add(const graph::ComponentNode& node, PluginCatalogue& catalogue) {

@@ -125,16 +125,14 @@ class System {
   Status build_components(PluginCatalogue& catalogue);
   Result<std::unique_ptr<ComponentInstance>> make(const graph::ComponentNode& node,
                                                   ComponentSettings settings, PluginCatalogue& catalogue);
-  Cores* cores_of(const std::string& process);
   Status await(const ComponentInstance& component, Order& order, Event& changed, TimePoint deadline);
 
   const graph::Graph& graph_;
   RunContext& run_;
   std::function<bool()> give_up_;
   std::vector<std::unique_ptr<HardwarePlace>> hardware_;
-  std::map<std::string, Cores> cores_;  // by process; destroyed after the components
-  std::set<std::string> fresh_;         // components that were added and not configured yet
-  ComponentList components_;            // in the order of the graph at first; destroyed before the hardware
+  std::set<std::string> fresh_;  // components that were added and not configured yet
+  ComponentList components_;     // in the order of the graph at first; destroyed before the hardware
 };
 
 /// Collects the counters of all connections that end in this process: of each edge at its receiving end, of each port that

@@ -17,6 +17,7 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       injector(run, settings, strand, laps),
       params(settings.params),
       orders(strand) {
+  if (settings.cores != nullptr) home.computing.share(*settings.cores);
   if (run.measures_laps) meter = std::make_unique<LapMeter>();
 }
 

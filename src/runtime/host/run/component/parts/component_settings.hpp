@@ -10,6 +10,7 @@
 #include "orca/base/time.hpp"
 #include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
+#include "orca/patterns/endpoints/cores.hpp"
 
 namespace orca::host {
 
@@ -20,6 +21,7 @@ struct ComponentSettings {
   std::optional<bool> autonomous;  ///< Replaces what the component says by stay_active().
   std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
   LapTime takes{};                 ///< Virtual time that computing a lap takes.
+  Cores* cores = nullptr;          ///< Those on which its laps compute with others; null: its own.
   bool on_demand = false;          ///< Loaded when first asked for.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.
   Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.
