@@ -47,6 +47,7 @@ class BatonContext final : public Context {
 
 class BatonContexts final : public ContextMaker {
  public:
+  [[nodiscard]] bool share_a_thread() const override { return false; }
   std::unique_ptr<Context> make(std::function<void()> body) override {
     return std::make_unique<BatonContext>(scheduler_, std::move(body));
   }

@@ -31,6 +31,9 @@ class ContextMaker {
  public:
   virtual ~ContextMaker() = default;
 
+  /// Returns whether all contexts run on the thread that enters them.
+  [[nodiscard]] virtual bool share_a_thread() const = 0;
+
   /// @param body  must not throw.
   [[nodiscard]] virtual std::unique_ptr<Context> make(std::function<void()> body) = 0;
 };

@@ -199,13 +199,13 @@ void CooperativeExecutive::run(std::function<void()> main) {
   auto fiber = make_fiber({"main", 0}, std::move(main));
   main_ = fiber.get();
   make_ready(*fiber);
-  const bool tells_apart = tells_tasks_apart();
+  tells_apart_ = contexts_->share_a_thread() && tells_tasks_apart();
   while (!fiber->ended) {
     Fiber& next = next_to_run();
     begin(next);
-    if (tells_apart) begin_turn(next.time);
+    if (tells_apart_) begin_turn(next.time);
     next.context->enter();
-    if (tells_apart) end_turn();
+    if (tells_apart_) end_turn();
   }
   running_.store(nullptr, std::memory_order_release);
   current_ = nullptr;
@@ -281,8 +281,10 @@ void CooperativeExecutive::make_ready(Fiber& fiber) {
 void CooperativeExecutive::block_until(TimePoint deadline) {
   Fiber& leaving = *current_;
   if (deadline != kForever) set_timer(leaving, deadline);
+  if (tells_apart_) end_turn();
   Fiber& next = next_to_run();
   begin(next);
+  if (tells_apart_) begin_turn(next.time);
   if (&next != &leaving) leaving.context->hand_over(*next.context);
 }
 

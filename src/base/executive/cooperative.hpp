@@ -98,6 +98,7 @@ class CooperativeExecutive final : public Executive {
   std::vector<CooperativeEvent*> rung_;  // by the doorbell
   bool restless_ = false;                // busy_ keeps time from passing
   bool main_is_next_ = false;            // to hear of it
+  bool tells_apart_ = false;             // fibers keep the processor time that they use
 
   // Filled by other threads.
   FutexEvent inbox_changed_;  // its word is the doorbell, if there is one

@@ -128,6 +128,7 @@ class FiberContext final : public Context {
 
 class FiberContexts final : public ContextMaker {
  public:
+  [[nodiscard]] bool share_a_thread() const override { return true; }
   std::unique_ptr<Context> make(std::function<void()> body) override {
     return std::make_unique<FiberContext>(flows_, std::move(body));
   }

@@ -14,8 +14,7 @@ struct FiberTime {
 /// Returns whether executives are to keep these times.
 [[nodiscard]] bool tells_tasks_apart();
 
-/// Report that the thread goes over to a fiber, and that it is back. If the fiber has a thread of its own, that thread's
-/// clock counts and these change nothing.
+/// Report that the thread goes over to a fiber, and that its turn is over. Fibers with threads of their own need neither.
 void begin_turn(FiberTime& fiber);
 void end_turn();
 
