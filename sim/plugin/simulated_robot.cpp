@@ -158,6 +158,7 @@ std::vector<HardwareFault> SimulatedRobot::conflicts_with(const HardwareContaine
 const char* SimulatedRobot::setting_unlike(const SimulatedRobot& other) const {
   if (*realism_ != *other.realism_) return "realism";
   if (*errors_ != *other.errors_) return "errors";
+  if (*dead_sonars_ != *other.dead_sonars_) return "dead_sonars";
   if (*specimen_ != *other.specimen_) return "specimen";
   if (*map_width_ != *other.map_width_) return "map_width";
   return *map_resolution_ != *other.map_resolution_ ? "map_resolution" : "threads";
@@ -188,9 +189,16 @@ Status SimulatedRobot::open() {
   return ok();
 }
 
+Result<ErrorLevels> SimulatedRobot::levels() const {
+  Result<ErrorLevels> levels = scaled(error_levels(realism()), *errors_);
+  if (levels) levels->sonar_dead = *dead_sonars_;
+  return levels;
+}
+
 std::string SimulatedRobot::settings() const {
   std::string text = "realism " + *realism_;
   if (!errors_->empty()) text += ", errors " + in_quotes(*errors_);
+  if (*dead_sonars_ > 0.0) text += ", dead_sonars " + xml::number_text(*dead_sonars_);
   if (*map_width_ > 0.0) text += ", map_width " + xml::number_text(*map_width_) + " m";
   if (*map_resolution_ > 0.0) text += ", map_resolution " + xml::number_text(*map_resolution_) + " m";
   if (*specimen_ == kOneInAllWorlds) text += ", specimen " + *specimen_;

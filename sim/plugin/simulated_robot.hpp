@@ -60,7 +60,7 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   void check_start_is_free(std::vector<HardwareFault>& errors) const;
   [[nodiscard]] const char* setting_unlike(const SimulatedRobot& other) const;
   [[nodiscard]] const char* start_param() const { return place_->empty() ? "x" : "place"; }
-  [[nodiscard]] Result<ErrorLevels> levels() const { return scaled(error_levels(realism()), *errors_); }
+  [[nodiscard]] Result<ErrorLevels> levels() const;
   [[nodiscard]] std::string settings() const;
   void report(const SharedWorld::Inbox::Contact& contact);
   void note_lost(Duration lost);
@@ -138,6 +138,13 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
        .text =
            "What the robot's wheels, sensors and chances are drawn from: the run's seed and the name of the "
            "world's file, so that a seed is another robot in each world, or the seed alone."}};
+  Param<double> dead_sonars_{
+      *this,
+      "dead_sonars",
+      0.0,
+      {.min = 0.0,
+       .max = 1.0,
+       .text = "Share of the sonar transducers that are silent in a run, drawn for each robot."}};
   Param<std::int64_t> threads_{*this,
                                "threads",
                                1,

@@ -16,6 +16,9 @@ SonarModel::SonarModel(SonarRing ring, const ErrorLevels& errors, RandomStream r
       random_(random),
       round_start_(start) {
   for (std::size_t k = 0; k < ring_.count; ++k) transducers_.push_back(ring_.transducer(k));
+  // Nothing is drawn where none can be dead, so that the noise stays as it is.
+  for (std::size_t k = 0; k < ring_.count; ++k)
+    dead_.push_back(errors.sonar_dead > 0.0 && random_.chance(errors.sonar_dead));
   scan_.readings.resize(ring_.count);
 }
 
@@ -32,12 +35,13 @@ void SonarModel::fire(const Caster& caster, std::size_t own_body, const TickSpan
     const std::size_t k = ring_.order[fired_++];
     Shot& shot = next_shot();
     shot.transducer = k;
+    shot.is_dead = dead_[k];
     shot.time = due;
     shot.beam.emplace(span.at(due) * transducers_[k], lobe_, ring_.min_range, ring_.max_range,
                       ring_.height_of(k), own_body);
     shot.X_RB = span.in_robot(due);
     shot.X_RS = shot.X_RB * transducers_[k];
-    listen_for(caster, *shot.beam, critical_tangent_, shot.echo);
+    if (!shot.is_dead) listen_for(caster, *shot.beam, critical_tangent_, shot.echo);
     if (fired_ < ring_.count) continue;
     fired_ = 0;
     round_start_ += ring_.period;
@@ -51,15 +55,18 @@ SonarModel::Shot& SonarModel::next_shot() {
 
 void SonarModel::send(SonarAir& air) {
   if (!errors_.sonar_crosstalk) return;  // Then nobody in the world listens to others.
-  for (Shot& shot : shots()) shot.chirp = air.send(shot.time, *shot.beam, shot.echo);
+  for (Shot& shot : shots())
+    if (!shot.is_dead) shot.chirp = air.send(shot.time, *shot.beam, shot.echo);
 }
 
 void SonarModel::listen(const Caster& caster, const SonarAir& air) {
   completed_.reset();
   for (const Shot& shot : shots()) {
-    const bool deaf_to_others = !errors_.sonar_crosstalk;
-    SonarReading reading =
-        measured(deaf_to_others ? shot.echo.range : air.first_heard(caster, shot.chirp, shot.echo, search_));
+    SonarReading reading = measured(heard(shot, caster, air));
+    if (shot.is_dead) {
+      reading.echo = false;
+      reading.range = ring_.max_range;
+    }
     reading.transducer = shot.transducer;
     reading.stamp = shot.time;
     reading.sensor = shot.X_RS;
@@ -72,6 +79,12 @@ void SonarModel::listen(const Caster& caster, const SonarAir& air) {
     completed_ = scan_;
     listened_ = 0;
   }
+}
+
+std::optional<double> SonarModel::heard(const Shot& shot, const Caster& caster, const SonarAir& air) {
+  if (shot.is_dead) return std::nullopt;
+  const bool deaf_to_others = !errors_.sonar_crosstalk;
+  return deaf_to_others ? shot.echo.range : air.first_heard(caster, shot.chirp, shot.echo, search_);
 }
 
 SonarReading SonarModel::measured(std::optional<double> echo) {

@@ -35,6 +35,7 @@ class SonarModel {
  private:
   struct Shot {
     std::size_t transducer = 0;
+    bool is_dead = false;
     TimePoint time;
     std::optional<Beam> beam;
     Pose2 X_RB;               // Pose of frame B in the robot's frame.
@@ -46,10 +47,12 @@ class SonarModel {
   [[nodiscard]] TimePoint next_due() const;
   [[nodiscard]] Shot& next_shot();
   [[nodiscard]] std::span<Shot> shots() { return {shots_.data(), shot_count_}; }
+  [[nodiscard]] std::optional<double> heard(const Shot& shot, const Caster& caster, const SonarAir& air);
   [[nodiscard]] SonarReading measured(std::optional<double> echo);
 
   SonarRing ring_;
   std::vector<Pose2> transducers_;  // Poses in the frame of the ring's carrier.
+  std::vector<bool> dead_;          // Transducers that are silent in this run.
   Lobe lobe_;
   ErrorLevels errors_;
   double critical_tangent_;

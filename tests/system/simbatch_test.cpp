@@ -300,7 +300,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
                                    std::pair{"posts_and_offices", "3 variants, 80 worlds, 1 seed: 240 runs"},
                                    std::pair{"people", "4 variants, 3 worlds, 12 seeds: 144 runs"},
                                    std::pair{"showroom", "4 variants, 2 worlds, 10 seeds: 80 runs"},
-                                   std::pair{"sonar_physics", "4 variants, 3 worlds, 20 seeds: 240 runs"},
+                                   std::pair{"sonar_physics", "4 variants, 4 worlds, 20 seeds: 320 runs"},
                                    std::pair{"surprises", "4 variants, 2 worlds, 20 seeds: 160 runs"}}) {
     const Run run = run_simbatch({source_file("sim/experiments/" + std::string(name) + ".xml"), "--check"});
     INFO(run.err);

@@ -54,6 +54,7 @@ const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
                        "lag and dead time of the drive, times those of the file",
                        "sonar: standard deviation, relative to the range",
                        "sonar: readings that are arbitrary",
+                       "sonar: transducers that are silent, unless `dead_sonars` says more",
                        "sonar: critical angle of smooth surfaces",
                        "sonar: crosstalk",
                        "laser: bound of the bias of a run",
@@ -68,20 +69,20 @@ const Lines kErrors = {"wheel diameters: bound of their ratio, less 1",
 // ErrorLevels: with a member more or less this does not compile.
 Lines numbers_of(Realism realism) {
   const auto [wheel_mismatch, wheel_size, track_error, slip, turn_slip, common_slip, delay_scale, sonar_noise,
-              sonar_outliers, critical_angle, sonar_crosstalk, laser_bias, laser_sigma, laser_drop_angle,
-              laser_threshold, mixed_pixels, infrared_noise, quantised, slip_length, common_length,
-              slip_angle, sonar_edges, sonar_threshold, sonar_in_line, laser_spot, contact_friction,
-              wheel_grip, motor_force] = error_levels(realism);
-  return {percent(wheel_mismatch),  percent(wheel_size),          percent(track_error),
-          millimetres(slip),        millimetres(turn_slip),       millimetres(common_slip),
-          number(delay_scale, ""),  percent(sonar_noise),         percent(sonar_outliers),
-          degrees(critical_angle),  yes_or_no(sonar_crosstalk),   millimetres(laser_bias),
-          millimetres(laser_sigma), degrees(laser_drop_angle),    percent(laser_threshold),
-          yes_or_no(mixed_pixels),  number(infrared_noise, "/m"), yes_or_no(quantised),
-          number(slip_length, "m"), number(common_length, "m"),   number(slip_angle, "rad"),
-          number(sonar_edges, ""),  number(sonar_threshold, ""),  degrees(sonar_in_line),
-          number(laser_spot, ""),   number(contact_friction, ""), number(wheel_grip, ""),
-          number(motor_force, "")};
+              sonar_outliers, sonar_dead, critical_angle, sonar_crosstalk, laser_bias, laser_sigma,
+              laser_drop_angle, laser_threshold, mixed_pixels, infrared_noise, quantised, slip_length,
+              common_length, slip_angle, sonar_edges, sonar_threshold, sonar_in_line, laser_spot,
+              contact_friction, wheel_grip, motor_force] = error_levels(realism);
+  return {percent(wheel_mismatch),   percent(wheel_size),      percent(track_error),
+          millimetres(slip),         millimetres(turn_slip),   millimetres(common_slip),
+          number(delay_scale, ""),   percent(sonar_noise),     percent(sonar_outliers),
+          percent(sonar_dead),       degrees(critical_angle),  yes_or_no(sonar_crosstalk),
+          millimetres(laser_bias),   millimetres(laser_sigma), degrees(laser_drop_angle),
+          percent(laser_threshold),  yes_or_no(mixed_pixels),  number(infrared_noise, "/m"),
+          yes_or_no(quantised),      number(slip_length, "m"), number(common_length, "m"),
+          number(slip_angle, "rad"), number(sonar_edges, ""),  number(sonar_threshold, ""),
+          degrees(sonar_in_line),    number(laser_spot, ""),   number(contact_friction, ""),
+          number(wheel_grip, ""),    number(motor_force, "")};
 }
 
 Lines column_of(Realism realism) {

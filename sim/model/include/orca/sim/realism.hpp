@@ -27,6 +27,7 @@ struct ErrorLevels {
   double delay_scale = 0.0;     ///< Factor on the drive's lag and dead time.
   double sonar_noise = 0.0;     ///< Relative standard deviation of a range.
   double sonar_outliers = 0.0;  ///< Probability that a reading is arbitrary.
+  double sonar_dead = 0.0;      ///< Share of transducers that neither send nor hear; drawn for each robot.
   /// [rad] A smooth surface that is hit at a larger incidence gives no echo.
   double critical_angle = 0.5 * std::numbers::pi;
   bool sonar_crosstalk = false;  ///< Transducers hear each other's chirps.
