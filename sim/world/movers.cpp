@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 namespace orca::sim::detail {
@@ -16,17 +17,27 @@ bool in_the_way(const Robot& robot, const WalkerTrack::Place& place, double radi
 constexpr double kWhole =
     1.0 - 1e-9;  // A share of a tick is a sum, and as little less than 1 as its roundings.
 
+constexpr double kSight = 4.0;       // [m] How far ahead a walker that steps aside looks.
+constexpr double kRoom = 0.3;        // [m] That it wants beside whom it passes.
+constexpr double kMostAside = 0.8;   // [m] It does not leave its track by more.
+constexpr double kHeadOn = 0.05;     // [m] Somebody so little to its right counts as straight ahead.
+constexpr double kOnTrack = 1e-6;    // [m] Nothing stands so near to a track.
+constexpr double kAsideShare = 0.5;  // Of its speed with which it steps aside.
+
+Vec2 left_of(Vec2 ahead) { return {-ahead.y, ahead.x}; }
+
 Pose2 standing(Vec2 position) { return {position.x, position.y, 0.0}; }
 
 }  // namespace
 
 Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, Physics& physics)
-    : caster_(caster), physics_(physics) {
+    : world_(world), caster_(caster), physics_(physics) {
   for (const Walker& walker : world.walkers) {
     WalkerTrack track(walker, run_seed);
     const Pose2 begin = standing(track.at({}).position);
     const std::size_t number = add(walker.name, Circle{{}, walker.radius}, walker.height, begin);
     movers_[number].walk = Walk{std::move(track), walker.stops, walker.speed};
+    movers_[number].walk->yields = walker.yields;
   }
 }
 
@@ -65,22 +76,76 @@ void Movers::set_off(Duration tick, const std::deque<Robot>& robots) {
     walk.sets_off = !blocked;
     walk.pace = 0.0;
     if (blocked) continue;
-    // One that a robot held in a corner of its track stands a little beside it, and does not run to be back on it.
-    const Vec2 way = walk.track.at(walk.walked + tick).position - mover.pose.position();
-    const Vec2 step = shortened(way, walk.speed * to_seconds(tick));
+    const Vec2 step = next_step(mover, number, tick, robots);
     walk.pace = norm(step) / to_seconds(tick);
     physics_.carry_mover(number, standing(mover.pose.position() + step));
   }
 }
 
+// Returns whom a walker sees: robots as the circles that hold them, and other walkers where their tracks are. So two who make
+// room for each other do not count on what the other has made already.
+std::vector<Movers::Other> Movers::others(std::size_t number, const std::deque<Robot>& robots) const {
+  std::vector<Other> found;
+  for (std::size_t k = 0; k < movers_.size(); ++k)
+    if (k != number && movers_[k].walk)
+      found.push_back({movers_[k].walk->track.at(movers_[k].walk->walked).position,
+                       std::get<Circle>(movers_[k].shape).radius});
+  for (const Robot& robot : robots) found.push_back({robot.body.position(), robot.model.radius});
+  return found;
+}
+
+// Returns how far to the left [m] of its track a walker wants to be, because of the nearest one ahead whom it would pass
+// without room. It makes its share of the room on the side that is free, and keeps right of who comes straight on.
+double Movers::wanted_aside(std::size_t number, const std::deque<Robot>& robots) const {
+  const Mover& mover = movers_[number];
+  const auto place = mover.walk->track.at(mover.walk->walked);
+  const double radius = std::get<Circle>(mover.shape).radius;
+  double nearest = kSight;
+  double aside = 0.0;
+  for (const Other& other : others(number, robots)) {
+    const double along = dot(other.position - mover.pose.position(), place.ahead);
+    const double across = dot(other.position - place.position, left_of(place.ahead));
+    const double lacking = radius + other.radius + kRoom - std::fabs(across);
+    if (along <= -radius || along >= nearest || lacking <= 0.0) continue;
+    nearest = along;
+    aside = (across > -kHeadOn ? -1.0 : 1.0) * mover.walk->yields * lacking;
+  }
+  return std::clamp(aside, -kMostAside, kMostAside);
+}
+
+// Returns the way of a walker in this tick. One that a robot held in a corner of its track stands a little beside it, and
+// does not run to be back on it. For one that steps aside the track waits as long as it is behind.
+Vec2 Movers::next_step(Mover& mover, std::size_t number, Duration tick,
+                       const std::deque<Robot>& robots) const {
+  Walk& walk = *mover.walk;
+  const double longest = walk.speed * to_seconds(tick);
+  const Vec2 here = mover.pose.position();
+  walk.advance = tick;
+  if (walk.yields == 0.0) return shortened(walk.track.at(walk.walked + tick).position - here, longest);
+  const auto place = walk.track.at(walk.walked);
+  const Vec2 left = left_of(place.ahead);
+  const double now = dot(here - place.position, left);
+  if (dot(place.position - here, place.ahead) > longest) walk.advance = Duration{0};
+  const double sideways = kAsideShare * longest;
+  const double step = std::clamp(wanted_aside(number, robots) - now, -sideways, sideways);
+  const Vec2 on_track = walk.track.at(walk.walked + walk.advance).position;
+  const Vec2 on = shortened(on_track + now * left - here, std::sqrt(longest * longest - step * step));
+  const Vec2 way = shortened(on + step * left, longest);
+  if (std::fabs(now + step) < kOnTrack) return way;
+  const double radius = std::get<Circle>(mover.shape).radius;
+  if (world_.obstacle_at(Circle{here + way, radius}, 0.0, mover.height) == nullptr) return way;
+  return shortened(on_track - here, longest);
+}
+
 // A walker that was held by a robot takes up its track where it stands.
-void Movers::arrive(Duration tick) {
+void Movers::arrive() {
   for (std::size_t number = 0; number < movers_.size(); ++number) {
     Mover& mover = movers_[number];
     if (!mover.walk || !mover.walk->sets_off) continue;
     Walk& walk = *mover.walk;
     const double share = physics_.mover_progress(number);
-    walk.walked += share > kWhole ? tick : Duration(std::llround(share * static_cast<double>(tick.count())));
+    walk.walked += share > kWhole ? walk.advance
+                                  : Duration(std::llround(share * static_cast<double>(walk.advance.count())));
     mover.pose = physics_.mover_pose(number);
     caster_.move_body(mover.body, mover.placed());
   }

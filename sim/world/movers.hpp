@@ -31,7 +31,7 @@ class Movers {
   // Lets the walkers go in the tick that begins now, except those that stop for one of the robots.
   void set_off(Duration tick, const std::deque<Robot>& robots);
   // Notes how far they came. @pre  Physics has made its step.
-  void arrive(Duration tick);
+  void arrive();
 
   // Returns true if there is an obstacle of that number; walkers are not obstacles.
   [[nodiscard]] bool is_obstacle(std::size_t number) const;
@@ -57,6 +57,8 @@ class Movers {
     Duration walked{0};
     bool sets_off = false;  // In the present tick.
     double pace = 0.0;      // [m/s] At which it does.
+    double yields = 0.0;    // Share of the room that it makes for others.
+    Duration advance{0};    // By which it goes on along its track in the present tick, if nothing holds it.
   };
   struct Mover {
     std::string name;
@@ -69,6 +71,18 @@ class Movers {
     [[nodiscard]] Shape placed() const { return sim::placed(shape, pose); }
   };
 
+  // Somebody whom a walker sees.
+  struct Other {
+    Vec2 position;
+    double radius = 0.0;
+  };
+
+  [[nodiscard]] std::vector<Other> others(std::size_t number, const std::deque<Robot>& robots) const;
+  [[nodiscard]] double wanted_aside(std::size_t number, const std::deque<Robot>& robots) const;
+  [[nodiscard]] Vec2 next_step(Mover& mover, std::size_t number, Duration tick,
+                               const std::deque<Robot>& robots) const;
+
+  const WorldModel& world_;
   Caster& caster_;
   Physics& physics_;
   std::vector<Mover> movers_;

@@ -166,7 +166,7 @@ void World::Impl::drive() {
   }
   movers.set_off(kTick, robots);
   physics.step(seconds);
-  movers.arrive(kTick);
+  movers.arrive();
   now += kTick;
 }
 

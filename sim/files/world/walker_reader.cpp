@@ -68,6 +68,7 @@ Walker read_walker(const xml::Attributes& element) {
   if (element.has("seed")) walker.seed = element.integer("seed");
   check_limits(element, walker);
   set(walker.stops, element.number_or("stops", walker.stops));
+  set(walker.yields, element.number_or("yields", walker.yields));
   return walker;
 }
 

@@ -69,11 +69,17 @@ constexpr std::array kGenerate{required("kind", one_of(kGeneratorKinds)),
                                optional("rooms", kCount),
                                optional("corridor", kLength),
                                optional("furniture", kCount)};
-constexpr std::array kWalker{
-    required("name", kName),         required("track", kText),    optional("speed", positive("m/s")),
-    optional("radius", kLength),     optional("height", kLength), optional("loop", one_of(kLoops)),
-    optional("pause", kTime),        optional("start", kTime),    optional("seed", kSeed),
-    optional("stops", kLengthOrZero)};
+constexpr std::array kWalker{required("name", kName),
+                             required("track", kText),
+                             optional("speed", positive("m/s")),
+                             optional("radius", kLength),
+                             optional("height", kLength),
+                             optional("loop", one_of(kLoops)),
+                             optional("pause", kTime),
+                             optional("start", kTime),
+                             optional("seed", kSeed),
+                             optional("stops", kLengthOrZero),
+                             optional("yields", not_negative("", 1.0))};
 
 constexpr std::array kItem{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
                            required("radius", positive("m", 2.0)), required("height", positive("m", 2.0))};

@@ -137,6 +137,65 @@ TEST_CASE("a walker that stops for robots waits until the way is free", "[sim][w
   CHECK(place(world).x > 0.0);
 }
 
+TEST_CASE("two walkers who meet on one line make room for each other, each by its share, and come back to it",
+          "[sim][walker][yields]") {
+  // What is lacking is 0.25 + 0.25 + 0.3 m.
+  for (const auto& [one, other] : {std::pair{0.5, 0.5}, std::pair{1.0, 0.0}, std::pair{0.25, 0.75}}) {
+    CAPTURE(one, other);
+    WorldModel model{"plane", {}, {}};
+    model.walkers = {
+        {.name = "anna", .track = {{-4, 0}, {4, 0}}, .start = orca::Duration{0}, .yields = one},
+        {.name = "bert", .track = {{4, 0}, {-4, 0}}, .start = orca::Duration{0}, .yields = other}};
+    World world(model, {.seed = 1, .realism = Realism::ideal});
+    double nearest = 8.0, anna_aside = 0.0, bert_aside = 0.0;
+    for (int i = 0; i < 700; ++i) {
+      world.step();
+      const std::vector<Person> people = people_in(world);
+      nearest = std::min(nearest, norm(people[0].position - people[1].position));
+      anna_aside = std::min(anna_aside, people[0].position.y);
+      bert_aside = std::max(bert_aside, people[1].position.y);
+    }
+    CHECK(nearest > 0.75);
+    CHECK(nearest < 0.85);
+    CHECK(anna_aside == Approx(-0.8 * one).margin(0.03));
+    CHECK(bert_aside == Approx(0.8 * other).margin(0.03));
+    for (const Person& person : people_in(world)) CHECK(std::fabs(person.position.y) < 0.01);
+  }
+}
+
+TEST_CASE("walkers who yield nothing walk through each other", "[sim][walker][yields]") {
+  WorldModel model{"plane", {}, {}};
+  model.walkers = {{.name = "anna", .track = {{-2, 0}, {2, 0}}, .start = orca::Duration{0}},
+                   {.name = "bert", .track = {{2, 0}, {-2, 0}}, .start = orca::Duration{0}}};
+  World world(model, {.seed = 1, .realism = Realism::ideal});
+  run(world, 2.0);
+  CHECK(norm(people_in(world)[0].position - people_in(world)[1].position) < 0.03);
+}
+
+TEST_CASE("a walker who yields walks around a robot that stands in its way, and not into a wall",
+          "[sim][walker][yields]") {
+  Walker walker = anna();
+  walker.yields = 1.0;
+  WorldModel model{"plane", {}, {}};
+  model.walkers = {walker};
+  World free(model, {.seed = 1, .realism = Realism::ideal});
+  REQUIRE(free.add_robot("dewey", scout(), {0, 2, 0}));
+  for (int i = 0; i < 700; ++i) {
+    free.step();
+    REQUIRE(free.contacts().empty());
+  }
+  // On its right a wall leaves no room, so it goes as far as it can.
+  model.obstacles.push_back({"wall", Box{{0, 1.6, 0}, {4, 0.05}}, 2.5});
+  World narrow(model, {.seed = 1, .realism = Realism::ideal});
+  REQUIRE(narrow.add_robot("dewey", scout(), {0, 2.1, 0}));
+  double lowest = 2.0;
+  for (int i = 0; i < 200; ++i) {
+    narrow.step();
+    lowest = std::min(lowest, people_in(narrow)[0].position.y);
+  }
+  CHECK(lowest > 1.65 + 0.25 - 1e-6);
+}
+
 TEST_CASE("a robot is not set down on a walker", "[sim][walker]") {
   World world(room_with(anna()), {.seed = 1, .realism = Realism::ideal});
   const auto added = world.add_robot("dewey", scout(), {-1.8, 2, 0});
@@ -167,7 +226,7 @@ TEST_CASE("a world file defines walkers with all their attributes", "[sim][walke
   orca::xml::Diagnostics diagnostics;
   const auto world = read_world_text(
       "<world name='w' version='1'><walker name='bob' track='0 0; 4 0; 4 3' speed='1.2 m/s' radius='30 cm' "
-      "height='1.8 m' loop='round' pause='2 s' start='500 ms' seed='7' stops='0.6 m'/></world>",
+      "height='1.8 m' loop='round' pause='2 s' start='500 ms' seed='7' stops='0.6 m' yields='40 %'/></world>",
       "w.xml", diagnostics);
   INFO(diagnostics.text());
   REQUIRE(world);
@@ -183,6 +242,7 @@ TEST_CASE("a world file defines walkers with all their attributes", "[sim][walke
   CHECK(bob.start == std::chrono::milliseconds{500});
   CHECK(bob.seed == 7);
   CHECK(bob.stops == 0.6);
+  CHECK(bob.yields == 0.4);
 }
 
 TEST_CASE("errors of a walker are reported at their place", "[sim][walker][world_file]") {

@@ -21,8 +21,8 @@ namespace orca::sim {
 
 /// A person as an upright cylinder that walks along a track of straight legs for ever.
 ///
-/// Its place depends only on the time and the seed, unless it stops for robots. It pushes robots that are in
-/// its way.
+/// Its place depends only on the time and the seed, unless it stops for robots or steps aside. It pushes robots that
+/// are in its way.
 struct Walker {
   std::string name;           ///< Name that contacts report.
   std::vector<Vec2> track{};  ///< Corners, at least two.
@@ -35,6 +35,9 @@ struct Walker {
   std::optional<std::uint64_t> seed{};  ///< Seed of the drawn values; the run's seed if not given.
   /// [m] It stands still while a robot is nearer than this ahead of it; 0: it stops for no robot.
   double stops = 0.0;
+  /// Share of the room that it makes, by stepping aside, for a robot or another walker ahead of it: 0 it walks straight on, 1 it
+  /// makes all of the room. Robots and other walkers may make the rest.
+  double yields = 0.0;
 };
 
 /// What a surface does to the light of a laser. Sonars, infrared sensors and bumpers do not tell them apart.
