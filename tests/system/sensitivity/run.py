@@ -24,7 +24,7 @@ TREE = pathlib.Path(__file__).resolve().parents[3]
 WHEELS = ("wheel_mismatch", "wheel_size", "track_error", "slip", "turn_slip", "slip_length", "slip_angle", "delay_scale")
 CONTACT = ("contact_friction", "wheel_grip", "motor_force")
 ERRORS = {
-    "laser": WHEELS + ("laser_bias", "laser_sigma", "laser_drop_angle", "laser_spot") + CONTACT,
+    "laser": WHEELS + ("laser_bias", "laser_sigma", "laser_drop_angle", "laser_threshold", "laser_spot") + CONTACT,
     "sonar": WHEELS + ("sonar_noise", "sonar_outliers", "critical_angle", "sonar_edges", "sonar_threshold",
                        "sonar_in_line") + CONTACT,
 }
