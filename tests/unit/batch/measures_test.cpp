@@ -152,6 +152,13 @@ TEST_CASE("a run that did not succeed was stuck, went to and fro, or was on its 
   CHECK(failure_in({}, end) == Failure::none);
 }
 
+TEST_CASE("what is wrong with a run beside its motion has the first word", "[batch][measures]") {
+  const Scene stands = straight(60.0, 0.0);
+  CHECK(failure_in(stands, {.end = at(60.0), .overload = true}) == Failure::overload);
+  CHECK(failure_in(stands, {.end = at(60.0), .lost = true, .overload = true}) == Failure::lost);
+  CHECK(failure_in(stands, {.end = at(60.0), .first_contact = at(1.0), .lost = true}) == Failure::contact);
+}
+
 TEST_CASE("a run without a simulated robot has no measures", "[batch][measures]") {
   CHECK(measure({}, {.succeeded = true, .reference = 4.0}) == Measures{});
 }

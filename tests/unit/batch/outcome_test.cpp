@@ -45,8 +45,8 @@ TEST_CASE("endings have names that read back", "[batch]") {
                               Ending::failed, Ending::crash, Ending::hang})
     CHECK(ending_of(name_of(ending)) == ending);
   CHECK_FALSE(ending_of("good"));
-  for (const Failure failure : {Failure::none, Failure::crash, Failure::contact, Failure::lost, Failure::trap,
-                                Failure::oscillation, Failure::time_out})
+  for (const Failure failure : {Failure::none, Failure::crash, Failure::contact, Failure::lost,
+                                Failure::overload, Failure::trap, Failure::oscillation, Failure::time_out})
     CHECK(failure_of(name_of(failure)) == failure);
   CHECK_FALSE(failure_of("bad luck"));
 }

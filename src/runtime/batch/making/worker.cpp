@@ -143,6 +143,8 @@ Outcome outcome_of(const host::RunResult& result, const std::vector<Goal>& goals
   }
   RunEnd end{.succeeded = outcome.ending == Ending::success, .end = result.end, .reference = reference};
   end.lost = judgement.claimed_wrongly > 0;
+  end.overload = std::ranges::any_of(
+      result.counters.computing, [](const auto& one) { return 2 * one.second.overruns > one.second.laps; });
   if (end.succeeded) end.end = *judgement.done;
   if (!result.contacts.empty()) end.first_contact = to_time_point(result.contacts.front().stamp());
   outcome.time = to_seconds(end.end - result.start);

@@ -51,10 +51,11 @@ constexpr std::array kMeasures{
     Measure{"near_misses", "", "Times that a robot came nearer than 0.3 m to a person and touched nobody.",
             &Measures::near_misses}};
 
-constexpr std::array<std::pair<Failure, const char*>, 7> kFailures{{{Failure::none, ""},
+constexpr std::array<std::pair<Failure, const char*>, 8> kFailures{{{Failure::none, ""},
                                                                     {Failure::crash, "crash"},
                                                                     {Failure::contact, "contact"},
                                                                     {Failure::lost, "lost"},
+                                                                    {Failure::overload, "overload"},
                                                                     {Failure::trap, "trap"},
                                                                     {Failure::oscillation, "oscillation"},
                                                                     {Failure::time_out, "time_out"}}};
@@ -139,6 +140,7 @@ Failure failure_in(const Scene& scene, const RunEnd& end) {
   if (end.first_contact) return Failure::contact;
   if (end.succeeded) return Failure::none;
   if (end.lost) return Failure::lost;
+  if (end.overload) return Failure::overload;
   bool turned = false;
   for (const Steps& steps : motions_of(scene)) {
     const Steps last = since(steps, end.end - kEndOfRun);

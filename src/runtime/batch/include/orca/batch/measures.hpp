@@ -22,6 +22,7 @@ enum class Failure : std::uint8_t {
   crash,        ///< Its process or a component failed, or did not answer any more.
   contact,      ///< A robot touched something.
   lost,         ///< A component claimed a goal while its robot was not there.
+  overload,     ///< More than half of the laps of a component still computed when the next was due.
   trap,         ///< In the last 20 s no robot left an area of 1 m, and none turned to and fro there.
   oscillation,  ///< No robot left it, and one turned to and fro ten times or more.
   time_out      ///< A robot was still on its way.
@@ -68,6 +69,7 @@ struct RunEnd {
   TimePoint end{};                                 ///< By the run's clock: the last arrival of a success.
   std::optional<TimePoint> first_contact{};        ///< By the same clock.
   bool lost = false;                               ///< A goal was claimed wrongly.
+  bool overload = false;                           ///< A component computed longer than it may.
   std::optional<double> reference = std::nullopt;  ///< [m] Length of the way that the world names.
 };
 
