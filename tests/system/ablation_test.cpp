@@ -128,6 +128,7 @@ const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_go
                                                        {"nomad_xr4000", "scout_goto"},
                                                        {"peoplebot", "scout_goto"},
                                                        {"pioneer2dx_sick", "pioneer_laser_goto"},
+                                                       {"pioneer_one_core", "pioneer_laser_goto"},
                                                        {"player_robot", "pioneer_laser_goto"},
                                                        {"create2_rplidar", "pioneer_laser_goto"}};
 

@@ -125,9 +125,11 @@ class Table(unittest.TestCase):
     def test_a_log_has_the_least_level_that_covers_it(self):
         levels = {"ideal": {"way_per_metre": (0.0, 0.0, 0.0), "way_sigma_metre": (0.0, 0.0, 0.0)},
                   "nominal": {"way_per_metre": (0.0, -0.01, 0.01), "way_sigma_metre": (0.5, 0.4, 0.6)},
-                  "harsh": {"way_per_metre": (0.0, -0.02, 0.02), "way_sigma_metre": (1.0, 0.9, 1.1)}}
+                  "harsh": {"way_per_metre": (0.0, -0.02, 0.02), "way_sigma_metre": (1.0, 0.9, 1.1)},
+                  "recorded": {"way_per_metre": (0.0, -0.024, 0.024), "way_sigma_metre": (1.1, 1.0, 1.15)}}
         for log, name, right in (((-0.005, -0.006, -0.004), "way_per_metre", "nominal"),
                                  ((-0.02, -0.03, -0.015), "way_per_metre", "harsh"),
+                                 ((0.025, 0.022, 0.028), "way_per_metre", "recorded"),
                                  ((0.001, -0.001, 0.003), "way_per_metre", "any"),
                                  ((0.03, 0.025, 0.035), "way_per_metre", "beyond"),
                                  ((0.2, 0.1, 0.3), "way_sigma_metre", "nominal"),
