@@ -113,7 +113,7 @@ void check_pass(const std::string& name, const Meeting& meeting, int seeds) {
 }  // namespace
 
 TEST_CASE("two robots of one type pass each other head-on", "[system][pairs]") {
-  check_pass("head-on", kHeadOn, 1);
+  check_pass("head-on", kHeadOn, 2);
 }
 
 TEST_CASE("a robot overtakes a slow one of its type", "[system][pairs]") {
