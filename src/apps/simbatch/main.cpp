@@ -23,6 +23,7 @@
 #include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
 #include "orca/xml/number.hpp"
+#include "pack.hpp"
 #include "progress.hpp"
 #include "submission.hpp"
 #include "tables.hpp"
@@ -151,7 +152,10 @@ std::string make_runs(const Options& options, const batch::Experiment& experimen
   return "";
 }
 
-ExitCode run(const Options& options) {
+// Hears what the runs of a batch depend on, before the first of them.
+using Listener = std::function<void(const batch::Inputs&)>;
+
+ExitCode run(const Options& options, const Listener& listener = {}) {
   const std::optional<batch::Experiment> experiment = checked(options);
   if (!experiment) return ExitCode::bad_input;
   const std::filesystem::path folder = folder_of(options, *experiment);
@@ -168,8 +172,9 @@ ExitCode run(const Options& options) {
       results_in(folder).string(), batch::identity_of(*experiment),
       {std::filesystem::absolute(options.subject).lexically_normal().string(), options.plugins});
   if (!store) return refuse(store.error());
-  if (const Status kept = (*store)->keep(batch::inputs_of(*experiment)); !kept.ok())
-    return refuse(kept.error());
+  const batch::Inputs inputs = batch::inputs_of(*experiment);
+  if (listener) listener(inputs);
+  if (const Status kept = (*store)->keep(inputs); !kept.ok()) return refuse(kept.error());
   if (const Status declared = declare(*experiment, **store); !declared.ok()) return refuse(declared.error());
   if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
     std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
@@ -236,6 +241,53 @@ ExitCode join(const Options& options) {
   return refuse(taken.error());
 }
 
+// Packs results that are complete, and were made with the files that are there now.
+ExitCode pack(const Options& options) {
+  const std::optional<batch::Experiment> experiment = checked(options);
+  if (!experiment) return ExitCode::bad_input;
+  const std::filesystem::path folder = folder_of(options, *experiment);
+  const Result<std::unique_ptr<batch::Store>> store = open_results(folder);
+  if (!store) return refuse(store.error());
+  if ((*store)->identity() != batch::identity_of(*experiment))
+    return refuse(fail(Code::failed_precondition,
+                       in_quotes(folder.string()) + " holds results of another experiment than this one"));
+  if (const Status kept = (*store)->keep(batch::inputs_of(*experiment)); !kept.ok())
+    return refuse(kept.error());
+  if (const std::size_t missing = batch::MissingRuns(*experiment, **store, {}).count(); missing > 0)
+    return refuse(fail(Code::failed_precondition, std::to_string(missing) + " of " +
+                                                      std::to_string(experiment->run_count()) +
+                                                      " runs are missing; --resume makes them"));
+  const Result<std::filesystem::path> archive =
+      write_pack(*experiment, **store, folder, options.batch.plugin_folders);
+  if (!archive) return refuse(archive.error());
+  std::fprintf(stderr, "pack: %s\n", archive->c_str());
+  return ExitCode::done;
+}
+
+// Returns the folder for a repetition, "avoid_office.repeat" for avoid_office.pack.tar.gz.
+std::filesystem::path repeat_folder(const Options& options) {
+  if (!options.out.empty()) return options.out;
+  const std::string name = std::filesystem::path(options.subject).filename();
+  return name.substr(0, name.find('.')) + ".repeat";
+}
+
+ExitCode repeat(const Options& options) {
+  const std::filesystem::path folder = repeat_folder(options);
+  const bool goes_on = options.resume && std::filesystem::exists(folder);
+  const Result<Pack> pack = goes_on ? open_pack(folder) : unpack(options.subject, folder);
+  if (!pack) return refuse(pack.error());
+  Options again = options;
+  again.subject = pack->experiment;
+  again.out = folder / "batch";
+  const ExitCode made = run(again, [&](const batch::Inputs& now) {
+    const std::vector<std::string> others = other_programs(*pack, now);
+    if (!others.empty())
+      std::fprintf(stderr, "note: not built as for the pack: %s; the results show whether it matters\n",
+                   listed(others).c_str());
+  });
+  return made == ExitCode::done ? compare_with(*pack, std::filesystem::path(again.out) / "runs.csv") : made;
+}
+
 ExitCode table(const Options& options) {
   const Result<std::unique_ptr<batch::Store>> store = open_results(options.subject);
   if (!store) return refuse(store.error());
@@ -259,6 +311,8 @@ ExitCode act(const Options& options) {
       const std::optional<batch::Experiment> experiment = checked(options);
       return experiment ? submit(options, *experiment) : ExitCode::bad_input;
     }
+    case Options::Action::pack: return pack(options);
+    case Options::Action::repeat: return repeat(options);
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;
@@ -292,6 +346,8 @@ int main(int argc, char** argv) {
   orca::log::set_level(orca::log::Level::off);
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == kMakeAlone) return static_cast<int>(make_alone(words));
+  if (words.size() > 1 && words.front() == kListFiles)
+    return static_cast<int>(list_files({words.begin() + 1, words.end()}));
   orca::Result<Options> options = parse_options(words);
   if (!options) {
     std::fprintf(stderr, "error: %s\nsimbatch --help explains what there is\n",

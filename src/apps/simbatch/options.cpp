@@ -25,6 +25,8 @@ constexpr std::string_view kDetails =
   simbatch join avoid_office.*-of-7.batch --out all      the parts together, as if one machine had made all
   simbatch submit sim/experiments/barn.xml --slurm       the parts as jobs of a Slurm cluster, and their join
   simbatch diff before.batch after.batch                 the first run that differs, and the first delivery in it that does
+  simbatch pack sim/experiments/avoid_office.xml         avoid_office.batch/avoid_office.pack.tar.gz, for others to repeat
+  simbatch repeat avoid_office.pack.tar.gz               its runs once more, and whether they are the same to the last byte
 
 Each run is made in a process of its own, so one that crashes, hangs or takes too much memory costs no other; it is a result,
 too. Ctrl-C and kill -9 lose nothing that was finished. The same experiment gives the same bytes, whatever --jobs and the
@@ -45,6 +47,12 @@ constexpr std::string_view kSubmitDetails =
     "ended, and shows how far they are. A task that is cut off goes on where it was. Ctrl-C ends the looking "
     "on; with --resume it queues what is missing. sbatch reads its own settings, such as SBATCH_PARTITION; "
     "programs, experiment and folder must be at the same place on all nodes.";
+
+constexpr std::string_view kRepeatDetails =
+    "It unpacks NAME.pack.tar.gz into the folder NAME.repeat, or --out, checks that all files are as they "
+    "were, names the programs and plugins that are built otherwise here, makes all runs and compares "
+    "runs.csv byte for byte. With --resume it goes on. Exit status 0: the same, 1: different or not "
+    "finished, 2: the archive is damaged, and nothing was run.";
 
 const apps::Argument kExperiment{"EXPERIMENT.xml", apps::Names::file};
 
@@ -74,7 +82,14 @@ const apps::Program& program() {
                    {.name = "diff",
                     .arguments = {{"BEFORE"}, {"AFTER"}},
                     .text = "say which run differs first in two results, and in what",
-                    .details = kDiffDetails}},
+                    .details = kDiffDetails},
+                   {.name = "pack",
+                    .arguments = {kExperiment},
+                    .text = "put the experiment, all files that it reads and its results into one archive"},
+                   {.name = "repeat",
+                    .arguments = {{"PACK", apps::Names::file}},
+                    .text = "unpack an archive, make all its runs again, and compare the results",
+                    .details = kRepeatDetails}},
       .options = {{"--check", "", "only say what is wrong with the experiment and its graphs", false,
                    "Options"},
                   {"--out", "DIR",
@@ -105,11 +120,10 @@ Result<batch::Shard> read_shard(const std::string& value) {
 
 Options::Action action_of(const apps::Call& call) {
   using Action = Options::Action;
-  static const std::map<std::string_view, Action> all{{"export", Action::table},
-                                                      {"report", Action::report},
-                                                      {"diff", Action::diff},
-                                                      {"join", Action::join},
-                                                      {"submit", Action::submit}};
+  static const std::map<std::string_view, Action> all{{"export", Action::table},  {"report", Action::report},
+                                                      {"diff", Action::diff},     {"join", Action::join},
+                                                      {"submit", Action::submit}, {"pack", Action::pack},
+                                                      {"repeat", Action::repeat}};
   if (call.command != nullptr) return all.at(call.command->name);
   return call.has("--check") ? Action::check : Action::run;
 }

@@ -131,14 +131,15 @@ class ExperimentReader {
     return all;
   }
 
-  std::map<std::uint64_t, double> references(const Attributes& element) const {
+  std::map<std::uint64_t, double> references(const Attributes& element) {
     if (!element.has("references")) {
       if (element.has("column"))
         element.error_at("column", codes::kReferences, "a column needs the table, references");
       return {};
     }
-    auto read = read_references(path(element.text("references").value_or("")),
-                                element.text("column").value_or("reference"));
+    const std::string table = path(element.text("references").value_or(""));
+    auto read = read_references(table, element.text("column").value_or("reference"));
+    experiment_.tables.push_back(table);
     if (read) return std::move(read).value();
     element.error_at("references", codes::kReferences, read.error().message);
     return {};

@@ -81,6 +81,7 @@ struct Experiment {
   Duration until{0};                ///< Limit of each run [s of its clock].
   Duration limit{0};                ///< Limit of each run [s of the wall clock].
   std::uint64_t memory_limit = 0;   ///< [bytes] of address space of each run.
+  std::vector<std::string> tables{};  ///< Paths of the tables of references that were read.
 
   [[nodiscard]] std::size_t run_count() const { return variants.size() * worlds.size() * seeds.size(); }
   /// Returns a run. Those that differ in the variant only stand together, so that what a stopped batch has finished can be

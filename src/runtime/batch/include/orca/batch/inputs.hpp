@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "orca/batch/experiment.hpp"
 #include "orca/batch/one_run.hpp"
@@ -25,5 +28,15 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
 /// @pre  check_graphs() was called, and found no errors.
 /// @thread  any.
 [[nodiscard]] Inputs inputs_of(const Experiment& experiment);
+
+/// Returns the files that an experiment's runs read: its own, its tables of references, and all that its graphs include, name or
+/// that their worlds lead to. Plugins are not among them. Absolute paths, without links, each once, sorted.
+/// @pre  check_graphs() was called, and found no errors.
+/// @thread  any.
+[[nodiscard]] std::vector<std::string> files_of(const Experiment& experiment);
+
+/// Returns a hash of a file's content, which shows a change that nobody wanted to hide; nothing if it is no file, or cannot be read.
+/// @thread  any.
+[[nodiscard]] std::optional<std::string> content_hash(const std::string& file);
 
 }  // namespace orca::batch
