@@ -88,6 +88,7 @@ TEST_CASE("a pack repeats byte for byte in another folder, by one command, when 
   CHECK(run.exit_code() == 0);
   CHECK_THAT(run.out, Contains("the same: all 8 runs, byte for byte"));
   CHECK_FALSE(run.says("not built as for the pack"));
+  CHECK_THAT(text_in(elsewhere / "drive.repeat/provenance.json"), Contains("\"made\": ["));
   CHECK(text_in(elsewhere / "drive.repeat/runs.csv") == exported(elsewhere / "drive.repeat/batch"));
   const Run again = in_folder(elsewhere, kProgram + " repeat drive.pack.tar.gz");
   CHECK(again.exit_code() == 2);

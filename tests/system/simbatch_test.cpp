@@ -149,24 +149,51 @@ TEST_CASE("a run of a batch is that of the deployer", "[system][batch]") {
   CHECK(found);
 }
 
-TEST_CASE("the command in a report makes a run without success again", "[system][batch]") {
+TEST_CASE("the command in a report makes a run without success again, in the experiment's folder",
+          "[system][batch]") {
   const TempFolder folder;
+  folder.write("office.xml", text_in(source_file("sim/worlds/office.xml")));
   const std::string experiment =
       folder.write("short.xml", "<experiment name=\"short\" seeds=\"7\" until=\"5 s\" graph=\"" +
                                     source_file("graphs/pioneer_laser_goto.xml") +
-                                    "\"><variant name=\"a\"/><world name=\"harsh\"><set arg=\"realism\" "
+                                    "\"><variant name=\"a\"/><world name=\"harsh\"><set arg=\"world\" "
+                                    "file=\"office.xml\"/><set arg=\"realism\" "
                                     "value=\"harsh\"/></world></experiment>");
   const std::string table = batch(experiment, folder.file("out"));
   const std::string page = text_in(folder.file("out") + "/report.md");
   CHECK_THAT(page, Contains("a in harsh, seed 7: time_out"));
-  const std::size_t begin = page.find("deployer '");
+  const std::size_t begin = page.find("deployer ");
   REQUIRE(begin != std::string::npos);
   const std::string command = page.substr(begin, page.find('\n', begin) - begin);
-  Subprocess program(Words{"/bin/sh", "-c", ORCA_BINARY_DIR "/bin/" + command});
+  Subprocess program(
+      Words{"/bin/sh", "-c", "cd " + folder.path().string() + "; " ORCA_BINARY_DIR "/bin/" + command});
   const Run run = finish(program, Seconds(60 * kSlowdown));
   const std::string hash = split_lines(run.out).back();
   REQUIRE(hash.starts_with("trace-hash "));
   CHECK_THAT(table, Contains(hash.substr(11)));
+}
+
+TEST_CASE("pages and provenance.json say what made the results, of what, and hold no path of a machine",
+          "[system][batch]") {
+  const TempFolder folder;
+  folder.write("office.xml", text_in(source_file("sim/worlds/office.xml")));
+  const std::string experiment = folder.write(
+      "short.xml",
+      "<experiment name=\"short\" seeds=\"1-3\" until=\"1 s\" graph=\"" +
+          source_file("graphs/pioneer_laser_goto.xml") +
+          "\"><variant name=\"a\"/><variant name=\"b\"><set arg=\"avoid\" value=\"orca.VfhPlus\"/>"
+          "</variant><world name=\"w\"><set arg=\"world\" file=\"office.xml\"/><set "
+          "arg=\"realism\" value=\"nominal\"/></world></experiment>");
+  (void)batch(experiment, folder.file("out"));
+  const std::string json = text_in(folder.file("out") + "/provenance.json");
+  const std::string page = text_in(folder.file("out") + "/report.md");
+  CHECK_THAT(json, Contains("\"by\": \"orca 0.1.0, ") && Contains("\"since\": \"20"));
+  CHECK_THAT(json, Contains("\"seeds\": \"1-3\"") && Contains("\"b\": \"orca.VfhPlus\""));
+  CHECK_THAT(json, Contains("\"world=office.xml\"") && Contains("\"program simbatch\": \""));
+  CHECK_THAT(page, Contains("| avoid | as in the graph | orca.VfhPlus |") &&
+                       Contains("| seeds | 1-3 |\n| realism | nominal |"));
+  CHECK_THAT(page, Contains(text_in(experiment)) && Contains("| plugin vfh_plus.so | "));
+  for (const std::string& text : {json, page}) CHECK_THAT(text, !Contains(folder.path().string()));
 }
 
 TEST_CASE("a report can be made again, and needs results", "[system][batch]") {

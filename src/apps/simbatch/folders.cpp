@@ -3,6 +3,7 @@
 #include "folders.hpp"
 
 #include <cstdio>
+#include <fstream>
 
 #include "orca/base/text.hpp"
 
@@ -24,6 +25,13 @@ batch::BatchOptions with_plugins(batch::BatchOptions options, const std::vector<
   options.plugin_folders = {(own.parent_path().parent_path() / "plugins").string()};
   options.plugin_folders.insert(options.plugin_folders.end(), folders.begin(), folders.end());
   return options;
+}
+
+std::string build_text() {
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  std::ifstream file(own.parent_path().parent_path() / "build.txt");
+  std::string text;
+  return std::getline(file, text) ? text : "a build that says nothing of itself";
 }
 
 ExitCode refuse(const Error& error) {

@@ -23,6 +23,9 @@ namespace orca::simbatch {
 [[nodiscard]] batch::BatchOptions with_plugins(batch::BatchOptions options,
                                                const std::vector<std::string>& folders);
 
+/// Returns what this program was built of: "orca 0.1.0, GNU 12.2.0, Release; commit 2e36618e1c3a".
+[[nodiscard]] std::string build_text();
+
 /// Says an error on stderr.
 ExitCode refuse(const Error& error);
 

@@ -85,8 +85,9 @@ ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
   if (!made) return refuse(made.error());
   if (const Status written = write_tables(store, folder); !written.ok()) return could_not_write(written);
   for (const auto& [name, text] :
-       {std::pair("report.html", &made->html), std::pair("report.md", &made->markdown)}) {
-    if (const Status written = write_file(folder / name, *text); !written.ok())
+       {std::pair("report.html", made->html), std::pair("report.md", made->markdown),
+        std::pair("provenance.json", batch::provenance_json(experiment, store))}) {
+    if (const Status written = write_file(folder / name, text); !written.ok())
       return could_not_write(written);
   }
   std::fputs(made->summary.c_str(), stdout);
@@ -113,6 +114,11 @@ std::string date_of_now() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts);
   return text;
+}
+
+// Keeps which build makes runs, from the first of them on.
+Status declare_build(batch::Store& store) {
+  return store.declare({{batch::kBuildDeclaration, build_text(), date_of_now()}});
 }
 
 // Keeps what the experiment asks, before anybody looks at an answer.
@@ -176,6 +182,7 @@ ExitCode run(const Options& options, const Listener& listener = {}) {
   if (listener) listener(inputs);
   if (const Status kept = (*store)->keep(inputs); !kept.ok()) return refuse(kept.error());
   if (const Status declared = declare(*experiment, **store); !declared.ok()) return refuse(declared.error());
+  if (const Status declared = declare_build(**store); !declared.ok()) return refuse(declared.error());
   if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
     std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
     return ExitCode::could_not_finish;

@@ -17,6 +17,7 @@
 #include "orca/base/files/open_output.hpp"
 #include "orca/base/text.hpp"
 #include "orca/batch/inputs.hpp"
+#include "orca/batch/report.hpp"
 #include "orca/xml/document.hpp"
 #include "tables.hpp"
 
@@ -135,6 +136,7 @@ Status write_texts(const batch::Experiment& experiment, const batch::Store& stor
   std::snprintf(how, sizeof how, kHowToRepeat, experiment.name.c_str(), (kFiles / place).c_str());
   for (const auto& [name, text] : {std::pair<const char*, std::string>{kRuns, runs},
                                    {"REPEAT.md", how},
+                                   {"provenance.json", batch::provenance_json(experiment, store)},
                                    {kContents, contents_of(folder / kFiles, place, store.inputs())}})
     if (Status written = write(folder / name, text); !written.ok()) return written;
   return ok();

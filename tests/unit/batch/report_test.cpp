@@ -89,7 +89,7 @@ TEST_CASE("a failed run is shown with its kind and the command that makes it aga
   CHECK_THAT(page, Contains("bad in w10, seed 1: time_out, trap"));
   CHECK_THAT(
       page,
-      Contains("deployer '/top/g.xml' --clock virtual --seed 1 --until '200 s' --set 'a=it'\\''s <1>'"));
+      Contains("deployer 'g.xml' --clock virtual --seed 1 --until '200 s' --set 'a=it'\\''s <1>'"));
   CHECK_THAT(page, Contains("And 2 more of bad: time_out, trap"));
 }
 

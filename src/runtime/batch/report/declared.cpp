@@ -14,19 +14,6 @@ namespace {
 
 constexpr std::size_t kListed = 12;
 
-// Returns numbers as ranges, "1-5 9".
-std::string ranges_text(const std::vector<std::uint64_t>& numbers) {
-  std::string text;
-  for (std::size_t begin = 0; begin < numbers.size();) {
-    std::size_t end = begin + 1;
-    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-    text += (text.empty() ? "" : " ") + std::to_string(numbers[begin]);
-    if (end - begin > 1) text += "-" + std::to_string(numbers[end - 1]);
-    begin = end;
-  }
-  return text;
-}
-
 // Returns the names of worlds, or how many each family has where they are many. Two lists of equal length differ by the number at the end.
 std::string worlds_text(const std::vector<World>& worlds) {
   std::vector<std::string> names;
@@ -46,6 +33,18 @@ std::string worlds_text(const std::vector<World>& worlds) {
 
 }  // namespace
 
+std::string ranges_text(const std::vector<std::uint64_t>& numbers) {
+  std::string text;
+  for (std::size_t begin = 0; begin < numbers.size();) {
+    std::size_t end = begin + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    text += (text.empty() ? "" : " ") + std::to_string(numbers[begin]);
+    if (end - begin > 1) text += "-" + std::to_string(numbers[end - 1]);
+    begin = end;
+  }
+  return text;
+}
+
 std::vector<Declaration> declarations_of(const Experiment& experiment, const std::string& date) {
   std::vector<std::string> contrasts;
   for (const Contrast& contrast : experiment.contrasts) contrasts.push_back(contrast.text());
@@ -56,7 +55,8 @@ std::vector<Declaration> declarations_of(const Experiment& experiment, const std
           {"worlds", worlds_text(experiment.worlds), date}};
 }
 
-void add_declarations(const std::vector<Declaration>& declarations, Document& document) {
+void add_declarations(std::vector<Declaration> declarations, Document& document) {
+  std::erase_if(declarations, [](const Declaration& one) { return one.what == kBuildDeclaration; });
   if (declarations.empty()) return;
   document.add(Heading{"What was declared, and when"});
   std::map<std::string, std::size_t> seen;

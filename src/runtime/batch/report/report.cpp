@@ -14,6 +14,7 @@
 #include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "plots.hpp"
+#include "provenance.hpp"
 
 namespace orca::batch {
 namespace {
@@ -22,10 +23,11 @@ constexpr std::size_t kShownWorlds = 6;
 constexpr std::size_t kListedWorlds = 12;  // as many as a reader looks at one by one
 constexpr std::size_t kShownFailures = 3;  // of a variant and kind
 
-std::string settings_text(const std::vector<Setting>& settings,
+std::string settings_text(const Experiment& experiment, const std::vector<Setting>& settings,
                           const std::vector<std::string>& profiles = {}) {
   std::string text = profiles.empty() ? "" : "profile " + joined(profiles, " ");
-  for (const Setting& setting : settings) text += (text.empty() ? "" : ", ") + setting.text();
+  for (const Setting& setting : settings)
+    text += (text.empty() ? "" : ", ") + setting.name + "=" + from_folder_of(experiment, setting.value);
   return text;
 }
 
@@ -59,6 +61,7 @@ class Writer {
     tracks();
     failures();
     add_declarations(store_.declarations(), document_);
+    add_provenance(experiment_, store_, document_);
     return std::move(document_);
   }
 
@@ -71,11 +74,12 @@ class Writer {
         "simulator: they belong beside others of the same simulator, not beside those of another one."});
     Table table{{"variant", "graph", "settings"}, {}};
     for (const Variant& variant : experiment_.variants)
-      table.rows.push_back({variant.name, variant.graph, settings_text(variant.settings, variant.profiles)});
+      table.rows.push_back({variant.name, from_folder_of(experiment_, variant.graph),
+                            settings_text(experiment_, variant.settings, variant.profiles)});
     document_.add(std::move(table));
     warn_of_dependent();
     if (!experiment_.settings.empty())
-      document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_.settings)});
+      document_.add(Paragraph{"Settings of all runs: " + settings_text(experiment_, experiment_.settings)});
   }
 
   // Names each variant that was not the same when it was made again, with the first run that was not.
@@ -332,7 +336,10 @@ class Writer {
       if (row.outcome.ending == Ending::success) continue;
       const std::string kind = kind_of(row.outcome);
       if (shown[{row.variant, kind}]++ >= kShownFailures) continue;
-      if (is_first) document_.add(Heading{"Runs without success"});
+      if (is_first) {
+        document_.add(Heading{"Runs without success"});
+        document_.add(Paragraph{"Each command makes its run again, in the folder of the experiment."});
+      }
       is_first = false;
       document_.add(Paragraph{row.variant + " in " + row.world + ", seed " + std::to_string(row.seed) + ": " +
                               kind + (row.outcome.reason.empty() ? "" : " (" + row.outcome.reason + ")")});
@@ -373,16 +380,25 @@ class Writer {
   Document document_;
 };
 
+// Returns "NAME=VALUE" as a word for a shell in the experiment's folder. A path must stay absolute: a graph would read it from its own folder on.
+std::string setting_word(const Experiment& experiment, const std::string& setting) {
+  const std::size_t value = setting.find('=') + 1;
+  const std::string relative = from_folder_of(experiment, setting.substr(value));
+  if (relative == setting.substr(value)) return in_shell_quotes(setting);
+  return in_shell_quotes(setting.substr(0, value)) + "\"$PWD\"/" + in_shell_quotes(relative);
+}
+
 }  // namespace
 
 std::string replay_command(const Experiment& experiment, const Run& run) {
   const Variant& variant = experiment.variants[run.variant];
-  std::string text = "deployer " + in_shell_quotes(variant.graph);
+  std::string text = "deployer " + in_shell_quotes(from_folder_of(experiment, variant.graph));
   for (const std::string& profile : variant.profiles) text += " --profile " + in_shell_quotes(profile);
   text += " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
           in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
   if (variant.computing != 1.0) text += " --computing " + xml::number_text(variant.computing);
-  for (const std::string& setting : experiment.settings_of(run)) text += " --set " + in_shell_quotes(setting);
+  for (const std::string& setting : experiment.settings_of(run))
+    text += " --set " + setting_word(experiment, setting);
   return text;
 }
 

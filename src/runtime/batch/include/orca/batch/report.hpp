@@ -25,7 +25,15 @@ struct Report {
 /// @thread  one thread, which may use the store.
 [[nodiscard]] Result<Report> make_report(const Experiment& experiment, const Store& store);
 
-/// Returns the command that makes one run again, alone.
+/// The Declaration::what of the builds that made runs. Its text is for people.
+inline constexpr const char* kBuildDeclaration = "build";
+
+/// Returns where results come from, as one JSON value: builds with the date of the first run of each, hashes of programs, plugins
+/// and files, seeds, realism, the parameters in which variants differ, settings of worlds, and the experiment's text. Paths start
+/// at the experiment's folder.
+[[nodiscard]] std::string provenance_json(const Experiment& experiment, const Store& store);
+
+/// Returns the command that makes one run again, alone, for a shell in the experiment's folder.
 [[nodiscard]] std::string replay_command(const Experiment& experiment, const Run& run);
 
 }  // namespace orca::batch

@@ -34,7 +34,7 @@ using Inputs = std::map<std::string, std::string>;
 
 /// Something that an experiment declares before its results are looked at. A plain value.
 struct Declaration {
-  std::string what;  ///< "metrics", "contrasts", "seeds" or "worlds".
+  std::string what;  ///< "metrics", "contrasts", "seeds" or "worlds"; or kBuildDeclaration.
   std::string text;  ///< For people.
   std::string date;  ///< The first time that it was declared, "2026-11-28 21:40 UTC".
 };
