@@ -108,6 +108,34 @@ TEST_CASE("reversals are counted per metre, and slow turns are none", "[batch][m
   CHECK(measure(trembling, {}).reversals == 0.0);
 }
 
+TEST_CASE("the mean absolute curvature of a circle is one by its radius, whichever way it turns",
+          "[batch][measures]") {
+  const double speed = 0.5;
+  const double turn = 0.25;  // a radius of 2 m
+  const auto circle = [&](double sign) {
+    return driven(
+        20.0, [=](double) { return speed; }, [=](double) { return sign * turn; });
+  };
+  for (const double sign : {-1.0, 1.0})
+    CHECK(measure(circle(sign), {.succeeded = true, .end = at(20.0)}).curvature.value() == Approx(0.5));
+  const auto to_and_fro = driven(
+      20.0, [=](double) { return speed; }, [=](double t) { return t < 9.95 ? turn : -turn; });
+  CHECK(measure(to_and_fro, {.succeeded = true, .end = at(20.0)}).curvature.value() == Approx(0.5));
+  CHECK(measure(straight(10.0, 0.5), {}).curvature == 0.0);
+  CHECK_FALSE(measure(straight(10.0, 0.0), {}).curvature);
+}
+
+TEST_CASE("the mean clearance is that along the way: while a robot stands it does not count",
+          "[batch][measures]") {
+  Scene scene = driven(
+      20.0, [](double t) { return t < 9.95 ? 0.5 : 0.0; }, [](double) { return 0.0; });
+  std::vector<Scene::Step>& steps = scene.robots[0].motion;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    steps[i].clearance_m = i <= 100 ? 1.0 - 0.005 * static_cast<double>(i) : 2.0;
+  CHECK(measure(scene, {}).clearance_mean.value() == Approx(0.75));  // from 1 m to 0.5 m, evenly
+  CHECK_FALSE(measure(straight(10.0, 0.0), {}).clearance_mean);
+}
+
 TEST_CASE("a way is compared with the world's reference", "[batch][measures]") {
   const RunEnd end{.succeeded = true, .end = at(10.0), .reference = 4.0};
   const Measures measures = measure(straight(10.0, 0.5), end);

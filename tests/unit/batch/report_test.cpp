@@ -81,15 +81,27 @@ TEST_CASE("a metric that there is not is refused", "[batch][report]") {
              Contains("there is no metric \"tme\"") && Contains("did you mean \"time\"?"));
 }
 
+TEST_CASE("metrics that no run has are named with what they need", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 20);
+  add(rows, "good", 20);
+  const std::string page = report_on(rows).markdown;
+  CHECK_THAT(page, Contains("No run has time: it takes a success."));
+  CHECK_THAT(
+      page,
+      Contains("No run has people_touched, people_run_into, near_misses: it takes a world with people."));
+  CHECK_THAT(page, Contains("No run has way, jerk: it takes a success and a simulated robot."));
+  CHECK_THAT(page, !Contains("No run has clearance:"));
+}
+
 TEST_CASE("a failed run is shown with its kind and the command that makes it again", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad", 5);
   add(rows, "good", 0);
   const std::string page = report_on(rows).markdown;
   CHECK_THAT(page, Contains("bad in w10, seed 1: time_out, trap"));
-  CHECK_THAT(
-      page,
-      Contains("deployer 'g.xml' --clock virtual --seed 1 --until '200 s' --set 'a=it'\\''s <1>'"));
+  CHECK_THAT(page,
+             Contains("deployer 'g.xml' --clock virtual --seed 1 --until '200 s' --set 'a=it'\\''s <1>'"));
   CHECK_THAT(page, Contains("And 2 more of bad: time_out, trap"));
 }
 

@@ -27,29 +27,46 @@ constexpr std::size_t kManyReversals = 10;
 constexpr double kHasMoved = 0.1;   // [m]
 constexpr double kBestSpeed = 2.0;  // [m/s]
 
+// What a run needs to have a measure.
+constexpr const char* kReference = "a world with a reference";
+constexpr const char* kPeople = "a world with people";
+constexpr const char* kContact = "a contact";
+constexpr const char* kGoals = "goals of the experiment";
+constexpr const char* kRobot = "a simulated robot";
+constexpr const char* kMotion = "a simulated robot that moves";
+
 constexpr std::array kMeasures{
-    Measure{"claimed", "", "Goals that components said were reached.", &Measures::claimed},
+    Measure{"claimed", "", "Goals that components said were reached.", &Measures::claimed, kGoals},
     Measure{"claimed_wrongly", "", "Those that they said while the robot was not there.",
-            &Measures::claimed_wrongly},
-    Measure{"not_claimed", "", "Goals that robots reached and no component said so.", &Measures::not_claimed},
-    Measure{"way", "m", "True way of all robots.", &Measures::way},
-    Measure{"way_ratio", "", "The way divided by the world's reference; 1 is best.", &Measures::way_ratio},
+            &Measures::claimed_wrongly, kGoals},
+    Measure{"not_claimed", "", "Goals that robots reached and no component said so.", &Measures::not_claimed,
+            kGoals},
+    Measure{"way", "m", "True way of all robots.", &Measures::way, kRobot},
+    Measure{"way_ratio", "", "The way divided by the world's reference; 1 is best.", &Measures::way_ratio,
+            kReference},
     Measure{"spl", "", "Success weighted by path length: 1 / way_ratio, at most 1, and 0 without success.",
-            &Measures::spl},
+            &Measures::spl, kReference},
     Measure{"barn_score", "", "Score of the BARN benchmark: of the reference at 2 m/s, 0.5 at best.",
-            &Measures::barn_score},
+            &Measures::barn_score, kReference},
     Measure{"clearance", "m", "Smallest distance to anything that a robot could touch, at most 2 m.",
-            &Measures::clearance},
-    Measure{"clearance_p5", "m", "Distance that was kept in 95 % of the time.", &Measures::clearance_p5},
+            &Measures::clearance, kRobot},
+    Measure{"clearance_p5", "m", "Distance that was kept in 95 % of the time.", &Measures::clearance_p5,
+            kRobot},
+    Measure{"clearance_mean", "m", "Mean distance along the way: the area under it, divided by the way.",
+            &Measures::clearance_mean, kMotion},
+    Measure{"curvature", "1/m", "Mean absolute curvature: all turns, to either side, divided by the way.",
+            &Measures::curvature, kMotion},
     Measure{"jerk", "m/s3", "Root of the mean square of the forward jerk, of speeds over half a second.",
-            &Measures::jerk},
-    Measure{"reversals", "1/m", "Changes between turning left and right, per metre.", &Measures::reversals},
-    Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed},
-    Measure{"people_touched", "", "Touches between a robot and a person.", &Measures::people_touched},
+            &Measures::jerk, kRobot},
+    Measure{"reversals", "1/m", "Changes between turning left and right, per metre.", &Measures::reversals,
+            kMotion},
+    Measure{"impact_speed", "m/s", "Speed at the first contact.", &Measures::impact_speed, kContact},
+    Measure{"people_touched", "", "Touches between a robot and a person.", &Measures::people_touched,
+            kPeople},
     Measure{"people_run_into", "", "Those in which the robot moved, by more than 0.05 m/s.",
-            &Measures::people_run_into},
+            &Measures::people_run_into, kPeople},
     Measure{"near_misses", "", "Times that a robot came nearer than 0.3 m to a person and touched nobody.",
-            &Measures::near_misses}};
+            &Measures::near_misses, kPeople}};
 
 constexpr std::array<std::pair<Failure, const char*>, 8> kFailures{{{Failure::none, ""},
                                                                     {Failure::crash, "crash"},
@@ -115,10 +132,14 @@ Measures measure(const Scene& scene, const RunEnd& end) {
   std::vector<double> jerks;
   std::size_t reversals = 0;
   double way = 0.0;
+  double turned = 0.0;
+  double area = 0.0;
   for (const Steps& steps : motions) {
     way += way_of(steps);
     const std::vector<Stretch> stretches = stretches_of(steps);
     reversals += reversals_in(stretches);
+    turned += turn_of(steps);
+    area += area_under_clearance(steps);
     for (const Scene::Step& step : steps) clearances.push_back(step.clearance_m);
     if (!stretches.empty()) add_jerks(stretches, to_seconds(steps[kStretch].time - steps[0].time), jerks);
   }
@@ -126,7 +147,11 @@ Measures measure(const Scene& scene, const RunEnd& end) {
   measures.clearance = std::ranges::min(clearances);
   measures.clearance_p5 = quantile(clearances, 0.05).value();
   if (!jerks.empty()) measures.jerk = root_mean_square(jerks);
-  if (way > kHasMoved) measures.reversals = static_cast<double>(reversals) / way;
+  if (way > kHasMoved) {
+    measures.reversals = static_cast<double>(reversals) / way;
+    measures.curvature = turned / way;
+    measures.clearance_mean = area / way;
+  }
   if (end.first_contact)
     for (const Steps& steps : motions)
       measures.impact_speed =

@@ -66,6 +66,20 @@ std::vector<Stretch> stretches_of(std::span<const Scene::Step> steps) {
   return stretches;
 }
 
+double turn_of(std::span<const Scene::Step> steps) {
+  double turn = 0.0;
+  for (std::size_t i = kStretch; i < steps.size(); i += kStretch)
+    turn += std::fabs(wrapped(steps[i].pose.yaw - steps[i - kStretch].pose.yaw));
+  return turn;
+}
+
+double area_under_clearance(std::span<const Scene::Step> steps) {
+  double area = 0.0;
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    area += way_between(steps[i - 1], steps[i]) * 0.5 * (steps[i - 1].clearance_m + steps[i].clearance_m);
+  return area;
+}
+
 std::size_t reversals_in(std::span<const Stretch> stretches) {
   std::size_t count = 0;
   double last = 0.0;

@@ -31,6 +31,10 @@ inline constexpr std::size_t kStretch = 5;  ///< Steps of a Stretch.
 
 /// Returns the stretches that follow each other.
 [[nodiscard]] std::vector<Stretch> stretches_of(std::span<const Scene::Step> steps);
+/// Returns the angle of all turns of half a second each, to either side [rad]. The last steps that make up no half second do not count.
+[[nodiscard]] double turn_of(std::span<const Scene::Step> steps);
+/// Returns the integral of the clearance over the way [m2], linear between steps.
+[[nodiscard]] double area_under_clearance(std::span<const Scene::Step> steps);
 /// Returns how often a turn to one side followed one to the other. Turns slower than 0.1 rad/s count as straight on.
 [[nodiscard]] std::size_t reversals_in(std::span<const Stretch> stretches);
 /// Adds the second differences of the forward speed by the square of the time between two stretches [m/s3].

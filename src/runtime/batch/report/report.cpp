@@ -207,6 +207,17 @@ class Writer {
     document_.add(std::move(table));
     document_.add(Paragraph{
         "Means with intervals of 95 %; after the semicolon the mean of the middle half of the runs."});
+    name_missing();
+  }
+
+  // Names the metrics that no run has, by what they need.
+  void name_missing() {
+    std::map<std::string, std::vector<std::string>> missing;
+    for (const Metric& metric : all_metrics())
+      if (std::ranges::none_of(rows_, [&](const Row& row) { return metric.of(row.outcome).has_value(); }))
+        missing[metric.needs].push_back(metric.name);
+    for (const auto& [needs, names] : missing)
+      document_.add(Paragraph{"No run has " + listed(names) + ": it takes " + needs + "."});
   }
 
   static std::string summary_text(const Summary& summary, const Metric& metric) {

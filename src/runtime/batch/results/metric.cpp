@@ -7,17 +7,20 @@
 namespace orca::batch {
 namespace {
 
-constexpr std::array kBetterWhenMore{"success", "spl", "barn_score", "clearance", "clearance_p5"};
+constexpr std::array kBetterWhenMore{"success",   "spl",          "barn_score",
+                                     "clearance", "clearance_p5", "clearance_mean"};
 // The metrics of finished runs only: those of an unfinished one cannot be compared with them.
-constexpr std::array kOfSuccesses{"time", "way", "way_ratio", "jerk", "reversals"};
+constexpr std::array kOfSuccesses{"time", "way", "way_ratio", "curvature", "jerk", "reversals"};
 
 bool is_among(const auto& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
 Metric metric(const char* name, const char* unit, const char* text,
-              std::optional<double> Measures::*measure = nullptr) {
-  return {name, unit, text, is_among(kBetterWhenMore, name), is_among(kOfSuccesses, name), measure};
+              std::optional<double> Measures::*measure = nullptr, const std::string& needs = "") {
+  const bool of_successes = is_among(kOfSuccesses, name);
+  const std::string success = !of_successes ? "" : needs.empty() ? "a success" : "a success and ";
+  return {name, unit, text, is_among(kBetterWhenMore, name), of_successes, measure, success + needs};
 }
 
 std::vector<Metric> listed_metrics() {
@@ -25,7 +28,7 @@ std::vector<Metric> listed_metrics() {
       metric("success", "", "Share of the runs that reached all goals and touched nothing."),
       metric("time", "s", "Simulated time until the last goal was reached.")};
   for (const Measure& one : all_measures())
-    metrics.push_back(metric(one.name, one.unit, one.text, one.value));
+    metrics.push_back(metric(one.name, one.unit, one.text, one.value, one.needs));
   return metrics;
 }
 

@@ -43,6 +43,8 @@ struct Measures {
   std::optional<double> barn_score{};
   std::optional<double> clearance{};
   std::optional<double> clearance_p5{};
+  std::optional<double> clearance_mean{};
+  std::optional<double> curvature{};
   std::optional<double> jerk{};
   std::optional<double> reversals{};
   std::optional<double> impact_speed{};
@@ -58,6 +60,7 @@ struct Measure {
   const char* unit;  ///< "" for a ratio.
   const char* text;
   std::optional<double> Measures::*value;
+  const char* needs;  ///< What a run has to have for it, "a world with people".
 };
 
 /// Returns all measures, in the order of the columns.
