@@ -57,7 +57,7 @@ class Way {
     REQUIRE(waits_for("cart 1 moves"));
   }
 
-  bool waits_for(const std::string& text) { return program_.wait_for_output(text, Seconds(20) * kSlowdown); }
+  bool waits_for(const std::string& text) { return program_.wait_for_output(text, Seconds(60) * kSlowdown); }
   static Run swap(const std::string& plugin, const Words& more = {}) {
     return run_orcactl(Words{"swap", "cart", plugin} + more);
   }
