@@ -78,6 +78,20 @@ ExitCode could_not_write(const Status& written) {
   return ExitCode::could_not_finish;
 }
 
+// Writes drawings and tables for a paper, and removes those of an earlier report, which may have had more.
+Status write_files(const batch::Report& report, const std::filesystem::path& folder) {
+  for (const auto& [name, end] : {std::pair("figures", ".svg"), std::pair("tables", ".tex")}) {
+    std::error_code error;
+    std::filesystem::create_directories(folder / name, error);
+    if (error) return fail(Code::unavailable, (folder / name).string() + ": " + error.message());
+    for (const auto& old : std::filesystem::directory_iterator(folder / name))
+      if (old.path().extension() == end) std::filesystem::remove(old.path(), error);
+  }
+  for (const auto& [name, text] : report.files)
+    if (Status written = write_file(folder / name, text); !written.ok()) return written;
+  return ok();
+}
+
 // Writes tables and report beside the results, and says the most important on stdout.
 ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
                 const std::filesystem::path& folder) {
@@ -90,6 +104,7 @@ ExitCode report(const batch::Experiment& experiment, const batch::Store& store,
     if (const Status written = write_file(folder / name, text); !written.ok())
       return could_not_write(written);
   }
+  if (const Status written = write_files(*made, folder); !written.ok()) return could_not_write(written);
   std::fputs(made->summary.c_str(), stdout);
   std::fputs(laps_summary(store).c_str(), stderr);
   std::fprintf(stderr, "report: %s\n", (folder / "report.html").c_str());

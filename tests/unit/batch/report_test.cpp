@@ -17,6 +17,8 @@
 using namespace orca;
 using namespace orca::batch;
 using Catch::Contains;
+using Catch::EndsWith;
+using Catch::StartsWith;
 using orca::test::TempFolder;
 
 TEST_CASE("a clear difference between two variants is called established", "[batch][report]") {
@@ -79,6 +81,27 @@ TEST_CASE("a metric that there is not is refused", "[batch][report]") {
                       "e.xml", diagnostics));
   CHECK_THAT(diagnostics.text(),
              Contains("there is no metric \"tme\"") && Contains("did you mean \"time\"?"));
+}
+
+TEST_CASE("each drawing is an SVG file of its own, each table a LaTeX file", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad_one", 5);
+  add(rows, "good", 0);
+  const Report report = report_on(rows);
+  for (const char* name : {"figures/times-and-speeds-1.svg", "figures/where-they-drove-1.svg",
+                           "figures/where-they-drove-2.svg", "figures/runs-without-success-1.svg"}) {
+    CAPTURE(name);
+    const std::string& drawing = report.files.at(name);
+    xml::Diagnostics diagnostics;
+    CHECK(xml::read_text(drawing, name, diagnostics));
+    CHECK(diagnostics.text().empty());
+    CHECK_THAT(report.html, Contains(drawing.substr(drawing.find("</desc>") + 7)));
+  }
+  CHECK_THAT(report.files.at("figures/times-and-speeds-1.svg"),
+             Contains("<desc>Share of the runs that were done"));
+  const std::string& table = report.files.at("tables/success-1.tex");
+  CHECK_THAT(table, StartsWith("\\begin{tabular}{lllll}\n\\hline\nvariant & runs & success (95 \\%)"));
+  CHECK_THAT(table, Contains("\nbad\\_one & 20 & 75.0 \\% (") && EndsWith("\\hline\n\\end{tabular}\n"));
 }
 
 TEST_CASE("metrics that no run has are named with what they need", "[batch][report]") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <variant>
@@ -44,5 +45,8 @@ struct Document {
 /// Returns one self-contained page, which is well-formed XML too.
 [[nodiscard]] std::string to_html(const Document& document);
 [[nodiscard]] std::string to_markdown(const Document& document);
+/// Returns each drawing as an SVG file with its caption as the description, and each table as a LaTeX file with a plain tabular. The
+/// names have the section's heading and a number: "figures/times-and-speeds-1.svg", "tables/success-1.tex".
+[[nodiscard]] std::map<std::string, std::string> to_files(const Document& document);
 
 }  // namespace orca::batch

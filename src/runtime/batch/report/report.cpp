@@ -429,7 +429,7 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   for (const Difference& difference : result->differences)
     summary += line_of(difference) + families_text(difference, *result) + "\n";
   for (const Contrast& contrast : result->unanswered) summary += line_of(contrast) + "\n";
-  return Report{to_html(document), to_markdown(document), std::move(summary)};
+  return Report{to_html(document), to_markdown(document), to_files(document), std::move(summary)};
 }
 
 }  // namespace orca::batch

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace orca::batch {
 struct Report {
   std::string html;      ///< Self-contained, with plots.
   std::string markdown;  ///< The same without plots.
-  std::string summary;   ///< The findings, established or not, a line each, for a terminal.
+  std::map<std::string, std::string>
+      files;            ///< Drawings and tables for a paper: path from the pages' folder on, and content.
+  std::string summary;  ///< The findings, established or not, a line each, for a terminal.
 };
 
 /// Returns what an experiment declares: its metrics, contrasts, seeds and worlds.
