@@ -27,7 +27,7 @@ constexpr std::size_t kManyReversals = 10;
 constexpr double kHasMoved = 0.1;   // [m]
 constexpr double kBestSpeed = 2.0;  // [m/s]
 
-// What a run needs to have a measure.
+// The needs of measures: without them a run has none.
 constexpr const char* kReference = "a world with a reference";
 constexpr const char* kPeople = "a world with people";
 constexpr const char* kContact = "a contact";

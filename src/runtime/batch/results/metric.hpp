@@ -18,7 +18,7 @@ struct Metric {
   bool more_is_better = false;
   bool of_successes = false;  ///< Runs without success have it not: their time and way are those of a part.
   std::optional<double> Measures::*measure = nullptr;  ///< Null: success or time.
-  std::string needs{};  ///< What a run has to have for it, "a success and a simulated robot"; empty: nothing.
+  std::string needs{};  ///< Needed of a run for it, "a success and a simulated robot"; empty: nothing.
 
   [[nodiscard]] bool is_success() const { return name == "success"; }
   /// Returns the value of a run, if it has one.

@@ -60,7 +60,7 @@ struct Measure {
   const char* unit;  ///< "" for a ratio.
   const char* text;
   std::optional<double> Measures::*value;
-  const char* needs;  ///< What a run has to have for it, "a world with people".
+  const char* needs;  ///< Needed of a run for it, "a world with people".
 };
 
 /// Returns all measures, in the order of the columns.
