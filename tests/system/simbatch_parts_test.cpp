@@ -45,6 +45,23 @@ TEST_CASE(
   CHECK_FALSE(std::filesystem::exists(folder.file("out")));
 }
 
+TEST_CASE("the plugin folder of one graph is not that of the next graph", "[system][batch]") {
+  const TempFolder folder;
+  const std::string variants = "<variant name=\"has_it\"><set arg=\"plugins\" value=\"" +
+                               std::string(ORCA_BINARY_DIR "/tests/plugins") +
+                               "\"/></variant><variant name=\"lacks_it\"><set arg=\"plugins\" value=\"" +
+                               folder.path().string() + "\"/></variant>";
+  const std::string experiment = folder.write(
+      "e.xml", "<experiment name=\"e\" seeds=\"1\" until=\"1 s\" graph=\"" +
+                   system_graph("one_component.xml") + "\"><set arg=\"type\" value=\"test.LapCounter\"/>" +
+                   variants + "<world name=\"here\"/></experiment>");
+  const Run run = run_simbatch({experiment, "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("(variant lacks_it, world here)"));
+  CHECK_FALSE(run.says("(variant has_it, world here)"));
+}
+
 TEST_CASE("seven parts that are joined are the whole, byte for byte, in any order", "[system][batch]") {
   const TempFolder folder;
   const std::string experiment = dependents(folder, "e.xml", {"nothing", "nothing_more"}, "1-20");

@@ -16,12 +16,13 @@ constexpr const char* kArgumentWithoutValue = "G012";  // of graphs
 void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
                   const std::function<void(std::size_t done, std::size_t all)>& watch) {
   const std::size_t all = experiment.worlds.size() * experiment.variants.size();
+  host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
   std::set<std::string> said;
   const bool is_whole = !diagnostics.has_errors();  // otherwise settings may be missing, of which it was said
   for (std::size_t world = 0; world < experiment.worlds.size(); ++world) {
     for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
       if (watch) watch(world * experiment.variants.size() + variant, all);
-      host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
+      catalogue.forget_graph();
       graph::LoadOptions load;
       load.profiles = experiment.variants[variant].profiles;
       load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});

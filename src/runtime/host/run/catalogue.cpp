@@ -11,9 +11,15 @@
 namespace orca::host {
 
 PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
-    : index_(std::move(index)), clock_(clock) {}
+    : index_(index), own_index_(std::move(index)), clock_(clock) {}
 
 PluginCatalogue::~PluginCatalogue() { forget_answers(); }
+
+void PluginCatalogue::forget_graph() {
+  hardware_.clear();
+  const std::lock_guard lock(mutex_);
+  index_ = own_index_;
+}
 
 void PluginCatalogue::forget_answers() {
   hardware_.clear();  // before the code that made them

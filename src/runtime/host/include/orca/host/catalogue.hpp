@@ -81,6 +81,9 @@ class PluginCatalogue final : public graph::Catalogue {
   /// Sets the question whether to give up trials of components, for a program that is asked to stop meanwhile.
   void give_up_if(std::function<bool()> give_up) { give_up_ = std::move(give_up); }
 
+  /// Forgets the folders and the hardware of a graph. Plugins stay loaded, so that the next graph is checked sooner.
+  void forget_graph();
+
   /// Releases everything that was loaded and constructed only to answer questions.
   void forget_answers();
 
@@ -96,6 +99,7 @@ class PluginCatalogue final : public graph::Catalogue {
   void raise_pinned(const std::string& file, const std::string& why) const;
 
   plugin::PluginIndex index_;
+  const plugin::PluginIndex own_index_;  // as it was given, without folders of graphs
   std::vector<const TypeEntry*> own_types_;
   const ClockKind clock_;
   AlarmSink sink_;
