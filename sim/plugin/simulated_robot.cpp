@@ -159,7 +159,6 @@ const char* SimulatedRobot::setting_unlike(const SimulatedRobot& other) const {
   if (*realism_ != *other.realism_) return "realism";
   if (*errors_ != *other.errors_) return "errors";
   if (*dead_sonars_ != *other.dead_sonars_) return "dead_sonars";
-  if (*specimen_ != *other.specimen_) return "specimen";
   if (*map_width_ != *other.map_width_) return "map_width";
   return *map_resolution_ != *other.map_resolution_ ? "map_resolution" : "threads";
 }
@@ -173,8 +172,7 @@ Status SimulatedRobot::open() {
   const std::string key =
       std::to_string(reinterpret_cast<std::uintptr_t>(&host().executive())) + *world_file_;
   auto joined = SharedWorld::join(key, settings(), host().now(), [this] {
-    return World(*world_, {.seed = *specimen_ == kOneInAllWorlds ? host().run_seed()
-                                                                 : seed_in(*world_file_, host().run_seed()),
+    return World(*world_, {.seed = seed_in(*world_file_, host().run_seed()),
                            .errors = levels().value(),
                            .threads = static_cast<unsigned>(*threads_)});
   });
@@ -201,7 +199,6 @@ std::string SimulatedRobot::settings() const {
   if (*dead_sonars_ > 0.0) text += ", dead_sonars " + xml::number_text(*dead_sonars_);
   if (*map_width_ > 0.0) text += ", map_width " + xml::number_text(*map_width_) + " m";
   if (*map_resolution_ > 0.0) text += ", map_resolution " + xml::number_text(*map_resolution_) + " m";
-  if (*specimen_ == kOneInAllWorlds) text += ", specimen " + *specimen_;
   if (*threads_ != 1) text += ", threads " + std::to_string(*threads_);
   return text;
 }

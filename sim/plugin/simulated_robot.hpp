@@ -70,7 +70,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   void keep_motion() final { keeps_motion_ = true; }
   void draw(Scene& scene) final;
 
-  static constexpr const char* kOneInAllWorlds = "seed";
   static constexpr double kFarthest = 1e5;  // [m] A world reaches no farther.
 
   Param<std::string> world_file_{
@@ -130,14 +129,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
       "",
       {.text = "Factors on single errors of that level, or on estimates that all levels share, to see what "
                "depends on them: slip=2; wheel_grip=0.5. Names: docs/simulation.md."}};
-  Param<std::string> specimen_{
-      *this,
-      "specimen",
-      "world",
-      {.choices = {"world", kOneInAllWorlds},
-       .text =
-           "What the robot's wheels, sensors and chances are drawn from: the run's seed and the name of the "
-           "world's file, so that a seed is another robot in each world, or the seed alone."}};
   Param<double> dead_sonars_{
       *this,
       "dead_sonars",

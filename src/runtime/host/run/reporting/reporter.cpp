@@ -95,7 +95,8 @@ void Reporter::hear(const idl::Arrived& arrived) {
 // Returns what is wrong with the place at which a robot says that it has arrived; empty: nothing, or it is not simulated. Goals may be
 // in the frame of the world or, without a localizer, in that of the odometry, which begins where the robot started.
 std::string Reporter::doubt(const idl::Arrived& arrived) const {
-  const auto truth = truths_.size() == 1 ? truths_.begin() : truths_.find(robots_.of(arrived.origin()));
+  const std::string robot = robots_.of(arrived.origin());
+  const auto truth = robot.empty() && truths_.size() == 1 ? truths_.begin() : truths_.find(robot);
   if (truth == truths_.end()) return {};
   const auto& [X_WS, X_WR] = truth->second;
   const Vec2 said{arrived.x(), arrived.y()};

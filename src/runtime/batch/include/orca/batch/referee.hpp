@@ -54,8 +54,8 @@ struct Judgement {
 ///
 /// The goals of each robot are to be reached in their order, and the k-th claim of its components is one on its k-th goal. A goal
 /// counts as reached at the first true pose inside its radius and tolerance from which on all poses of the next `hold` are inside; if
-/// the run ends earlier, all that are left. It has to begin before a claim on that goal: what was claimed or given up too early is
-/// missed, and the next goal is judged.
+/// the run ends earlier, all that are left. That pose has to be before a claim on the goal, or the one after it, 0.1 s later at most:
+/// a goal that was claimed or given up too early is missed, and the next one is judged.
 ///
 /// @param scene   of a run that kept the motion of its robots.
 /// @param claims  in the order of their times.
