@@ -54,7 +54,7 @@ struct Judgement {
 ///
 /// The goals of each robot are to be reached in their order, and the k-th claim of its components is one on its k-th goal. A goal
 /// counts as reached at the first true pose inside its radius and tolerance from which on all poses of the next `hold` are inside; if
-/// the run ends earlier, all that are left. That pose has to be before a claim on the goal, or the one after it, 0.1 s later at most:
+/// the run ends earlier, all that are left. The pose has to be before a claim on the goal, or the one after it, 0.1 s later at most:
 /// a goal that was claimed or given up too early is missed, and the next one is judged.
 ///
 /// @param scene   of a run that kept the motion of its robots.
