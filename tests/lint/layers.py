@@ -198,6 +198,8 @@ LAYERS = (
           "supervisor_starting", "supervisor_hosted", "supervisor_agreed", "supervisor_processes", "supervisor_channel",
           "host_run", "host", "host_containment", "host_picture", "graph", "plugin", "text", "xml", "hw_link", *DEVICE),
           ("fmt",)),
+    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "text", "xml", *DEVICE),
+          ("boost", "nlohmann")),
 )
 graphlib.TopologicalSorter({layer.name: layer.may for layer in LAYERS}).prepare()  # raises CycleError for a circle
 
@@ -213,6 +215,7 @@ LIBRARY_HEADERS = {
     "bullet": ("bullet/", "btBullet", "LinearMath/", "BulletCollision/", "BulletDynamics/", "BulletSoftBody/"),
     "urdfdom": ("urdf_parser/", "urdf_model/", "urdf_exception/", "urdf_world/", "urdf_sensor/"),
     "boost": ("boost/",),
+    "nlohmann": ("nlohmann/",),
     "png": ("png.h", "libpng"),
     "zlib": ("zlib.h",),
     "cairo": ("cairo",),

@@ -237,6 +237,11 @@ ExitCode run(const Options& options) {
         fail(
             Code::invalid_argument,
             "--watch: code is exchanged in host processes only; leave out --in-process and --clock virtual"));
+  if (options.view)
+    return refuse_option(codes::kExcluding,
+                         fail(Code::invalid_argument,
+                              "--view: the page reaches host processes only; leave out --in-process and "
+                              "--clock virtual"));
   if (options.hold)
     return refuse_option(codes::kExcluding,
                          fail(Code::invalid_argument,

@@ -58,6 +58,9 @@ std::vector<OptionSpec> running_options() {
       {"--hold", "",
        "nothing moves before orcactl estop --release: for a first motion, and for a deployer that a service "
        "starts"},
+      {"--view", "",
+       "a page in the browser that shows the system and commands it; its address is printed (see orcaview "
+       "--help)"},
       {"--watch", "",
        "while you develop: when the plugin of a component is built anew, its code is exchanged while the "
        "system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph "
@@ -78,7 +81,7 @@ std::vector<OptionSpec> writing_options() {
        "for a spreadsheet or pandas; --list-ports lists the ports; each time with another file",
        true},
       {"--picture", "FILE", "draws the run, in the end, if it was simulated: .svg or .png"},
-      {"--view", "world|robot|film",
+      {"--scene", "world|robot|film",
        "of the picture: world (default), around the first robot, ahead is up, or key moments: start, "
        "arrivals, contacts, end"},
       {"--hide", "LAYER,...",

@@ -13,7 +13,6 @@
 #include "orca/idl/time.hpp"
 #include "stats.hpp"
 #include "streams.hpp"
-#include "summary.hpp"
 
 namespace orca::deployer {
 double Console::seconds(const idl::TimeValue& stamp) const {

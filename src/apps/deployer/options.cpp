@@ -148,6 +148,7 @@ class Reader {
     options_.in_process = call_.has("--in-process");
     options_.hold = call_.has("--hold");
     options_.watch = call_.has("--watch");
+    options_.view = call_.has("--view");
     options_.stats = call_.has("--stats");
     options_.run.trace_values = call_.has("--values");
     if (call_.has("--progress") || call_.has("--no-progress")) options_.progress = call_.has("--progress");
@@ -164,7 +165,7 @@ class Reader {
     options_.laps_file = call_.text("--measure-laps").value_or("");
     options_.run.measures_laps = !options_.laps_file.empty();
     options_.run.trace_file = call_.text("--trace").value_or("");
-    if (const auto view = call_.text("--view")) options_.run.picture.view = *host::view_from(*view);
+    if (const auto view = call_.text("--scene")) options_.run.picture.view = *host::view_from(*view);
     if (const auto level = call_.text("--log")) options_.log_level = *log::parse_level(*level);
     if (call_.text("--clock") == "virtual") options_.run.executive.clock = ClockKind::virtual_time;
   }

@@ -7,9 +7,11 @@
 #include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "companion.hpp"
 #include "exit_code.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
@@ -124,6 +126,17 @@ host::RunResult refuse(const Error& error, const std::string& log_name, host::Ru
   return result;
 }
 
+// A system runs without its page if that cannot be had.
+std::optional<Companion> start_viewer(const std::string& system) {
+  Result<Companion> viewer = Companion::start("orcaview", {system});
+  if (!viewer) {
+    log::warning("deployer", "--view: there is no page: " + viewer.error().text());
+    return std::nullopt;
+  }
+  std::fprintf(stderr, "look at it in a browser: %s\n", viewer->first_line().c_str());
+  return std::move(viewer).value();
+}
+
 }  // namespace
 
 std::vector<std::string> plugin_folders(const Options& options) {
@@ -188,6 +201,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   supervised.outputs.looks_on = options.progress.value_or(stderr_can_live());
   if (const Status opened = try_to_open(options.run); !opened.ok())
     return refuse(opened.error(), options.run.log_name, listener);
+  const std::optional<Companion> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
   return supervisor::run_supervised(graph, supervised, stop, listener);
 }
 

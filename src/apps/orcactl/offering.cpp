@@ -59,19 +59,12 @@ std::string read_stdin() { return {std::istreambuf_iterator<char>(std::cin), {}}
 
 // Reads the object that the command line gives. Prints all errors in it.
 Result<ObjectLoan> read_object(const std::string& word, const LineAnswer& line) {
-  const ObjectType* const type = find_object_type(line.type);
-  if (type == nullptr)
-    return fail(Code::unimplemented, "objects of the type " + line.type + " are not known here");
   xml::Diagnostics diagnostics;
   const bool from_stdin = word == "-";
-  std::optional<ObjectLoan> object =
-      from_xml(from_stdin ? read_stdin() : word, from_stdin ? "stdin" : "XML", diagnostics, type);
+  Result<ObjectLoan> object =
+      object_from(from_stdin ? read_stdin() : word, from_stdin ? "stdin" : "XML", line.type, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
-  if (!object) return fail(Code::invalid_argument, "nothing was sent: the text is no " + line.type);
-  if (const std::string name = NanSearch().find(object->type(), object->get()); !name.empty())
-    return fail(Code::invalid_argument, "nothing was sent: " + name + " of the " + line.type +
-                                            " is nan, which is no number; give it a value");
-  return std::move(*object);
+  return object;
 }
 
 Result<OfferOutcome> exchange(Channel& line, const ObjectLoan& object, Duration limit) {
@@ -120,6 +113,19 @@ Status carry_out(const apps::Call& call, LineAnswer& answer) {
 }
 
 }  // namespace
+
+Result<ObjectLoan> object_from(const std::string& text, const std::string& source,
+                               const std::string& type_name, xml::Diagnostics& diagnostics) {
+  const ObjectType* const type = find_object_type(type_name);
+  if (type == nullptr)
+    return fail(Code::unimplemented, "objects of the type " + type_name + " are not known here");
+  std::optional<ObjectLoan> object = from_xml(text, source, diagnostics, type);
+  if (!object) return fail(Code::invalid_argument, "nothing was sent: the text is no " + type_name);
+  if (const std::string name = NanSearch().find(object->type(), object->get()); !name.empty())
+    return fail(Code::invalid_argument, "nothing was sent: " + name + " of the " + type_name +
+                                            " is nan, which is no number; give it a value");
+  return std::move(*object);
+}
 
 ExitCode offer(const apps::Call& call) {
   std::variant<Client, Failure> connected = Client::connect(call);

@@ -2,10 +2,24 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <string>
+
 #include "common/command_line.hpp"
 #include "exit_code.hpp"
+#include "orca/base/result.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/xml/diagnostics.hpp"
 
 namespace orca::orcactl {
+
+/// Reads an object for a port from its text form.
+/// @param source       of the text, for what is wrong with it.
+/// @param type         of the objects that the port takes.
+/// @param diagnostics  takes all that is wrong with the text.
+/// @errors  invalid_argument if it is no such object, or if a number in it is none; unimplemented if the type is not known
+///          here.
+[[nodiscard]] Result<ObjectLoan> object_from(const std::string& text, const std::string& source,
+                                             const std::string& type, xml::Diagnostics& diagnostics);
 
 /// Carries out send or query: hands an object to a port, and prints the reply.
 [[nodiscard]] ExitCode offer(const apps::Call& call);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "access.hpp"
+
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <set>
+
+namespace orca::view {
+namespace {
+
+constexpr std::array<std::string_view, 3> kOwnNames{"127.0.0.1", "localhost", "[::1]"};
+
+Result<std::string> draw_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    return fail(Code::unavailable, "the system gives no random numbers for a token");
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
+
+bool is_equal(std::string_view given, std::string_view token) {
+  unsigned difference = given.size() == token.size() ? 0 : 1;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const char one = i < given.size() ? given[i] : '\0';
+    difference |= static_cast<unsigned char>(one) ^ static_cast<unsigned char>(token[i]);
+  }
+  return difference == 0;
+}
+
+}  // namespace
+
+Result<Tokens> Tokens::draw() {
+  Result<std::string> reader = draw_token();
+  if (!reader) return reader.error();
+  Result<std::string> steering = draw_token();
+  if (!steering) return steering.error();
+  return Tokens(std::move(*reader), std::move(*steering));
+}
+
+std::optional<Role> Tokens::role_of(std::string_view token) const {
+  const bool steers = is_equal(token, operator_);
+  const bool reads = is_equal(token, reader_);
+  if (steers) return Role::operator_;
+  if (reads) return Role::reader;
+  return std::nullopt;
+}
+
+bool is_own_host(std::string_view host, std::uint16_t port) {
+  const std::string suffix = ":" + std::to_string(port);
+  return std::ranges::any_of(kOwnNames,
+                             [&](std::string_view name) { return host == std::string(name) + suffix; });
+}
+
+bool is_own_origin(std::string_view origin, std::uint16_t port) {
+  constexpr std::string_view kScheme = "http://";
+  return origin.empty() || (origin.starts_with(kScheme) && is_own_host(origin.substr(kScheme.size()), port));
+}
+
+std::string query_value(std::string_view target, std::string_view name) {
+  std::size_t at = target.find('?');
+  while (at != std::string_view::npos) {
+    const std::size_t end = target.find('&', at + 1);
+    const std::string_view pair = target.substr(at + 1, end == std::string_view::npos ? end : end - at - 1);
+    if (pair.size() > name.size() && pair.starts_with(name) && pair[name.size()] == '=')
+      return std::string(pair.substr(name.size() + 1));
+    at = end;
+  }
+  return {};
+}
+
+bool only_shows(std::string_view command, bool has_words) {
+  static const std::set<std::string_view> shows{"ps",       "graph", "ports", "plugins", "names",
+                                                "counters", "log",   "get",   "missions"};
+  return shows.contains(command) || (command == "alarms" && !has_words);
+}
+
+}  // namespace orca::view

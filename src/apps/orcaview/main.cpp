@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/command_line.hpp"
+#include "common/manual.hpp"
+#include "common/output.hpp"
+#include "orca/base/files/own_folder.hpp"
+#include "orca/base/text.hpp"
+#include "orca/supervisor/control_socket.hpp"
+#include "view_server.hpp"
+
+// after view_server.hpp, which includes what Boost.Asio lacks
+#include <boost/asio/signal_set.hpp>
+
+namespace orca::view {
+namespace {
+
+constexpr std::string_view kDetails =
+    "  orcaview                              of the system that runs\n"
+    "  orcaview scout_goto                   of this one, as soon as it runs\n"
+    "  deployer graphs/scout_goto.xml --view starts one beside the system\n"
+    "\n"
+    "Open the first address that it prints in a browser. Whoever knows it may steer the robot; with the "
+    "second\n"
+    "one, people may only look. Both hold until orcaview ends. They are also in the file GRAPH.view beside "
+    "the\n"
+    "system's socket, which only you can read. If orcaview ends, nothing else notices.\n";
+
+const apps::Program& program() {
+  static const apps::Program all{
+      .name = "orcaview",
+      .usage = "[SYSTEM] [options]",
+      .text = "a page in the browser that shows a running system, and commands it",
+      .details = kDetails,
+      .arguments = {{"SYSTEM", apps::Names::system, true}},
+      .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
+                   false, "Options", 0, 65535},
+                  {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
+      .exits = {"0 ended by a signal", "1 the address is in use, or the page's files are missing",
+                "2 the command line is wrong", "3 no system runs, and none is named"},
+      .notes =
+          "\nSYSTEM is the name of a graph. It need not run yet; when it ends, the page waits for the next "
+          "one.\n"};
+  return all;
+}
+
+enum class ExitCode { ended = 0, refused = 1, usage = 2, no_system = 3 };
+
+ExitCode report(const Error& error, ExitCode code) {
+  std::fprintf(stderr, "orcaview: %s\n", error.text().c_str());
+  return code;
+}
+
+// Returns the name of the system to show, or the exit status after a report.
+std::variant<std::string, ExitCode> system_of(const apps::Call& call) {
+  if (!call.words.empty()) return call.words.front();
+  const Result<std::vector<std::string>> running = supervisor::running_systems();
+  if (!running) return report(running.error(), ExitCode::no_system);
+  if (running->size() == 1) return running->front();
+  if (running->empty())
+    return report(
+        fail(Code::not_found,
+             "no system runs; start one with deployer, or name the one to wait for: orcaview SYSTEM"),
+        ExitCode::no_system);
+  return report(fail(Code::invalid_argument, "several systems run: " + listed(*running) +
+                                                 "; choose one: orcaview " + running->front()),
+                ExitCode::usage);
+}
+
+std::string web_folder(const apps::Call& call) {
+  if (const auto folder = call.text("--web")) return *folder;
+  std::error_code ignored;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  return (self.parent_path().parent_path() / "share" / "orca" / "web").string();
+}
+
+// The addresses, in a file that only this user can read.
+class AddressFile {
+ public:
+  static Result<AddressFile> write(const std::string& system, const std::string& text) {
+    const Result<OwnFolder> folder = OwnFolder::make();
+    if (!folder) return folder.error();
+    const std::string path = folder->path() + "/" + system + ".view";
+    constexpr mode_t kOwnersOnly = 0600;
+    ::unlink(path.c_str());
+    const Descriptor file(
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, kOwnersOnly));
+    if (!file || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      return fail(Code::unavailable, "cannot write the addresses to " + path);
+    return AddressFile(path);
+  }
+  AddressFile(AddressFile&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  AddressFile& operator=(AddressFile&&) = delete;
+  ~AddressFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+
+ private:
+  explicit AddressFile(std::string path) : path_(std::move(path)) {}
+  std::string path_;
+};
+
+std::string address_of(const ViewServer& server, const Tokens& tokens, Role role) {
+  return "http://127.0.0.1:" + std::to_string(server.port()) + "/#token=" + tokens.of(role);
+}
+
+ExitCode run(const apps::Call& call) {
+  const std::variant<std::string, ExitCode> system = system_of(call);
+  if (const auto* const code = std::get_if<ExitCode>(&system)) return *code;
+  const std::string& name = std::get<std::string>(system);
+  const WebFiles files(web_folder(call));
+  if (!files.find("/"))
+    return report(fail(Code::not_found, "the page's files are missing: " + web_folder(call) +
+                                            "/index.html; name their folder with --web"),
+                  ExitCode::refused);
+  const Result<Tokens> tokens = Tokens::draw();
+  if (!tokens) return report(tokens.error(), ExitCode::refused);
+
+  boost::asio::io_context loop(1);
+  Desk desk(loop.get_executor(), name);
+  ViewServer server(loop, desk, *tokens, files);
+  constexpr std::uint16_t kDefaultPort = 8080;
+  const std::optional<std::uint64_t> wanted = call.count("--port");
+  Status listens = server.listen(wanted ? static_cast<std::uint16_t>(*wanted) : kDefaultPort);
+  if (!wanted && !listens.ok()) listens = server.listen(0);
+  if (!listens.ok()) return report(listens.error(), ExitCode::refused);
+  const std::string addresses =
+      address_of(server, *tokens, Role::operator_) + "\n" + address_of(server, *tokens, Role::reader) + "\n";
+  const Result<AddressFile> file = AddressFile::write(name, addresses);
+  if (!file) return report(file.error(), ExitCode::refused);
+  std::printf("%s", addresses.c_str());
+  std::fflush(stdout);
+
+  desk.start();
+  boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
+  stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
+  loop.run();
+  return ExitCode::ended;
+}
+
+ExitCode act(const std::vector<std::string>& words) {
+  const apps::Call call = apps::parse(program(), words);
+  if (!call.problems.empty())
+    return report(fail(Code::invalid_argument, call.problems.front().message), ExitCode::usage);
+  const std::optional<std::string> answer = apps::answer(program(), call);
+  if (!answer) return run(call);
+  std::fputs(answer->c_str(), stdout);
+  return ExitCode::ended;
+}
+
+}  // namespace
+}  // namespace orca::view
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  return static_cast<int>(orca::view::act({argv + 1, argv + argc}));
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "outbox.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace orca::view {
+namespace {
+
+constexpr double kNanoseconds = 1e9;
+
+template <class Number>
+void append(std::string& bytes, Number number) {
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+std::uint32_t capped(std::uint64_t number) {
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, UINT32_MAX));
+}
+
+}  // namespace
+
+std::string object_head(std::uint8_t kind, std::uint32_t id, const supervisor::Tapped& passed,
+                        std::uint32_t left_out) {
+  std::string head;
+  append(head, std::uint32_t{kind});
+  append(head, id);
+  append(head, static_cast<double>(passed.passed) / kNanoseconds);
+  append(head, static_cast<double>(passed.created) / kNanoseconds);
+  append(head, capped(passed.lost));
+  append(head, left_out);
+  return head;
+}
+
+bool Outbox::add(std::string text) {
+  if (answer_bytes_ + text.size() > kBound) return false;
+  answer_bytes_ += text.size();
+  answers_.push_back({true, std::move(text)});
+  return true;
+}
+
+bool Outbox::add_reply(std::uint32_t id, std::shared_ptr<const supervisor::Tapped> reply) {
+  const std::size_t size = reply->object.size();
+  if (answer_bytes_ > 0 && answer_bytes_ + size > kBound) return false;
+  answer_bytes_ += size;
+  std::string head = object_head(2, id, *reply, 0);
+  answers_.push_back({false, std::move(head), std::move(reply)});
+  return true;
+}
+
+void Outbox::begin(std::uint32_t look, std::chrono::nanoseconds interval) {
+  looks_[look].interval = interval;
+}
+
+void Outbox::end(std::uint32_t look) {
+  const auto found = looks_.find(look);
+  if (found == looks_.end()) return;
+  for (const auto& passed : found->second.waiting) object_bytes_ -= passed->object.size();
+  looks_.erase(found);
+}
+
+void Outbox::drop_oldest(Look& look) {
+  object_bytes_ -= look.waiting.front()->object.size();
+  look.waiting.pop_front();
+  ++look.left_out;
+}
+
+void Outbox::add_object(std::uint32_t look, std::shared_ptr<const supervisor::Tapped> passed) {
+  const auto found = looks_.find(look);
+  if (found == looks_.end()) return;
+  Look& own = found->second;
+  object_bytes_ += passed->object.size();
+  own.waiting.push_back(std::move(passed));
+  // With a rate the older ones are not wanted; otherwise they are missed.
+  const std::size_t most = own.interval.count() > 0 ? 1 : kMostObjects;
+  while (own.waiting.size() > 1 && (own.waiting.size() > most || object_bytes_ > kMostBytes)) {
+    if (own.interval.count() == 0) ++dropped_;
+    drop_oldest(own);
+  }
+}
+
+std::optional<Frame> Outbox::take(Moment now) {
+  if (!answers_.empty()) {
+    Frame frame = std::move(answers_.front());
+    answers_.pop_front();
+    answer_bytes_ -= frame.is_text ? frame.head.size() : frame.passed->object.size();
+    return frame;
+  }
+  auto longest = looks_.end();
+  for (auto look = looks_.begin(); look != looks_.end(); ++look)
+    if (!look->second.waiting.empty() && look->second.due <= now &&
+        (longest == looks_.end() || look->second.due < longest->second.due))
+      longest = look;
+  if (longest == looks_.end()) return std::nullopt;
+  Look& look = longest->second;
+  std::shared_ptr<const supervisor::Tapped> passed = std::move(look.waiting.front());
+  look.waiting.pop_front();
+  object_bytes_ -= passed->object.size();
+  const bool is_late = now - look.due >= look.interval;  // a new beat begins
+  look.due = (is_late ? now : look.due) + look.interval;
+  std::string head = object_head(1, longest->first, *passed, look.left_out);
+  return Frame{false, std::move(head), std::move(passed)};
+}
+
+std::optional<Outbox::Moment> Outbox::due() const {
+  if (!answers_.empty()) return Moment{};
+  std::optional<Moment> first;
+  for (const auto& [id, look] : looks_)
+    if (!look.waiting.empty() && (!first || look.due < *first)) first = look.due;
+  return first;
+}
+
+}  // namespace orca::view

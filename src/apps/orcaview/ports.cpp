@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "ports.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "offering.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/xml/diagnostics.hpp"
+
+namespace orca::view {
+namespace {
+
+using supervisor::LineAnswer;
+
+supervisor::Ask line_to(const std::string& port, const std::vector<std::string>& options) {
+  supervisor::Ask ask{"line", {port}, false};
+  ask.words.insert(ask.words.end(), options.begin(), options.end());
+  return ask;
+}
+
+// Asks for a line, and passes it on; nothing if there is none.
+void open_line(SystemLink& link, supervisor::Ask ask,
+               std::function<void(Result<std::shared_ptr<LineAnswer>>)> opened) {
+  auto line = std::make_shared<std::shared_ptr<LineAnswer>>();
+  link.ask(
+      std::move(ask),
+      [line](supervisor::ControlAnswer answer) {
+        if (auto* const found = std::get_if<LineAnswer>(&answer))
+          *line = std::make_shared<LineAnswer>(std::move(*found));
+      },
+      [line, opened = std::move(opened)](const Status& outcome) {
+        if (!outcome.ok()) return opened(outcome.error());
+        if (!*line) return opened(fail(Code::internal, "the supervisor has sent no line"));
+        opened(std::move(*line));
+      });
+}
+
+}  // namespace
+
+Ports::~Ports() {
+  for (const auto& [port, view] : views_)
+    if (view->wire) view->wire->close();
+  for (const auto& [port, counter] : counters_)
+    if (counter->wire) counter->wire->close();
+}
+
+void Ports::look(const std::string& port, Onlooker& onlooker) {
+  const auto found = views_.find(port);
+  if (found == views_.end()) {
+    views_.emplace(port, std::make_shared<View>()).first->second->onlookers.push_back(&onlooker);
+    return open_view(port);
+  }
+  found->second->onlookers.push_back(&onlooker);
+  if (!found->second->type.empty()) onlooker.looking(found->second->type);
+}
+
+void Ports::look_away(const std::string& port, Onlooker& onlooker) {
+  const auto found = views_.find(port);
+  if (found == views_.end()) return;
+  std::erase(found->second->onlookers, &onlooker);
+  if (!found->second->onlookers.empty()) return;
+  if (found->second->wire) found->second->wire->close();
+  views_.erase(found);
+}
+
+void Ports::open_view(const std::string& port) {
+  open_line(link_, line_to(port, {"--tap", "--objects"}),
+            [this, port, meant = std::weak_ptr(views_.at(port))](Result<std::shared_ptr<LineAnswer>> line) {
+              const std::shared_ptr<View> view = meant.lock();
+              if (!view) return;  // nobody looks any more
+              if (!line) return end_view(port, line.error());
+              view->type = (*line)->type;
+              view->wire = std::make_shared<Wire>(loop_, std::move((*line)->line));
+              view->wire->start(
+                  [this, raw = view.get()](supervisor::Message message) { take(*raw, std::move(message)); },
+                  [this, port](const Error& why) { end_view(port, why); });
+              for (Onlooker* const one : std::vector(view->onlookers)) one->looking(view->type);
+            });
+}
+
+void Ports::take(View& view, supervisor::Message message) {
+  Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message));
+  if (!word) return;
+  auto* const passed = std::get_if<supervisor::Tapped>(&*word);
+  if (passed == nullptr) return;
+  const auto shared = std::make_shared<const supervisor::Tapped>(std::move(*passed));
+  for (Onlooker* const one : std::vector(view.onlookers)) one->see(shared);
+}
+
+void Ports::end_view(const std::string& port, const Error& why) {
+  const auto view = views_.extract(port);
+  if (!view) return;
+  if (view.mapped()->wire) view.mapped()->wire->close();
+  for (Onlooker* const one : view.mapped()->onlookers) one->blind(why, !view.mapped()->type.empty());
+}
+
+void Ports::offer(const std::string& port, const std::string& xml, Answered answered) {
+  when_open(port, [this, port, xml, answered = std::move(answered)](const Status& opened) {
+    if (!opened.ok()) return answered(opened.error());
+    hand_in(*counters_.at(port), xml, answered);
+  });
+}
+
+void Ports::when_open(const std::string& port, std::function<void(const Status&)> then) {
+  const auto found = counters_.find(port);
+  if (found != counters_.end() && found->second->wire) return then(ok());
+  if (found != counters_.end()) return found->second->opened.push_back(std::move(then));
+  const auto counter = counters_.emplace(port, std::make_shared<Counter>()).first->second;
+  counter->opened.push_back(std::move(then));
+  open_line(link_, line_to(port, {}), [this, port, counter](Result<std::shared_ptr<LineAnswer>> line) {
+    const auto waiting = std::exchange(counter->opened, {});
+    if (line) {
+      counter->type = (*line)->type;
+      counter->wire = std::make_shared<Wire>(loop_, std::move((*line)->line));
+      counter->wire->start(
+          [counter = counter.get()](supervisor::Message message) {
+            const auto asked = counter->waiting.extract(message.request);
+            Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message));
+            auto* const outcome = word ? std::get_if<supervisor::OfferOutcome>(&*word) : nullptr;
+            if (asked && outcome != nullptr) asked.mapped()(std::move(*outcome));
+          },
+          [this, port](const Error& why) { end_counter(port, why); });
+    } else {
+      counters_.erase(port);
+    }
+    for (const auto& one : waiting) one(line ? ok() : Status(line.error()));
+  });
+}
+
+void Ports::hand_in(Counter& counter, const std::string& xml, Answered answered) {
+  xml::Diagnostics problems;
+  const Result<ObjectLoan> object = orcactl::object_from(xml, "XML", counter.type, problems);
+  if (!object) return answered(fail(object.error().code, problems.text() + object.error().message));
+  supervisor::Offer offer{std::string(object->type().name), {}};
+  object->type().serialize(object->get(), offer.object);
+  const std::uint64_t request = ++last_request_;
+  counter.waiting.emplace(request, answered);
+  const Status sent = counter.wire->post(supervisor::encode(supervisor::LineWord(std::move(offer)), request));
+  if (sent.ok()) return;
+  counter.waiting.erase(request);
+  answered(sent.error());
+}
+
+void Ports::end_counter(const std::string& port, const Error& why) {
+  const auto counter = counters_.extract(port);
+  if (!counter) return;
+  const Error ended = fail(Code::unavailable, "the process of " + port + " has ended: " + why.message);
+  for (const auto& [request, answered] : counter.mapped()->waiting) answered(ended);
+}
+
+}  // namespace orca::view

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/supervisor/control.hpp"
+#include "system_link.hpp"
+
+namespace orca::view {
+
+/// Whoever wants the objects that pass a port.
+class Onlooker {
+ public:
+  /// The line is there.
+  virtual void looking(const std::string& type) = 0;
+  /// It cannot be, or is gone. Nothing follows.
+  virtual void blind(const Error& why, bool had_seen) = 0;
+  /// Takes an object; all onlookers of a port share it.
+  virtual void see(const std::shared_ptr<const supervisor::Tapped>& passed) = 0;
+
+ protected:
+  Onlooker() = default;
+  ~Onlooker() = default;
+};
+
+/// The ports at which pages look, and to which they send. All that look at one port share one line to its process, so that
+/// a process has no more to do for fifty pages than for one.
+///
+/// Thread contract: the loop's thread.
+class Ports {
+ public:
+  using Answered = std::function<void(const Result<supervisor::OfferOutcome>& outcome)>;
+
+  explicit Ports(SystemLink& link, const boost::asio::any_io_executor& loop) : link_(link), loop_(loop) {}
+  ~Ports();
+  Ports(const Ports&) = delete;
+  Ports& operator=(const Ports&) = delete;
+
+  /// Begins to look at a port. Answers come later.
+  void look(const std::string& port, Onlooker& onlooker);
+  /// Ends it; nothing if it has ended.
+  void look_away(const std::string& port, Onlooker& onlooker);
+
+  /// Sends an object in its text form to a SendServer, or a question to a QueryServer.
+  void offer(const std::string& port, const std::string& xml, Answered answered);
+
+ private:
+  struct View {
+    std::string type;  // empty: the line is not there yet
+    std::shared_ptr<Wire> wire;
+    std::vector<Onlooker*> onlookers;
+  };
+  struct Counter {  // at which objects are handed in
+    std::string type;
+    std::shared_ptr<Wire> wire;
+    std::map<std::uint64_t, Answered> waiting;
+    std::vector<std::function<void(const Status&)>> opened;  // who waits for the line
+  };
+  void open_view(const std::string& port);
+  void take(View& view, supervisor::Message message);
+  void end_view(const std::string& port, const Error& why);
+  void when_open(const std::string& port, std::function<void(const Status&)> then);
+  void hand_in(Counter& counter, const std::string& xml, Answered answered);
+  void end_counter(const std::string& port, const Error& why);
+
+  SystemLink& link_;
+  const boost::asio::any_io_executor loop_;
+  std::map<std::string, std::shared_ptr<View>> views_;
+  std::map<std::string, std::shared_ptr<Counter>> counters_;
+  std::uint64_t last_request_ = 0;
+};
+
+}  // namespace orca::view

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "view_server.hpp"
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace orca::view {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::awaitable;
+using asio::use_awaitable;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr std::chrono::seconds kPatience{10};  // with whoever sends a request or takes an answer
+constexpr std::size_t kLongestHead = std::size_t{16} << 10;
+
+http::response<http::string_body> answer(const Page::Request& request, http::status status, std::string type,
+                                         std::string text) {
+  http::response<http::string_body> response(status, request.version());
+  response.set(http::field::content_type, type);
+  response.set(http::field::cache_control, "no-store");
+  response.set("X-Content-Type-Options", "nosniff");
+  response.set("Referrer-Policy", "no-referrer");
+  response.set("Content-Security-Policy",
+               "default-src 'self'; connect-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; "
+               "base-uri 'none'; form-action 'none'");
+  response.keep_alive(request.keep_alive());
+  response.body() = std::move(text);
+  response.prepare_payload();
+  return response;
+}
+
+http::response<http::string_body> refuse(const Page::Request& request, http::status status, std::string why) {
+  return answer(request, status, "text/plain; charset=utf-8", std::move(why) + "\n");
+}
+
+std::string_view view_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+Status ViewServer::listen(std::uint16_t port) {
+  const tcp::endpoint here(asio::ip::make_address("127.0.0.1"), port);
+  error_code error;
+  acceptor_.close(error);
+  acceptor_.open(here.protocol(), error);
+  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(here, error);
+  if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
+  if (error)
+    return fail(Code::unavailable, "cannot listen at 127.0.0.1:" + std::to_string(port) + ": " +
+                                       error.message() + "; take another port, or 0 for any: --port 0");
+  port_ = acceptor_.local_endpoint().port();
+  asio::co_spawn(acceptor_.get_executor(), accept_all(), asio::detached);
+  return ok();
+}
+
+awaitable<void> ViewServer::accept_all() {
+  for (;;) {
+    error_code error;
+    tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(use_awaitable, error));
+    if (error == asio::error::operation_aborted) co_return;
+    if (error || connections_ >= kMostConnections) continue;  // the socket closes
+    asio::co_spawn(acceptor_.get_executor(), serve(std::move(socket)), asio::detached);
+  }
+}
+
+awaitable<void> ViewServer::serve(tcp::socket socket) {
+  ++connections_;
+  co_await serve_requests(std::move(socket));
+  --connections_;
+}
+
+awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
+  beast::tcp_stream stream(std::move(socket));
+  beast::flat_buffer buffer;
+  for (;;) {
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(kLongestHead);
+    parser.body_limit(0);
+    stream.expires_after(kPatience);
+    error_code error;
+    co_await http::async_read(stream, buffer, parser, asio::redirect_error(use_awaitable, error));
+    if (error) co_return;
+    Page::Request request = parser.release();
+    const std::string why = refusal(request);
+    const std::string_view target = view_of(request.target());
+    if (why.empty() && beast::websocket::is_upgrade(request)) {
+      const std::optional<Role> role = tokens_.role_of(query_value(target, "token"));
+      stream.expires_never();
+      const auto page = std::make_shared<Page>(std::move(stream), *role, desk_);
+      co_return co_await page->serve(std::move(request));
+    }
+    std::optional<WebFile> file = why.empty() ? files_.find(target) : std::nullopt;
+    http::response<http::string_body> response =
+        !why.empty() ? refuse(request, http::status::forbidden, why)
+        : file       ? answer(request, http::status::ok, std::move(file->type), std::move(file->text))
+                     : refuse(request, http::status::not_found, "there is no such file");
+    co_await http::async_write(stream, response, asio::redirect_error(use_awaitable, error));
+    if (error || !response.keep_alive()) co_return;
+  }
+}
+
+// Returns why a request is refused; empty: it is not.
+std::string ViewServer::refusal(const Page::Request& request) const {
+  if (!is_own_host(view_of(request[http::field::host]), port_))
+    return "this server is 127.0.0.1:" + std::to_string(port_) + " or localhost, by no other name";
+  if (!is_own_origin(view_of(request[http::field::origin]), port_))
+    return "pages of other servers have no access";
+  if (request.method() != http::verb::get) return "this server knows GET only";
+  if (!beast::websocket::is_upgrade(request)) return "";
+  if (!tokens_.role_of(query_value(view_of(request.target()), "token")))
+    return "the token is wrong; open the address that orcaview has printed";
+  return "";
+}
+
+}  // namespace orca::view

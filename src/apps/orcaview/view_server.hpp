@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#pragma once
+
+#include "page.hpp"
+
+// after page.hpp, which includes what Boost.Asio lacks
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "access.hpp"
+#include "desk.hpp"
+#include "orca/base/result.hpp"
+#include "web_files.hpp"
+
+namespace orca::view {
+
+/// The server of the page, on this machine only: HTTP/1.1 for its files, a WebSocket for each open page.
+///
+/// Thread contract: the loop's thread.
+class ViewServer {
+ public:
+  static constexpr std::size_t kMostConnections = 128;
+
+  /// Everything outlives the object.
+  ViewServer(boost::asio::io_context& loop, Desk& desk, const Tokens& tokens, const WebFiles& files)
+      : acceptor_(loop), desk_(desk), tokens_(tokens), files_(files) {}
+
+  /// Begins to listen at 127.0.0.1.
+  /// @param port  0: any that is free.
+  /// @errors  unavailable if somebody else has it.
+  Status listen(std::uint16_t port);
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+
+ private:
+  boost::asio::awaitable<void> accept_all();
+  boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket);
+  boost::asio::awaitable<void> serve_requests(boost::asio::ip::tcp::socket socket);
+  [[nodiscard]] std::string refusal(const Page::Request& request) const;
+
+  boost::asio::ip::tcp::acceptor acceptor_;
+  Desk& desk_;
+  const Tokens& tokens_;
+  const WebFiles& files_;
+  std::uint16_t port_ = 0;
+  std::size_t connections_ = 0;
+};
+
+}  // namespace orca::view

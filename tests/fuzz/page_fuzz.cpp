@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any message of a page is a wish or an error, and any request's head is let in only by the name of this machine.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "access.hpp"
+#include "wish.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  std::uint32_t id = 1;
+  const auto wish = orca::view::read_wish(text, id);
+  if (wish ? wish->id != id : wish.error().message.empty()) std::abort();
+  if (wish && !(wish->rate >= 0.0 && wish->rate <= 1000.0)) std::abort();
+  (void)orca::view::query_value(text, "token");
+  if (orca::view::is_own_host(text, 8080) && text.size() > 14) std::abort();
+  if (orca::view::is_own_origin(text, 8080) && !text.empty() && !text.starts_with("http://")) std::abort();
+  return 0;
+}

@@ -1,0 +1,339 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""orcaview beside a running system: what it shows, whom it lets in, and that no client can hurt it or the system.
+
+    tests/system/view/server_test.py BUILD_FOLDER
+"""
+import json
+import os
+import pathlib
+import re
+import signal
+import socket
+import stat
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from websocket import TEXT, WebSocket
+
+TREE = pathlib.Path(__file__).resolve().parents[3]
+BUILD = pathlib.Path(sys.argv.pop())
+GRAPH = str(TREE / "graphs" / "scout_goto_processes.xml")
+NAME = "scout_goto_processes"
+POSE = "localizer.RobotPosePush"
+
+
+def await_that(condition, what, limit=20.0):
+    end = time.monotonic() + limit
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"{what}: not within {limit} s")
+        time.sleep(0.05)
+
+
+class View(unittest.TestCase):
+    """A system and an orcaview for all cases: they must outlive each of them."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="orca_view_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
+        os.chmod(folder.name, 0o700)
+        cls.system = cls.start_system()
+        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", NAME, "--port", "0"], env=cls.environment,
+                                    stdout=subprocess.PIPE, text=True)
+        cls.addClassCleanup(cls.end, cls.view)
+        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
+        cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
+        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
+
+    @classmethod
+    def start_system(cls):
+        system = subprocess.Popen([BUILD / "bin" / "deployer", GRAPH, "--no-progress", "--log", "error", "--set",
+                                   "command.rounds=0"], env=cls.environment, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(cls.end, system)
+        await_that(lambda: cls.orcactl("ps").stdout.count(" WORK ") >= 6, "all components work")
+        return system
+
+    @staticmethod
+    def end(process):
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+            process.wait(30)
+        if process.stdout:
+            process.stdout.close()
+
+    @classmethod
+    def orcactl(cls, *words):
+        return subprocess.run([BUILD / "bin" / "orcactl", *words], env=cls.environment, capture_output=True, text=True,
+                              timeout=60)
+
+    def page(self, token=None):
+        page = WebSocket(self.port, token or self.operator)
+        self.addCleanup(page.socket.close)
+        self.assertEqual(page.status.split()[1], "101", page.status)
+        self.assertEqual(page.receive()["op"], "hello")
+        return page
+
+    def fetch(self, *lines):
+        with socket.create_connection(("127.0.0.1", self.port), timeout=10) as connection:
+            connection.sendall("\r\n".join([*lines, "", ""]).encode())
+            return connection.recv(1 << 16).decode()
+
+    def memory(self):
+        """Returns the resident memory of orcaview [kB]."""
+        return int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{self.view.pid}/status").read_text())[1])
+
+    def objects(self, page, look, count, limit=10.0):
+        """Returns heads and payloads of the objects of a look."""
+        found, end = [], time.monotonic() + limit
+        while len(found) < count and time.monotonic() < end:
+            message = page.receive()
+            if isinstance(message, bytes) and message[0] == 1 and struct.unpack_from("<I", message, 4)[0] == look:
+                found.append((struct.unpack_from("<ddII", message, 8), message[32:]))
+        self.assertEqual(len(found), count, "objects came too slowly")
+        return found
+
+    # ---- what it shows
+
+    def test_a_page_is_greeted_with_the_system_and_its_role(self):
+        with WebSocket(self.port, self.reader) as page:
+            hello = page.receive()
+        self.assertEqual((hello["system"], hello["role"], hello["present"]), (NAME, "reader", True))
+        self.assertLess(abs(hello["time"] - time.time()), 5.0)
+
+    def test_answers_are_those_of_orcactl(self):
+        page = self.page()
+        page.send(op="ask", id=1, command="ps")
+        answer = page.answer(1)
+        self.assertTrue(answer["ok"], answer)
+        shown = json.loads(self.orcactl("--json", "ps").stdout)
+        self.assertEqual([list(row) for row in answer["records"]], [sorted(row) for row in shown])
+        for name in ("name", "process", "type", "build_id"):
+            self.assertEqual([row[name] for row in answer["records"]], [row[name] for row in shown])
+        page.send(op="ask", id=3, command="graph")
+        self.assertEqual(json.loads(page.answer(3)["text"])["name"], NAME)
+        page.send(op="ask", id=4, command="swap", words=["nobody", "x.so"])
+        self.assertIn("nobody", page.answer(4)["error"])
+
+    def test_objects_come_as_they_pass(self):
+        page = self.page()
+        page.send(op="types")
+        while True:
+            message = page.receive()
+            if isinstance(message, dict) and message["op"] == "types":
+                break
+        self.assertIn("x:double {m}", message["types"]["RobotPose"]["layout"])
+        page.send(op="look", id=5, port=POSE)
+        looking = page.answer(5)
+        self.assertEqual((looking["op"], looking["type"]), ("looking", "RobotPose"))
+        found = self.objects(page, 5, 20)
+        times = [head[0] for head, _ in found]
+        self.assertEqual(times, sorted(times))
+        self.assertTrue(all(abs(t - time.time()) < 10 for t in times))
+        self.assertEqual(len({payload for _, payload in found}), 20)
+
+    def test_a_rate_thins_out(self):
+        page = self.page()
+        page.send(op="look", id=6, port=POSE, rate=5)
+        page.answer(6)
+        begin = time.monotonic()
+        found = self.objects(page, 6, 11)
+        self.assertGreater(time.monotonic() - begin, 1.5)
+        self.assertGreater(found[-1][0][3], 0, "none was left out")
+
+    def test_an_object_is_sent_and_a_question_answered(self):
+        page = self.page()
+        page.send(op="query", id=7, port="base.RobotQuery", xml="<Ask/>")
+        reply = page.receive()
+        while not isinstance(reply, bytes):
+            reply = page.receive()
+        self.assertEqual((reply[0], struct.unpack_from("<I", reply, 4)[0]), (2, 7))
+        self.assertEqual(page.answer(7)["type"], "Robot")
+        page.send(op="send", id=8, port="goto.CancelSend", xml="<GoalFailed/>")
+        self.assertTrue(page.answer(8)["ok"])
+        page.send(op="send", id=9, port="goto.CancelSend", xml="<GoalFail/>")
+        self.assertIn("a <GoalFailed> is expected here", page.answer(9)["error"])
+        page.send(op="look", id=10, port="base.Nothing")
+        self.assertEqual(page.answer(10)["op"], "refused")
+
+    def test_the_log_is_followed(self):
+        page = self.page()
+        page.send(op="ask", id=11, command="log", stream=True)
+        self.assertEqual(self.orcactl("estop").returncode, 0)
+        while True:
+            message = page.receive()
+            if isinstance(message, dict) and message["op"] == "record" and "ESTOP" in message["record"]["text"]:
+                break
+        self.assertEqual(self.orcactl("estop", "--release").returncode, 0)
+
+    # ---- who may
+
+    def test_only_the_token_opens_the_door(self):
+        for token in ("", "0" * 32, self.operator[:-1], self.operator + "0"):
+            with WebSocket(self.port, token) as page:
+                self.assertIn("403", page.status)
+
+    def test_pages_of_other_servers_stay_outside(self):
+        for fields in ({"Origin": "http://evil.org"}, {"Origin": "null"}, {"Host": "evil.org"},
+                       {"Host": f"evil.org:{self.port}", "Origin": f"http://evil.org:{self.port}"}):
+            with WebSocket(self.port, self.operator, **fields) as page:
+                self.assertIn("403", page.status, fields)
+        with WebSocket(self.port, self.operator, Origin=f"http://localhost:{self.port}") as page:
+            self.assertIn("101", page.status)
+
+    def test_a_reader_changes_nothing(self):
+        page = self.page(self.reader)
+        for number, message in enumerate((
+                {"op": "ask", "command": "estop"}, {"op": "ask", "command": "alarms", "words": ["ack", "all"]},
+                {"op": "ask", "command": "set", "words": ["goto.max_speed", "0.1"]},
+                {"op": "ask", "command": "apply", "graph": "<graph/>"},
+                {"op": "send", "port": "goto.CancelSend", "xml": "<GoalFailed/>"}), 1):
+            page.send(id=number, **message)
+            answer = page.answer(number)
+            self.assertFalse(answer["ok"], message)
+            self.assertIn("may only look", answer["error"])
+
+    def test_the_addresses_are_in_a_file_of_the_user_alone(self):
+        path = self.folder / "orca" / f"{NAME}.view"
+        self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o600)
+        self.assertEqual(path.read_text().split(), self.addresses)
+
+    def test_files_are_served_with_a_policy_and_nothing_else_is(self):
+        own = f"Host: 127.0.0.1:{self.port}"
+        page = self.fetch("GET / HTTP/1.1", own)
+        self.assertTrue(page.startswith("HTTP/1.1 200"), page)
+        self.assertIn("default-src 'self'", page)
+        self.assertNotIn("Set-Cookie", page)
+        for target in ("/../CMakeLists.txt", "/nobody.js", "/lib/../index.html", "//etc/passwd"):
+            self.assertTrue(self.fetch(f"GET {target} HTTP/1.1", own).startswith("HTTP/1.1 404"), target)
+        self.assertTrue(self.fetch("POST / HTTP/1.1", own, "Content-Length: 0").startswith("HTTP/1.1 403"))
+        self.assertTrue(self.fetch("GET / HTTP/1.1", "Host: evil.org").startswith("HTTP/1.1 403"))
+
+    # ---- whatever clients do
+
+    def test_nonsense_is_answered(self):
+        page = self.page()
+        for text in (b"", b"nonsense", b"[1]", b"{}", b'{"op":1}', b'{"op":"ask","id":-1}', b"[" * 100_000, bytes([0x80] * 5)):
+            page.send_frame(TEXT, text)
+            try:
+                self.assertFalse(page.receive()["ok"])
+            except EOFError:  # text that is no UTF-8 ends the connection, as RFC 6455 wants
+                page = self.page()
+
+    def test_a_message_without_end_is_cut_off(self):
+        page = self.page()
+        page.socket.sendall(bytes([0x81, 0xFF]) + struct.pack(">Q", 1 << 30) + bytes(4))
+        with self.assertRaises((EOFError, ConnectionError)):
+            for _ in range(100):
+                page.socket.sendall(b"x" * 100_000)
+                time.sleep(0.01)
+            page.receive()
+        self.assertLess(self.memory(), 200_000)
+
+    def test_heads_without_end_and_slow_ones_are_cut_off(self):
+        with socket.create_connection(("127.0.0.1", self.port), timeout=10) as connection:
+            with self.assertRaises((ConnectionError, AssertionError)):
+                connection.sendall(b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 10_000)
+                answer = connection.recv(1000)
+                self.assertNotEqual(answer, b"")
+        slow = [socket.create_connection(("127.0.0.1", self.port), timeout=30) for _ in range(20)]
+        for one in slow:
+            self.addCleanup(one.close)
+        end = time.monotonic() + 25
+        open_ones = list(slow)
+        while open_ones and time.monotonic() < end:
+            for one in list(open_ones):
+                try:
+                    one.sendall(b"G")
+                    one.settimeout(0.01)
+                    if one.recv(100) == b"":
+                        open_ones.remove(one)
+                except TimeoutError:
+                    pass
+                except OSError:
+                    open_ones.remove(one)
+            time.sleep(0.2)
+        self.assertEqual(open_ones, [])
+
+    def test_fifty_pages_that_stall_cost_bounded_memory_and_no_page_that_reads(self):
+        stalled = [self.page() for _ in range(50)]
+        for page in stalled:
+            for number, port in enumerate((POSE, "base.OdometryPush", "base.SonarRangeReadingsPush", "avoid.motion"), 1):
+                page.send(op="look", id=number, port=port)
+        good = self.page()
+        good.send(op="look", id=1, port=POSE)
+        good.answer(1)
+        before = self.memory()
+        self.objects(good, 1, 100, limit=20)
+        self.assertLess(self.memory() - before, 100_000)
+        self.assertEqual(self.orcactl("ps").returncode, 0)
+
+    def test_a_system_that_ends_is_missed_and_welcomed_back(self):
+        page = self.page()
+        page.send(op="look", id=1, port=POSE)
+        page.answer(1)
+        self.end(type(self).system)
+        said = []
+        while "system" not in said:
+            message = page.receive()
+            if isinstance(message, dict):
+                said.append(message["op"])
+        self.assertIn("lost", said)
+        page.send(op="ask", id=2, command="ps")
+        self.assertIn("does not run", page.answer(2)["error"])
+        type(self).system = self.start_system()
+        while True:
+            message = page.receive()
+            if isinstance(message, dict) and message["op"] == "hello":
+                break
+        page.send(op="look", id=3, port=POSE)
+        self.assertEqual(page.answer(3)["op"], "looking")
+
+    def test_the_death_of_the_page_is_nobodys_loss(self):
+        other = subprocess.Popen([BUILD / "bin" / "orcaview", NAME], env=self.environment, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, other)
+        port = int(re.search(r":(\d+)/", other.stdout.readline())[1])
+        token = other.stdout.readline().split("token=")[1].strip()
+        with WebSocket(port, token) as page:
+            page.receive()
+            page.send(op="look", id=1, port=POSE)
+            page.answer(1)
+            other.kill()
+            other.wait(10)
+        states = self.orcactl("ps").stdout
+        self.assertGreaterEqual(states.count(" WORK "), 6, states)
+
+
+class Deployer(unittest.TestCase):
+    def test_view_starts_a_page_that_ends_with_the_system(self):
+        with tempfile.TemporaryDirectory(prefix="orca_view_") as folder:
+            os.chmod(folder, 0o700)
+            system = subprocess.Popen([BUILD / "bin" / "deployer", GRAPH, "--view", "--log", "error", "--no-progress"],
+                                      env=os.environ | {"XDG_RUNTIME_DIR": folder}, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.PIPE, text=True)
+            self.addCleanup(system.kill)
+            line = system.stderr.readline()
+            self.assertRegex(line, r"^look at it in a browser: http://127.0.0.1:\d+/#token=[0-9a-f]{32}$")
+            port, token = int(re.search(r":(\d+)/", line)[1]), line.split("token=")[1].strip()
+            with WebSocket(port, token) as page:
+                hello = page.receive()
+                while not hello.get("present"):
+                    hello = page.receive()
+                self.assertEqual(hello["role"], "operator")
+            system.send_signal(signal.SIGTERM)
+            self.assertEqual(system.wait(30), 0)
+            system.stderr.close()
+            with self.assertRaises(ConnectionRefusedError):
+                socket.create_connection(("127.0.0.1", port))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "access.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+using namespace orca::view;
+
+TEST_CASE("whoever knows a token has its role, and nobody else has one", "[view]") {
+  const auto tokens = Tokens::draw();
+  REQUIRE(tokens);
+  const std::string steering = tokens->of(Role::operator_);
+  CHECK(steering.size() == 32);
+  CHECK(tokens->role_of(steering) == Role::operator_);
+  CHECK(tokens->role_of(tokens->of(Role::reader)) == Role::reader);
+  CHECK_FALSE(tokens->role_of(""));
+  CHECK_FALSE(tokens->role_of(steering.substr(0, 31)));
+  CHECK_FALSE(tokens->role_of(steering + "0"));
+  CHECK_FALSE(tokens->role_of(std::string(32, '0')));
+}
+
+TEST_CASE("each run has other tokens", "[view]") {
+  std::set<std::string> seen;
+  for (int i = 0; i < 20; ++i) {
+    const auto tokens = Tokens::draw();
+    REQUIRE(tokens);
+    seen.insert(tokens->of(Role::reader));
+    seen.insert(tokens->of(Role::operator_));
+  }
+  CHECK(seen.size() == 40);
+}
+
+TEST_CASE("a request must name this machine as its host", "[view]") {
+  for (const char* const host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080"})
+    CHECK(is_own_host(host, 8080));
+  // A page of somebody else that lets its own name point here is another host.
+  for (const char* const host : {"", "127.0.0.1", "evil.org:8080", "127.0.0.1:8081",
+                                 "127.0.0.1:8080.evil.org", "localhost:80801", " localhost:8080"})
+    CHECK_FALSE(is_own_host(host, 8080));
+}
+
+TEST_CASE("a request may come from a page of this server, or from no page", "[view]") {
+  CHECK(is_own_origin("", 8080));
+  CHECK(is_own_origin("http://127.0.0.1:8080", 8080));
+  CHECK(is_own_origin("http://localhost:8080", 8080));
+  for (const char* const origin : {"null", "http://evil.org", "https://127.0.0.1:8080",
+                                   "http://127.0.0.1:9090", "http://127.0.0.1:8080.evil.org", "file://"})
+    CHECK_FALSE(is_own_origin(origin, 8080));
+}
+
+TEST_CASE("a value of a request's query is found by its name", "[view]") {
+  CHECK(query_value("/ws?token=1f", "token") == "1f");
+  CHECK(query_value("/ws?a=b&token=1f&c=d", "token") == "1f");
+  CHECK(query_value("/ws?mytoken=1f", "token").empty());
+  CHECK(query_value("/ws?token", "token").empty());
+  CHECK(query_value("/ws", "token").empty());
+  CHECK(query_value("token=1f", "token").empty());
+}
+
+TEST_CASE("a reader may ask what is so, and change nothing", "[view]") {
+  for (const char* const command :
+       {"ps", "graph", "ports", "plugins", "counters", "log", "get", "missions", "names"})
+    CHECK(only_shows(command, true));
+  CHECK(only_shows("alarms", false));
+  CHECK_FALSE(only_shows("alarms", true));  // alarms ack all
+  for (const char* const command : {"estop", "stop", "restart", "suspend", "resume", "swap", "apply",
+                                    "connect", "disconnect", "move", "set", "line", "diff", "whatever"})
+    CHECK_FALSE(only_shows(command, true));
+}
