@@ -65,6 +65,12 @@ Scene Navigator::scene(const Moment& moment) const {
   return {soon, moment.twist.forward, points_, turning_};
 }
 
+std::optional<Vec2> Navigator::ahead(const Moment& moment) const {
+  if (backs_off_since_ || plan_.path.empty()) return std::nullopt;
+  const double look = look_ahead(moment.twist.forward, rules_.pursuit);
+  return plan_.path.at(std::min(along_ + look, plan_.path.length()));
+}
+
 double Navigator::room_ahead(const Moment& moment) const {
   const Room room =
       room_along(footprint_, moment.pose, {kRoomAhead, 0.0, 0.0}, 30, points_, rules_.pursuit.margin);

@@ -45,8 +45,7 @@ Choice try_arc(Vec2 target, double look, double horizon, const Scene& scene, con
 // Returns the arc with the longest look-ahead that is free; if none is, that with the longest free part.
 Choice choose(const Path& path, double along, const Scene& scene, const Footprint& footprint,
               const Pursuit& pursuit) {
-  const double reach = std::clamp(std::fabs(scene.speed) * pursuit.look_ahead_time, pursuit.min_look_ahead,
-                                  pursuit.max_look_ahead);
+  const double reach = look_ahead(scene.speed, pursuit);
   const double stop =
       std::fabs(scene.speed) * pursuit.delay + 0.5 * scene.speed * scene.speed / pursuit.deceleration;
   Choice best;
@@ -92,6 +91,11 @@ Arc arc_to(Vec2 point) {
   // The arc turns by twice the angle to the point.
   const double half = portable::atan2(std::fabs(point.y), point.x);
   return {curvature, half < 1e-6 ? distance : distance * half / portable::sin(half)};
+}
+
+double look_ahead(double speed, const Pursuit& pursuit) {
+  return std::clamp(std::fabs(speed) * pursuit.look_ahead_time, pursuit.min_look_ahead,
+                    pursuit.max_look_ahead);
 }
 
 double speed_to_stop_within(double way, double deceleration, double delay) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lead.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
@@ -249,10 +250,14 @@ class GridPlanner final : public orca::go::GoalFollower {
       return;
     }
     const orca::nav::Moment moment{now(), pose, twist_};
-    if (auto step = step_of_rest(target, pose, deceleration(), before())) return rest(*step, moment, target);
+    if (auto step = step_of_rest(target, pose, deceleration(), before())) {
+      lead_.name(target.place, target.reach_radius);
+      return rest(*step, moment, target);
+    }
     const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
     motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
     note_speed(steer.speed);
+    if (const auto ahead = navigator_->ahead(moment)) lead_.name(*ahead, 0.0);
   }
 
   [[nodiscard]] std::string what_holds() const override {
@@ -333,6 +338,7 @@ class GridPlanner final : public orca::go::GoalFollower {
       "robot",
       {.text = "Base that is asked about the robot's outline and how fast it can be.", .optional = true}};
 
+  orca::planner::Lead lead_{*this};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
   orca::Param<double> turn_rate_{

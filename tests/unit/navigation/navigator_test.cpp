@@ -104,3 +104,19 @@ TEST_CASE("shut in, the navigator tries to recover and touches nothing", "[navig
   CHECK(drive.recoveries > 0);
   CHECK(drive.least_clearance > 0.0);
 }
+
+TEST_CASE("the navigator names the place ahead on its path, and none while it knows no way", "[navigation]") {
+  Navigator navigator(kBase, {});
+  const Moment moment{TimePoint{}, {}, {0.5, 0.0, 0.0}};
+  CHECK_FALSE(navigator.ahead(moment));
+
+  navigator.hear(scan_of({{{-1.0, 2.0}, {6.0, 2.0}}}, {}), {});
+  (void)navigator.steer(moment, {{4.0, 0.0}});
+  const auto ahead = navigator.ahead(moment);
+  REQUIRE(ahead);
+  CHECK(ahead->x == Approx(0.45).margin(0.05));  // 0.9 s at 0.5 m/s
+  CHECK(std::abs(ahead->y) < 0.1);
+
+  navigator.drop_path();
+  CHECK_FALSE(navigator.ahead(moment));
+}

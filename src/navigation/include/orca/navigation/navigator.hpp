@@ -54,6 +54,8 @@ class Navigator {
   void hear(std::span<const Beam> scan, const Pose2& pose);
   /// Returns the motion of the next moment.
   [[nodiscard]] Steer steer(const Moment& moment, const Errand& errand);
+  /// Returns the place on the path that is as far ahead as it looks, map frame; nothing while it recovers or no path leads on.
+  [[nodiscard]] std::optional<Vec2> ahead(const Moment& moment) const;
   /// Returns how far the robot can drive straight on [m], at most 1.5 m.
   [[nodiscard]] double room_ahead(const Moment& moment) const;
   /// Forgets the path: the robot does something else now.

@@ -47,6 +47,9 @@ struct Pursuit {
   double margin = 0.03;               ///< [m] kept free around the outline.
 };
 
+/// Returns how far ahead on its path [m] a robot looks that drives at `speed` [m/s].
+[[nodiscard]] double look_ahead(double speed, const Pursuit& pursuit);
+
 /// The motion of the next moment.
 struct Steer {
   double speed = 0.0;      ///< [m/s] negative: backwards.
