@@ -17,11 +17,13 @@ void fields(auto& archive, Ask& m) { transfer_all(archive, m.command, m.words, m
 void fields(auto& archive, RecordAnswer& m) { transfer(archive, m.record); }
 void fields(auto& archive, TextAnswer& m) { transfer(archive, m.text); }
 void fields(auto& archive, NoteAnswer& m) { transfer(archive, m.text); }
-void fields(auto& archive, LineAnswer& m) { transfer_all(archive, m.line, m.type, m.reply); }
+void fields(auto& archive, LineAnswer& m) { transfer_all(archive, m.line, m.type, m.reply, m.ports); }
 void fields(auto& archive, EndAnswer& m) { transfer(archive, m.outcome); }
 void fields(auto& archive, Tapped& m) {
-  transfer_all(archive, m.type, m.object, m.passed, m.created, m.size, m.lost);
+  transfer_all(archive, m.type, m.object, m.passed, m.created, m.size, m.lost, m.place);
 }
+void fields(auto& /*archive*/, EndLine& /*m*/) {}
+void fields(auto& archive, LineEnded& m) { transfer(archive, m.lost); }
 void fields(auto& archive, Offer& m) { transfer_all(archive, m.type, m.object); }
 void fields(auto& archive, OfferOutcome& m) { transfer_all(archive, m.outcome, m.type, m.object); }
 

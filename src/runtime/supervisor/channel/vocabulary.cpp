@@ -25,7 +25,7 @@ void fields(auto& archive, CutEdge& m) { transfer_all(archive, m.edge, m.reason)
 void fields(auto& /*archive*/, ReleaseMotors& /*m*/) {}
 void fields(auto& /*archive*/, Count& /*m*/) {}
 void fields(auto& archive, OpenLine& m) {
-  transfer_all(archive, m.component, m.port, m.taps, m.objects, m.line);
+  transfer_all(archive, m.ports, m.taps, m.objects, m.bound, m.line);
 }
 void fields(auto& archive, TellAlarm& m) { transfer_all(archive, m.process, m.object); }
 void fields(auto& archive, ForgetAlarm& m) { transfer_all(archive, m.kind, m.source, m.process); }

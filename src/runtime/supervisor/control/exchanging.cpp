@@ -79,7 +79,7 @@ std::vector<WatchedPort> watch(const graph::Graph& graph, const std::string& com
   for (const std::string& port : ports) {
     Result<SocketPair> pair = make_socket_pair();
     if (!pair) continue;  // then the new code is tried with less
-    member.tell(OpenLine{component, port, true, true, std::move(pair->host)});
+    member.tell(OpenLine{{{component, port}}, true, true, 0, std::move(pair->host)});
     watched.push_back({port, std::move(pair->supervisor)});
   }
   return watched;
@@ -267,7 +267,7 @@ std::vector<ServerLine> Exchanging::lines_to_servers_of(const std::string& compo
     const Result<Member*> member = names_.ready_member_of(**server);
     Result<SocketPair> pair = make_socket_pair();
     if (!member || !pair) continue;  // then it gets no answers
-    (*member)->tell(OpenLine{edge.to.component, edge.to.port, false, false, std::move(pair->host)});
+    (*member)->tell(OpenLine{{edge.to}, false, false, 0, std::move(pair->host)});
     lines.push_back({edge.to, std::move(pair->supervisor)});
   }
   return lines;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "port_lines.hpp"
 
+#include <poll.h>
 #include <pthread.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +23,8 @@ constexpr Duration kLook = 10ms;                              // between two loo
 constexpr std::size_t kBound = std::size_t{1} << 20;          // [bytes] that wait for a client
 constexpr std::size_t kLongestOffer = std::size_t{16} << 20;  // [bytes]
 constexpr int kMostOffers = 8;                                // of one client at a look
+constexpr std::size_t kMostObjects = std::size_t{1} << 17;    // that wait at a tap for a look
+constexpr Duration kEndLimit = 300ms;                         // for what waits when the process ends
 
 std::uint64_t nanoseconds(TimePoint time) {
   return static_cast<std::uint64_t>(time.time_since_epoch().count());
@@ -31,12 +36,35 @@ std::vector<std::byte> bytes_of(const ObjectRef& object) {
   return bytes;
 }
 
+using SteadyClock = std::chrono::steady_clock;
+
+host::PortTap::Bounds bounds_of(const OpenLine& order) {
+  return order.bound == 0 ? host::PortTap::Bounds{} : host::PortTap::Bounds{kMostObjects, order.bound};
+}
+
+// Sends what waits in channels until the next look at the taps is due.
+void push_out(std::vector<std::shared_ptr<Channel>> channels) {
+  const auto next = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(kLook);
+  for (;;) {
+    std::erase_if(channels,
+                  [](const auto& channel) { return !channel->flush().ok() || !channel->has_unsent(); });
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - SteadyClock::now());
+    if (left.count() <= 0) return;
+    if (channels.empty())
+      return std::this_thread::sleep_until(next);  // objects that pass do not wake it: system calls
+    std::vector<pollfd> ready;
+    for (const auto& channel : channels) ready.push_back({channel->descriptor(), POLLOUT, 0});
+    (void)poll(ready.data(), ready.size(), static_cast<int>(left.count()));
+  }
+}
+
 Tapped to_word(const host::PortTap::Passed& passed, bool with_object, std::uint64_t lost) {
   Tapped word;
   word.type = passed.object.type().name;
   word.passed = nanoseconds(passed.time);
   word.created = static_cast<std::uint64_t>(passed.object.header().creation_time().ns());
   word.lost = lost;
+  word.place = passed.place;
   if (!with_object) return word;
   word.object = bytes_of(passed.object);
   word.size = word.object.size();
@@ -64,23 +92,49 @@ class PortLines::Line {
  public:
   Line(host::HostedPart& part, OpenLine order, std::shared_ptr<host::PortTap> tap)
       : part_(part),
-        port_{std::move(order.component), std::move(order.port)},
+        port_(std::move(order.ports.front())),
         objects_(order.objects),
+        is_bounded_(order.bound > 0),
         tap_(std::move(tap)),
-        channel_(std::make_shared<Channel>(std::move(order.line), kBound, kLongestOffer)) {}
+        channel_(std::make_shared<Channel>(std::move(order.line), is_bounded_ ? order.bound : kBound,
+                                           kLongestOffer)),
+        lost_(order.ports.size()) {}
 
   // Returns false if the client is gone, or is to be cut off.
   bool serve() {
     if (tap_) send_passed();
+    if (is_to_end_) send_end();
     return channel_->flush().ok() && take_offers();
   }
 
+  // Sends the rest, because the process ends. Whoever looks on for a moment only need not have it.
+  void finish(Duration limit) {
+    if (!tap_ || !is_bounded_) return;
+    send_passed();
+    (void)channel_->send(encode(LineWord(LineEnded{lost_in_all()})), limit);
+  }
+
+  [[nodiscard]] const std::shared_ptr<Channel>& channel() const { return channel_; }
+
  private:
   void send_passed() {
+    const std::vector<std::uint64_t> lost = tap_->lost();
     for (const host::PortTap::Passed& passed : tap_->take()) {
-      const Status sent = channel_->post(encode(to_word(passed, objects_, tap_->lost() + lost_)));
-      if (!sent.ok()) ++lost_;
+      const std::size_t at = passed.place;
+      const Status sent = channel_->post(encode(to_word(passed, objects_, lost[at] + lost_[at])));
+      if (!sent.ok()) ++lost_[at];
     }
+  }
+
+  void send_end() {
+    if (channel_->post(encode(LineWord(LineEnded{lost_in_all()}))).ok()) is_to_end_ = false;
+  }
+
+  [[nodiscard]] std::vector<std::uint64_t> lost_in_all() const {
+    std::vector<std::uint64_t> lost = lost_;
+    if (!tap_) return lost;
+    std::ranges::transform(lost, tap_->lost(), lost.begin(), std::plus<>());
+    return lost;
   }
 
   bool take_offers() {
@@ -90,8 +144,13 @@ class PortLines::Line {
       if (!message->has_value()) return true;
       const std::uint64_t request = (*message)->request;
       Result<LineWord> word = decode_line_word(std::move(**message));
-      if (!word || !std::holds_alternative<Offer>(*word)) return false;
-      hand_over(std::get<Offer>(*word), request);
+      if (word && std::holds_alternative<EndLine>(*word)) {
+        is_to_end_ = true;  // after the next look at the tap
+      } else if (word && std::holds_alternative<Offer>(*word)) {
+        hand_over(std::get<Offer>(*word), request);
+      } else {
+        return false;
+      }
     }
     return true;
   }
@@ -108,11 +167,13 @@ class PortLines::Line {
   }
 
   host::HostedPart& part_;
-  const graph::PortRef port_;
+  const graph::PortRef port_;  // for which offers are
   const bool objects_;
+  const bool is_bounded_;
   const std::shared_ptr<host::PortTap> tap_;  // null: the client only sends
   const std::shared_ptr<Channel> channel_;    // answers may come when the line is gone
-  std::uint64_t lost_ = 0;                    // because the client did not read
+  std::vector<std::uint64_t> lost_;           // by place, because the client did not read
+  bool is_to_end_ = false;                    // the client wants to know that it has everything
 };
 
 PortLines::PortLines(host::HostedPart& part) : part_(part) {}
@@ -126,9 +187,10 @@ PortLines::~PortLines() {
 }
 
 Status PortLines::open(OpenLine order) {
+  if (order.ports.empty()) return fail(Code::invalid_argument, "a line to no port");
   std::shared_ptr<host::PortTap> tap;
   if (order.taps) {
-    Result<std::shared_ptr<host::PortTap>> opened = part_.tap({order.component, order.port});
+    Result<std::shared_ptr<host::PortTap>> opened = part_.tap(order.ports, bounds_of(order));
     if (!opened) return opened.error();
     tap = std::move(opened).value();
   }
@@ -148,14 +210,17 @@ Status PortLines::open(OpenLine order) {
 
 void PortLines::serve() {
   for (;;) {
+    std::vector<std::shared_ptr<Channel>> channels;
     {
       const MutexLock lock(mutex_);
       std::erase_if(lines_, [](Line& line) { return !line.serve(); });
+      if (ending_)
+        for (Line& line : lines_) line.finish(kEndLimit);
       runs_ = !lines_.empty() && !ending_;
       if (!runs_) return;
+      for (const Line& line : lines_) channels.push_back(line.channel());
     }
-    std::this_thread::sleep_for(
-        kLook);  // an object that passes does not wake it: that would cost a system call
+    push_out(std::move(channels));
   }
 }
 

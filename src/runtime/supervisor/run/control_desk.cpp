@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "control/alarm_desk.hpp"
+#include "control/lines.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/log_name.hpp"
 
@@ -165,7 +166,8 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"move", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::move); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
-      {"line", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.open_line(ask, r); }},
+      {"line", [](ControlDesk& d, const Ask& ask,
+                  const ReplyPtr& r) { open_lines(ask.words, d.names_, d.conductor_, *r); }},
   };
   return all;
 }
@@ -215,26 +217,6 @@ void ControlDesk::show_missions(const Ask& ask, Reply& reply) const {
   if (error != std::errc{} || end != text.data() + text.size())
     return reply.refuse(fail(Code::invalid_argument, in_quotes(text) + " is no number of a mission"));
   if (const Status shown = ledger_.missions().show(number, reply); !shown.ok()) reply.refuse(shown.error());
-}
-
-// Joins the client to the host process of a port. The supervisor itself keeps no end.
-void ControlDesk::open_line(const Ask& ask, const ReplyPtr& reply) {
-  const Result<const graph::ListedPort*> port = names_.port(word(ask, 0));
-  if (!port) return reply->refuse(port.error());
-  const graph::PortRef& ref = (*port)->ref;
-  const Result<const graph::ComponentNode*> component = names_.component(ref.component);
-  if (!component) return reply->refuse(component.error());
-  const Result<Member*> member = names_.ready_member_of(**component);
-  if (!member) return reply->refuse(member.error());
-  Result<SocketPair> pair = make_socket_pair();
-  if (!pair) return reply->refuse(pair.error());
-  const PortContract& contract = (*port)->contract;
-  LineAnswer answer{std::move(pair->supervisor), contract.type.name,
-                    contract.reply ? contract.reply->name : ""};
-  OpenLine order{ref.component, ref.port, has(ask, "--tap"), has(ask, "--objects"), std::move(pair->host)};
-  const std::optional<Answer> opened = conductor_.ask(**member, std::move(order));
-  if (opened && !opened->outcome.ok()) return reply->refuse(opened->outcome.error());
-  if (opened) reply->add(std::move(answer));
 }
 
 }  // namespace orca::supervisor

@@ -88,7 +88,6 @@ class ControlDesk {
   void rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring);
   void show_log(const Ask& ask, const ReplyPtr& reply);
   void show_missions(const Ask& ask, Reply& reply) const;
-  void open_line(const Ask& ask, const ReplyPtr& reply);
   void look_at_files(Moment now);
   void look_after_socket(Moment now);
 

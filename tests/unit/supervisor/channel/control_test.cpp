@@ -62,5 +62,6 @@ TEST_CASE("a word that is cut short, too long, or of another kind is refused", "
   for (ControlAnswer& answer : all_answers())
     CHECK(decode_answer(without_last_byte(encode(std::move(answer), 1))).error().code == Code::data_loss);
   for (LineWord& word : all_line_words())
-    CHECK(decode_line_word(without_last_byte(encode(std::move(word)))).error().code == Code::data_loss);
+    if (!std::holds_alternative<EndLine>(word))  // has no fields
+      CHECK(decode_line_word(without_last_byte(encode(std::move(word)))).error().code == Code::data_loss);
 }

@@ -80,7 +80,7 @@ inline std::vector<supervisor::Order> all_orders() {
       Suspend{"avoid"}, Resume{"avoid"}, SetParams{"avoid", {{"stop_distance", "0.5 m"}}},
       RenewEdge{{"a.out to b.in", null_device()}}, CutEdge{"a.out to b.in", "process \"base\" has crashed"},
       TellAlarm{"base", some_bytes()}, ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
-      OpenLine{"base", "OdometryPush", true, false, null_device()},
+      OpenLine{{{"base", "OdometryPush"}, {"base", "SonarPush"}}, true, false, 1000, null_device()},
       Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}}, Say{some_bytes()},
       Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{"a.out to b.in"}, AskUse{},
       TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}},
@@ -117,17 +117,17 @@ inline std::vector<supervisor::Report> all_reports() {
 /// Returns one of each word that a client of the control socket hears.
 inline std::vector<supervisor::ControlAnswer> all_answers() {
   using namespace supervisor;
-  return list_of<ControlAnswer>(RecordAnswer{{{"name", "goto"}, {"pid", 42}, {"active", true}}},
-                                TextAnswer{"<graph/>"}, NoteAnswer{"only a part"},
-                                LineAnswer{null_device(), "Ask", "ClientList"}, EndAnswer{ok()},
-                                EndAnswer{fail(Code::not_found, "there is no component \"gto\"")});
+  return list_of<ControlAnswer>(
+      RecordAnswer{{{"name", "goto"}, {"pid", 42}, {"active", true}}}, TextAnswer{"<graph/>"},
+      NoteAnswer{"only a part"}, LineAnswer{null_device(), "Ask", "ClientList", {"a.ask", "b.ask"}},
+      EndAnswer{ok()}, EndAnswer{fail(Code::not_found, "there is no component \"gto\"")});
 }
 
 /// Returns one of each word on a line to a port.
 inline std::vector<supervisor::LineWord> all_line_words() {
   using namespace supervisor;
-  return list_of<LineWord>(Tapped{"Odometry", some_bytes(), 3, 2, 4, 1}, Offer{"Ask", some_bytes()},
-                           OfferOutcome{ok(), "ClientList", some_bytes()},
+  return list_of<LineWord>(Tapped{"Odometry", some_bytes(), 3, 2, 4, 1, 5}, EndLine{}, LineEnded{{0, 3}},
+                           Offer{"Ask", some_bytes()}, OfferOutcome{ok(), "ClientList", some_bytes()},
                            OfferOutcome{fail(Code::unavailable, "full"), "", {}});
 }
 

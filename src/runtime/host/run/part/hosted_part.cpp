@@ -74,11 +74,16 @@ class HostedPart::Inside {
   }
   OuterEdges& outer() { return outer_; }
 
-  Result<std::shared_ptr<PortTap>> tap(const graph::PortRef& port) {
+  Result<std::shared_ptr<PortTap>> tap(const std::vector<graph::PortRef>& ports,
+                                       const PortTap::Bounds& bounds) {
+    std::vector<PortTap::Place> places;
     const MutexLock lock(graph_mutex_);
-    const Endpoint* const endpoint = watched_.system().endpoint(port);
-    if (endpoint == nullptr) return no_such(port);
-    return taps_.open(port.component, endpoint->contract());
+    for (const graph::PortRef& port : ports) {
+      const Endpoint* const endpoint = watched_.system().endpoint(port);
+      if (endpoint == nullptr) return no_such(port);
+      places.push_back({port.component, endpoint->contract().name, flow_of(endpoint->contract())});
+    }
+    return taps_.open(std::move(places), bounds);
   }
 
   Status offer(const graph::PortRef& port, ObjectLoan object,
@@ -362,7 +367,10 @@ bool HostedPart::let_go() { return inside_->watched().system().let_go(); }
 
 RunCounters HostedPart::counters() const { return inside_->counters(); }
 
-Result<std::shared_ptr<PortTap>> HostedPart::tap(const graph::PortRef& port) { return inside_->tap(port); }
+Result<std::shared_ptr<PortTap>> HostedPart::tap(const std::vector<graph::PortRef>& ports,
+                                                 const PortTap::Bounds& bounds) {
+  return inside_->tap(ports, bounds);
+}
 
 Status HostedPart::offer(const graph::PortRef& port, ObjectLoan object,
                          std::function<void(Result<ObjectRef>)> answered) {

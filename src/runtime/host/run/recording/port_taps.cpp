@@ -11,35 +11,54 @@ Flow flow_of(const PortContract& port) {
   return port.pattern == Pattern::send && port.role == Role::proxy ? Flow::requested : Flow::delivered;
 }
 
-PortTap::PortTap(std::string component, std::string port, Flow flow)
-    : component_(std::move(component)), port_(std::move(port)), flow_(flow) {
-  waiting_.reserve(kMost);
+PortTap::PortTap(std::vector<Place> places, const Bounds& bounds)
+    : places_(std::move(places)), bounds_(bounds), lost_(places_.size()) {
+  waiting_.reserve(Bounds{}.objects);
 }
 
-void PortTap::put(const ObjectRef& object, TimePoint time) {
-  const MutexLock lock(mutex_);
-  if (waiting_.size() == kMost) {
-    ++lost_;
-  } else {
-    waiting_.push_back({object, time});
+bool PortTap::is_at(Flow flow, std::string_view component, std::string_view port) const {
+  return std::ranges::any_of(places_, [&](const Place& place) {
+    return place.flow == flow && place.port == port && place.component == component;
+  });
+}
+
+bool PortTap::has_room(std::size_t bytes) const {
+  if (waiting_.size() >= bounds_.objects) return false;
+  return bounds_.bytes == 0 || waiting_.empty() || waiting_bytes_ + bytes <= bounds_.bytes;
+}
+
+void PortTap::put_if_at(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
+                        TimePoint time) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& place = places_[i];
+    if (place.flow != flow || place.port != port || place.component != component) continue;
+    const std::size_t bytes = bounds_.bytes == 0 ? 0 : object.type().write(object.get(), {});
+    const MutexLock lock(mutex_);
+    if (!has_room(bytes)) {
+      ++lost_[i];
+    } else {
+      waiting_.push_back({object, time, i});
+      waiting_bytes_ += bytes;
+    }
   }
 }
 
 std::vector<PortTap::Passed> PortTap::take() {
   std::vector<Passed> taken;
-  taken.reserve(kMost);
+  taken.reserve(Bounds{}.objects);
   const MutexLock lock(mutex_);
   taken.swap(waiting_);
+  waiting_bytes_ = 0;
   return taken;
 }
 
-std::uint64_t PortTap::lost() const {
+std::vector<std::uint64_t> PortTap::lost() const {
   const MutexLock lock(mutex_);
   return lost_;
 }
 
-std::shared_ptr<PortTap> PortTaps::open(const std::string& component, const PortContract& port) {
-  std::shared_ptr<PortTap> tap(new PortTap(component, port.name, flow_of(port)));
+std::shared_ptr<PortTap> PortTaps::open(std::vector<PortTap::Place> places, const PortTap::Bounds& bounds) {
+  std::shared_ptr<PortTap> tap(new PortTap(std::move(places), bounds));
   const MutexLock lock(mutex_);
   std::erase_if(taps_, [](const auto& other) { return other.expired(); });
   taps_.push_back(tap);
@@ -52,7 +71,7 @@ bool PortTaps::are_at(Flow flow, std::string_view component, std::string_view po
   const MutexLock lock(mutex_);
   return std::ranges::any_of(taps_, [&](const std::weak_ptr<PortTap>& weak) {
     const std::shared_ptr<PortTap> tap = weak.lock();
-    return tap && tap->flow_ == flow && tap->port_ == port && tap->component_ == component;
+    return tap && tap->is_at(flow, component, port);
   });
 }
 
@@ -64,8 +83,7 @@ void PortTaps::pass_on(Flow flow, std::string_view component, std::string_view p
   for (const auto& weak : taps_) {
     const std::shared_ptr<PortTap> tap = weak.lock();
     has_expired = has_expired || !tap;
-    if (tap && tap->flow_ == flow && tap->port_ == port && tap->component_ == component)
-      tap->put(object, now);
+    if (tap) tap->put_if_at(flow, component, port, object, now);
   }
   if (!has_expired) return;
   std::erase_if(taps_, [](const auto& tap) { return tap.expired(); });

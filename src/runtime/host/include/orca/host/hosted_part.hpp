@@ -168,9 +168,10 @@ class HostedPart {
 
   /// Returns the counters of the connections that end in this process.
   [[nodiscard]] RunCounters counters() const;
-  /// Opens a tap of a port. It must be closed before this object is destroyed.
+  /// Opens a tap of some ports. It must be closed before this object is destroyed.
   /// @errors  not_found.
-  [[nodiscard]] Result<std::shared_ptr<PortTap>> tap(const graph::PortRef& port);
+  [[nodiscard]] Result<std::shared_ptr<PortTap>> tap(const std::vector<graph::PortRef>& ports,
+                                                     const PortTap::Bounds& bounds);
   /// Hands an object from outside to a SendServer, or a question to a QueryServer. Such an object begins a mission of its
   /// own.
   /// @param answered  takes the outcome, with the reply of a QueryServer; called now or later, on any thread, unless the

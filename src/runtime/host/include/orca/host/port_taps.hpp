@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,36 +23,50 @@ enum class Flow { pushed, requested, delivered };
 /// Returns the moment at which objects are seen at a port.
 [[nodiscard]] Flow flow_of(const PortContract& port);
 
-/// What has passed a port since the last look. Whoever passes an object never waits: one that finds no room is lost, and
-/// counted.
+/// What has passed some ports since the last look. Whoever passes an object never waits: one that finds no room is lost,
+/// and counted.
 ///
 /// Thread contract: any thread.
 class PortTap {
  public:
-  static constexpr std::size_t kMost = 64;  ///< Objects that wait for the next look.
-
+  /// A port of the tap.
+  struct Place {
+    std::string component;
+    std::string port;
+    Flow flow = Flow::delivered;
+  };
+  /// What may wait for the next look. The default is enough for a person who looks on.
+  struct Bounds {
+    std::size_t objects = 64;
+    std::size_t bytes =
+        0;  ///< [bytes] of the objects as XCDR1, of which one at least finds room; 0: no matter.
+  };
   /// An object, with the time of the run's clock at which it has passed.
   struct Passed {
     ObjectRef object;
     TimePoint time;
+    std::size_t place = 0;  ///< Of its port among the places of the tap.
   };
 
   /// Returns what waits, the oldest first.
   [[nodiscard]] std::vector<Passed> take();
-  /// Returns how many objects were lost from the beginning until now.
-  [[nodiscard]] std::uint64_t lost() const;
+  /// Returns how many objects were lost at each place from the beginning until now.
+  [[nodiscard]] std::vector<std::uint64_t> lost() const;
 
  private:
   friend class PortTaps;
-  PortTap(std::string component, std::string port, Flow flow);
-  void put(const ObjectRef& object, TimePoint time);
+  PortTap(std::vector<Place> places, const Bounds& bounds);
+  [[nodiscard]] bool is_at(Flow flow, std::string_view component, std::string_view port) const;
+  void put_if_at(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
+                 TimePoint time);
+  [[nodiscard]] bool has_room(std::size_t bytes) const ORCA_REQUIRES(mutex_);
 
-  const std::string component_;
-  const std::string port_;
-  const Flow flow_;
+  const std::vector<Place> places_;
+  const Bounds bounds_;
   mutable Mutex mutex_;
   std::vector<Passed> waiting_ ORCA_GUARDED_BY(mutex_);
-  std::uint64_t lost_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;
+  std::vector<std::uint64_t> lost_ ORCA_GUARDED_BY(mutex_);  // by place
 };
 
 /// The taps of a process. While there are none, an object that passes costs a look at one number.
@@ -64,7 +77,8 @@ class PortTaps {
   explicit PortTaps(const Executive& executive) : executive_(executive) {}
 
   /// Opens a tap. It is closed when nobody holds the pointer any more.
-  [[nodiscard]] std::shared_ptr<PortTap> open(const std::string& component, const PortContract& port);
+  [[nodiscard]] std::shared_ptr<PortTap> open(std::vector<PortTap::Place> places,
+                                              const PortTap::Bounds& bounds = {});
 
   /// Returns whether there is a tap at a port.
   [[nodiscard]] bool are_at(Flow flow, std::string_view component, std::string_view port) const;

@@ -41,12 +41,14 @@ struct NoteAnswer {
   static constexpr Kind kKind = Kind::note_answer;
   std::string text;
 };
-/// A line to a port: see below. The supervisor itself carries no objects.
+/// A line to ports of one process: see below. Whoever asks for several ports gets a line for each process that has some of
+/// them, and that takes orders at present. The supervisor itself carries no objects.
 struct LineAnswer {
   static constexpr Kind kKind = Kind::line_answer;
-  Descriptor line;    ///< A socket, as of make_socket_pair().
-  std::string type;   ///< Of the objects at the port.
-  std::string reply;  ///< Of the replies of a QueryServer; empty: there are none.
+  Descriptor line;                   ///< A socket, as of make_socket_pair().
+  std::string type;                  ///< Of the objects at the first port.
+  std::string reply;                 ///< Of the replies of a QueryServer; empty: there are none.
+  std::vector<std::string> ports{};  ///< "component.port": those of the line, in the order of Tapped::place.
 };
 /// The end of the answer.
 struct EndAnswer {
@@ -55,9 +57,9 @@ struct EndAnswer {
 };
 using ControlAnswer = std::variant<RecordAnswer, TextAnswer, LineAnswer, EndAnswer, NoteAnswer>;
 
-/// What a client and the host process of a port say to each other over a line.
+/// What a client and the host process of some ports say to each other over a line.
 
-/// An object that has passed the port.
+/// An object that has passed a port.
 struct Tapped {
   static constexpr Kind kKind = Kind::tapped;
   std::string type;               ///< Its IDL name.
@@ -65,7 +67,18 @@ struct Tapped {
   std::uint64_t passed = 0;       ///< When it passed [ns of the run's clock].
   std::uint64_t created = 0;      ///< Its creation_time [ns of the run's clock].
   std::uint64_t size = 0;  ///< [bytes] of the whole object as XCDR1; 0 if the client wants only the times.
-  std::uint64_t lost = 0;  ///< Objects that the line had no room for, from its beginning until now.
+  std::uint64_t lost =
+      0;  ///< Objects of the port that the line had no room for, from its beginning until now.
+  std::uint64_t place = 0;  ///< Of the port among those of the line.
+};
+/// Asks for the end of a line: all that has passed until now is sent, then LineEnded.
+struct EndLine {
+  static constexpr Kind kKind = Kind::end_line;
+};
+/// The end of a line. It also comes without being asked for if the process ends and the line has a bound of its own.
+struct LineEnded {
+  static constexpr Kind kKind = Kind::line_ended;
+  std::vector<std::uint64_t> lost;  ///< Objects of each port that the line had no room for.
 };
 /// An object for a SendServer, or a question for a QueryServer.
 struct Offer {
@@ -80,7 +93,7 @@ struct OfferOutcome {
   std::string type;               ///< Of the reply; empty: there is none.
   std::vector<std::byte> object;  ///< The reply, XCDR1.
 };
-using LineWord = std::variant<Tapped, Offer, OfferOutcome>;
+using LineWord = std::variant<Tapped, Offer, OfferOutcome, EndLine, LineEnded>;
 
 /// Encode a word.
 /// @param request  number of the request, which its answers repeat.

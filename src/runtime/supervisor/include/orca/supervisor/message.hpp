@@ -73,10 +73,12 @@ enum class Kind : std::uint16_t {
   line_answer,
   end_answer,
   note_answer,
-  // On a line between an operator's program and a port.
+  // On a line between an operator's program and ports.
   tapped = 401,
   offer,
   offer_outcome,
+  end_line,
+  line_ended,
 };
 
 /// One message of a control channel, encoded. orca/supervisor/vocabulary.hpp gives it a meaning.

@@ -89,13 +89,13 @@ struct ReleaseMotors {
 struct Count {
   static constexpr Kind kKind = Kind::count;
 };
-/// Gives an operator's program a line to a port of the process: see orca/supervisor/control.hpp.
+/// Gives an operator's program a line to ports of the process: see orca/supervisor/control.hpp.
 struct OpenLine {
   static constexpr Kind kKind = Kind::open_line;
-  std::string component;
-  std::string port;
-  bool taps = false;     ///< Objects that pass the port are told, with their times.
-  bool objects = false;  ///< With the objects themselves.
+  std::vector<graph::PortRef> ports;  ///< One at least. What the program offers is for the first.
+  bool taps = false;                  ///< Objects that pass the ports are told, with their times.
+  bool objects = false;               ///< With the objects themselves.
+  std::uint64_t bound = 0;  ///< What may wait for the program [bytes]; 0: what a person who looks on needs.
   Descriptor line;
 };
 /// Asks to suspend a component.

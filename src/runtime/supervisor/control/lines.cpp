@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "control/lines.hpp"
+
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "orca/base/text.hpp"
+#include "orca/supervisor/channel.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr std::uint64_t kLargestBound = std::uint64_t{1} << 30;  // [bytes]
+
+// The lines that a client wants.
+struct Wish {
+  std::vector<std::string> ports;
+  bool taps = false;
+  bool objects = false;
+  std::uint64_t bound = 0;
+};
+
+Status read_bound(const std::string& text, Wish& wish) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), wish.bound);
+  if (error == std::errc{} && end == text.data() + text.size() && wish.bound > 0 &&
+      wish.bound <= kLargestBound)
+    return ok();
+  return fail(Code::invalid_argument, "--bound expects a number of bytes from 1 to " +
+                                          std::to_string(kLargestBound) + ", not " + in_quotes(text));
+}
+
+Result<Wish> read(const std::vector<std::string>& words) {
+  Wish wish;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--tap") {
+      wish.taps = true;
+    } else if (words[i] == "--objects") {
+      wish.objects = true;
+    } else if (words[i] == "--bound") {
+      if (const Status read = read_bound(++i < words.size() ? words[i] : "", wish); !read.ok())
+        return read.error();
+    } else {
+      wish.ports.push_back(words[i]);
+    }
+  }
+  return wish;
+}
+
+using Ports = std::vector<const graph::ListedPort*>;
+
+// Returns the ports that can be reached, by their processes.
+Result<std::map<std::string, Ports>> find(const Wish& wish, const SystemNames& names) {
+  std::map<std::string, Ports> found;
+  for (const std::string& path : wish.ports) {
+    const Result<const graph::ListedPort*> port = names.port(path);
+    if (!port) return port.error();
+    const Result<const graph::ComponentNode*> component = names.component((*port)->ref.component);
+    if (!component) return component.error();
+    if (const Result<Member*> ready = names.ready_member_of(**component); ready) {
+      found[(*component)->process].push_back(*port);
+    } else if (wish.ports.size() == 1) {
+      return ready.error();
+    }
+  }
+  return found;
+}
+
+Status open_line(Member& member, const Ports& ports, const Wish& wish, Conductor& conductor, Reply& reply) {
+  Result<SocketPair> pair = make_socket_pair();
+  if (!pair) return pair.error();
+  const PortContract& first = ports.front()->contract;
+  LineAnswer answer{std::move(pair->supervisor), first.type.name, first.reply ? first.reply->name : ""};
+  OpenLine order{{}, wish.taps, wish.objects, wish.bound, std::move(pair->host)};
+  for (const graph::ListedPort* const port : ports) {
+    answer.ports.push_back(port->ref.text());
+    order.ports.push_back(port->ref);
+  }
+  const std::optional<Answer> opened = conductor.ask(member, std::move(order));
+  if (opened && !opened->outcome.ok()) return opened->outcome;
+  if (opened) reply.add(std::move(answer));
+  return ok();
+}
+
+}  // namespace
+
+void open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
+                Reply& reply) {
+  const Result<Wish> wish = read(words);
+  if (!wish) return reply.refuse(wish.error());
+  const Result<std::map<std::string, Ports>> found = find(*wish, names);
+  if (!found) return reply.refuse(found.error());
+  for (const auto& [process, ports] : *found) {
+    const Result<Member*> member = names.ready_member(process);
+    if (!member) continue;  // it has ended while another one was asked
+    if (const Status opened = open_line(**member, ports, *wish, conductor, reply); !opened.ok())
+      return reply.refuse(opened.error());
+  }
+}
+
+}  // namespace orca::supervisor

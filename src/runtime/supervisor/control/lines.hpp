@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "control/system_names.hpp"
+#include "members/conductor.hpp"
+#include "members/reply.hpp"
+
+namespace orca::supervisor {
+
+/// Joins a client to the host processes of the ports that it names; the supervisor itself keeps no end. Ports of a process
+/// that takes no orders at present are left out, unless only one is named.
+/// @param words  PORT... [--tap] [--objects] [--bound BYTES]: with the objects that pass, or their times only; what may wait
+///               for the client in each process.
+/// @thread  the supervisor's thread, on a fiber that may wait.
+void open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
+                Reply& reply);
+
+}  // namespace orca::supervisor
