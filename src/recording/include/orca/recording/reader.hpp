@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/recording/mcap.hpp"
+#include "orca/recording/output.hpp"
+
+namespace orca::recording {
+
+/// What is wrong with a file, and where.
+struct Finding {
+  std::uint64_t offset = 0;  ///< [bytes]
+  std::string text;
+};
+
+/// A reader of one MCAP file of any writer, as far as its chunks are not compressed or compressed with zstd or lz4. It believes
+/// nothing that it reads. A file without an end, of a writer that was killed, is read as far as its records are whole.
+///
+/// Thread contract: constant; any thread.
+class Reader {
+ public:
+  /// Opens a file.
+  /// @errors  invalid_argument if it cannot be read, or is no MCAP file.
+  [[nodiscard]] static Result<Reader> open(const std::string& path);
+  /// Reads bytes, which outlive the reader.
+  /// @errors  invalid_argument if they are no MCAP file.
+  [[nodiscard]] static Result<Reader> of(std::span<const std::byte> bytes);
+  ~Reader();
+  Reader(Reader&&) noexcept;
+  Reader& operator=(Reader&&) noexcept;
+
+  [[nodiscard]] const std::string& profile() const;
+  [[nodiscard]] const std::string& library() const;
+  [[nodiscard]] std::uint64_t size() const;  ///< [bytes] of the file.
+  /// Returns whether the file has an end with an index; without one, the file was read through to find what is in it.
+  [[nodiscard]] bool has_index() const;
+  [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const;
+  [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const;
+  [[nodiscard]] const Statistics& statistics() const;
+  [[nodiscard]] const std::vector<ChunkIndex>& chunks() const;
+  [[nodiscard]] const std::vector<IndexEntry>& attachments() const;
+  [[nodiscard]] const std::vector<IndexEntry>& metadata() const;
+  /// Returns what could not be read when the file was opened without an index.
+  [[nodiscard]] const std::vector<Finding>& findings() const;
+
+  /// @errors  data_loss.
+  [[nodiscard]] Result<Attachment> attachment(const IndexEntry& entry) const;
+  [[nodiscard]] Result<Metadata> metadata(const IndexEntry& entry) const;
+
+  /// Passes messages on in the order of log_time; those of one time in the order of the file.
+  /// @param channels  which; empty: all.
+  /// @param take      returns false to end.
+  /// @errors  data_loss if a chunk is damaged; what came before it was passed on.
+  Status messages(const std::set<std::uint16_t>& channels,
+                  const std::function<bool(const Message&)>& take) const;
+
+ private:
+  struct Inside;
+  explicit Reader(std::unique_ptr<Inside> inside);
+
+  std::unique_ptr<Inside> inside_;
+};
+
+/// What a check or a recovery has found.
+struct Examination {
+  std::vector<Finding> findings;     ///< Empty: the file is in order.
+  Statistics statistics;             ///< Of the messages that are whole.
+  std::uint64_t whole = 0;           ///< [bytes] of the records before the first one that is cut off.
+  std::vector<std::string> remarks;  ///< What is no fault: "/base/OdometryPush: numbers 4 to 7 are missing".
+};
+
+/// Reads all of a file: every record, checksum and reference, and whether the index says the same as the data.
+/// @errors  invalid_argument if it cannot be read, or is no MCAP file.
+[[nodiscard]] Result<Examination> check(std::span<const std::byte> bytes);
+[[nodiscard]] Result<Examination> check(const std::string& path);
+
+/// Writes what is whole of a file as a file with an index. Damaged chunks and a torn end are left out and found.
+/// @errors  as check(); as Output::append().
+[[nodiscard]] Result<Examination> recover(const std::string& path, std::unique_ptr<Output> to);
+[[nodiscard]] Result<Examination> recover(std::span<const std::byte> bytes, std::unique_ptr<Output> to);
+
+}  // namespace orca::recording

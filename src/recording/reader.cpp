@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/recording/reader.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "mapped_file.hpp"
+#include "scan.hpp"
+
+namespace orca::recording {
+namespace {
+
+// Reads the summary at the end of a file; nothing if there is none, or if it is damaged.
+std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
+  constexpr std::size_t kEnd = kRecordHead + kFooterBytes + sizeof kMagic;
+  if (bytes.size() < kEnd + sizeof kMagic) return std::nullopt;
+  const auto tail = bytes.last(kEnd);
+  if (std::memcmp(tail.data() + tail.size() - sizeof kMagic, kMagic, sizeof kMagic) != 0) return std::nullopt;
+  const std::uint64_t footer_at = bytes.size() - kEnd;
+  const std::optional<Record> record =
+      RecordWalk(bytes.first(bytes.size() - sizeof kMagic), footer_at).next();
+  if (!record || record->op != Op::footer) return std::nullopt;
+  const std::optional<Footer> footer = read_footer(record->content);
+  if (!footer || footer->summary_start == 0 || footer->summary_start > footer_at) return std::nullopt;
+  // The checksum covers everything before itself, the beginning of the footer included.
+  const auto covered =
+      bytes.subspan(footer->summary_start, footer_at + kEnd - sizeof kMagic - 4 - footer->summary_start);
+  if (footer->summary_crc != 0 && footer->summary_crc != crc_of(covered)) return std::nullopt;
+  Summary summary;
+  RecordWalk walk(bytes.first(footer_at), footer->summary_start);
+  while (const std::optional<Record> part = walk.next())
+    if (!summary.take(*part)) return std::nullopt;
+  const bool is_of_use = walk.is_at_end() && (!summary.chunks.empty() || summary.statistics.messages == 0);
+  return is_of_use ? std::optional(std::move(summary)) : std::nullopt;
+}
+
+// A part of a file that is read as a whole: a chunk, or a message outside chunks.
+struct Piece {
+  Stamp start = 0;
+  std::uint64_t offset = 0;
+};
+
+// Messages on their way into the order of time.
+class Sorter {
+ public:
+  Sorter(const std::set<std::uint16_t>& channels, const std::function<bool(const Message&)>& take)
+      : channels_(channels), take_(take) {}
+
+  void add(const std::shared_ptr<const Bytes>& content, std::span<const std::byte> record) {
+    const std::optional<Message> message = read_message(record);
+    if (message && (channels_.empty() || channels_.contains(message->channel)))
+      waiting_.push_back({*message, content});
+  }
+
+  // Passes on what is earlier than a time. Returns false if no more is wanted.
+  bool pass_on(Stamp before) {
+    std::ranges::stable_sort(waiting_, {}, [](const Waiting& one) { return one.message.log_time; });
+    std::size_t i = 0;
+    for (; i < waiting_.size() && waiting_[i].message.log_time < before; ++i)
+      if (!take_(waiting_[i].message)) return false;
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(i));
+    return true;
+  }
+  bool pass_on_rest() {
+    return pass_on(UINT64_MAX) && std::ranges::all_of(waiting_, take_, &Waiting::message);
+  }
+
+ private:
+  struct Waiting {
+    Message message;
+    std::shared_ptr<const Bytes> content;  // which it is in; null: the file itself
+  };
+  const std::set<std::uint16_t>& channels_;
+  const std::function<bool(const Message&)>& take_;
+  std::vector<Waiting> waiting_;
+};
+
+}  // namespace
+
+struct Reader::Inside {
+  Status add(const Piece& piece, Sorter& sorter) const {
+    const std::optional<Record> record = RecordWalk(bytes, piece.offset).next();
+    if (record && record->op == Op::message) return sorter.add(nullptr, record->content), ok();
+    if (!record || record->op != Op::chunk)
+      return fail(Code::data_loss,
+                  "the index names a chunk at byte " + std::to_string(piece.offset) +
+                      ", and there is none; read the file without its index: orcactl bag recover");
+    Result<OpenChunk> chunk = open_chunk(record->content);
+    if (!chunk) return chunk.error();
+    const auto content = std::make_shared<const Bytes>(std::move(chunk->content));
+    RecordWalk walk(*content);
+    while (const std::optional<Record> inner = walk.next())
+      if (inner->op == Op::message) sorter.add(content, inner->content);
+    return ok();
+  }
+
+  [[nodiscard]] std::vector<Piece> pieces(const std::set<std::uint16_t>& channels) const {
+    std::vector<Piece> all;
+    for (const ChunkIndex& chunk : summary.chunks) {
+      const auto& in_it = chunk.message_index_offsets;
+      const bool is_wanted = channels.empty() || in_it.empty() ||
+                             std::ranges::any_of(channels, [&](auto id) { return in_it.contains(id); });
+      if (is_wanted) all.push_back({chunk.start, chunk.offset});
+    }
+    for (const Record& record : loose) all.push_back({read_message(record.content)->log_time, record.offset});
+    std::ranges::stable_sort(all, {}, &Piece::start);
+    return all;
+  }
+
+  MappedFile file;
+  std::span<const std::byte> bytes;
+  Header header;
+  Summary summary;
+  std::vector<Record> loose;
+  std::vector<Finding> findings;
+  bool has_index = false;
+};
+
+Reader::Reader(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+Reader::~Reader() = default;
+Reader::Reader(Reader&&) noexcept = default;
+Reader& Reader::operator=(Reader&&) noexcept = default;
+
+Result<Reader> Reader::open(const std::string& path) {
+  Result<MappedFile> file = MappedFile::open(path);
+  if (!file) return file.error();
+  Result<Reader> reader = of(file->bytes());
+  if (!reader) return fail(reader.error().code, reader.error().message, path);
+  reader->inside_->file = *std::move(file);
+  return reader;
+}
+
+Result<Reader> Reader::of(std::span<const std::byte> bytes) {
+  auto inside = std::make_unique<Inside>();
+  inside->bytes = bytes;
+  if (bytes.size() < sizeof kMagic || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+    return fail(Code::invalid_argument, "this is no MCAP file: it does not begin like one");
+  const std::optional<Record> first = RecordWalk(bytes, sizeof kMagic).next();
+  std::optional<Header> header =
+      first && first->op == Op::header ? read_header(first->content) : std::nullopt;
+  if (std::optional<Summary> summary = read_summary(bytes); summary && header) {
+    inside->header = *std::move(header);
+    inside->summary = *std::move(summary);
+    inside->has_index = true;
+    return Reader(std::move(inside));
+  }
+  Result<Scanned> scanned = scan(bytes, {});
+  if (!scanned) return scanned.error();
+  inside->header = std::move(scanned->header);
+  inside->summary = std::move(scanned->summary);
+  inside->loose = std::move(scanned->loose);
+  inside->findings = std::move(scanned->findings);
+  return Reader(std::move(inside));
+}
+
+const std::string& Reader::profile() const { return inside_->header.profile; }
+const std::string& Reader::library() const { return inside_->header.library; }
+std::uint64_t Reader::size() const { return inside_->bytes.size(); }
+bool Reader::has_index() const { return inside_->has_index; }
+const std::map<std::uint16_t, Schema>& Reader::schemas() const { return inside_->summary.schemas; }
+const std::map<std::uint16_t, Channel>& Reader::channels() const { return inside_->summary.channels; }
+const Statistics& Reader::statistics() const { return inside_->summary.statistics; }
+const std::vector<ChunkIndex>& Reader::chunks() const { return inside_->summary.chunks; }
+const std::vector<IndexEntry>& Reader::attachments() const { return inside_->summary.attachments; }
+const std::vector<IndexEntry>& Reader::metadata() const { return inside_->summary.metadata; }
+const std::vector<Finding>& Reader::findings() const { return inside_->findings; }
+
+Result<Attachment> Reader::attachment(const IndexEntry& entry) const {
+  const std::optional<Record> record = RecordWalk(inside_->bytes, entry.offset).next();
+  std::optional<Attachment> attachment =
+      record && record->op == Op::attachment ? read_attachment(record->content) : std::nullopt;
+  if (!attachment) return fail(Code::data_loss, "the attachment " + entry.name + " is damaged");
+  return *std::move(attachment);
+}
+
+Result<Metadata> Reader::metadata(const IndexEntry& entry) const {
+  const std::optional<Record> record = RecordWalk(inside_->bytes, entry.offset).next();
+  std::optional<Metadata> metadata =
+      record && record->op == Op::metadata ? read_metadata(record->content) : std::nullopt;
+  if (!metadata) return fail(Code::data_loss, "the metadata " + entry.name + " are damaged");
+  return *std::move(metadata);
+}
+
+Status Reader::messages(const std::set<std::uint16_t>& channels,
+                        const std::function<bool(const Message&)>& take) const {
+  Sorter sorter(channels, take);
+  for (const Piece& piece : inside_->pieces(channels)) {
+    if (!sorter.pass_on(piece.start)) return ok();
+    if (Status added = inside_->add(piece, sorter); !added.ok()) {
+      (void)sorter.pass_on_rest();
+      return added;
+    }
+  }
+  (void)sorter.pass_on_rest();
+  return ok();
+}
+
+}  // namespace orca::recording

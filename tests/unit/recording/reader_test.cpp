@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/recording/reader.hpp"
+
+#include <lz4frame.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "memory_output.hpp"
+#include "records.hpp"
+
+using namespace orca;
+using namespace orca::recording;
+using namespace orca::test;
+
+namespace {
+
+test::Bytes file_of(int count) {
+  Memory memory;
+  Writer writer(to(memory), "ros2", "orca");
+  write_numbers(writer, count);
+  REQUIRE(writer.close().ok());
+  return memory.bytes;
+}
+
+// The beginning of a file of another writer, with one channel.
+test::Bytes foreign_beginning() {
+  test::Bytes bytes;
+  put_magic(bytes);
+  put_record(bytes, recording::Header{"", "another"});
+  put_record(bytes, Channel{3, 0, "/x", "json", {}});
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("messages come in the order of their times, however they were written", "[recording][reader]") {
+  Memory memory;
+  Writer writer(to(memory), "", "orca");
+  const std::uint16_t channel = writer.add_channel(0, "/x", "json", {});
+  for (const Stamp time : {400, 100, 300, 200}) {
+    const std::string payload = std::to_string(time);
+    REQUIRE(writer.write({channel, 0, time * 1'000'000, 0, bytes_of(payload)}).ok());
+  }
+  REQUIRE(writer.close().ok());
+  std::string order;
+  for (const Seen& seen : all_messages(*Reader::of(memory.bytes))) order += seen.payload + " ";
+  CHECK(order == "100 200 300 400 ");
+}
+
+TEST_CASE("only messages of the channels that are asked for come, until no more are wanted",
+          "[recording][reader]") {
+  const test::Bytes bytes = file_of(100);
+  const Result<Reader> reader = Reader::of(bytes);
+  const std::uint16_t b =
+      std::ranges::find(reader->channels(), "/b", [](const auto& c) { return c.second.topic; })->first;
+  CHECK(all_messages(*reader, {b}).size() == 50);
+  int count = 0;
+  REQUIRE(reader->messages({}, [&](const Message&) { return ++count < 7; }).ok());
+  CHECK(count == 7);
+}
+
+TEST_CASE("files of other writers are read: messages without chunks, and chunks of lz4 or no compression",
+          "[recording][reader]") {
+  test::Bytes inner;
+  put_record(inner, Message{3, 1, 10, 10, bytes_of("one")});
+  test::Bytes bytes = foreign_beginning();
+  put(bytes, inner);
+  for (const std::string compression : {"", "lz4"}) {
+    test::Bytes frame = inner;
+    if (compression == "lz4") {
+      frame.resize(LZ4F_compressFrameBound(inner.size(), nullptr));
+      frame.resize(LZ4F_compressFrame(frame.data(), frame.size(), inner.data(), inner.size(), nullptr));
+    }
+    test::Bytes content;
+    for (const std::uint64_t number : {std::uint64_t{10}, std::uint64_t{10}, std::uint64_t{inner.size()}})
+      put(content, number);
+    put(content, std::uint32_t{0});  // no checksum
+    put(content, std::string_view(compression));
+    put(content, std::uint64_t{frame.size()});
+    put(content, frame);
+    put_record(bytes, Op::chunk, content);
+  }
+  const Result<Reader> reader = Reader::of(bytes);
+  REQUIRE(reader);
+  CHECK(reader->library() == "another");
+  CHECK(all_messages(*reader) == std::vector<Seen>(3, Seen{"/x", 10, 10, 1, "one"}));
+}
+
+TEST_CASE("bytes that are no MCAP file are refused with the reason", "[recording][reader]") {
+  CHECK(Reader::of({}).error().message == "this is no MCAP file: it does not begin like one");
+  CHECK(Reader::of(bytes_of("SQLite format 3, and more")).error().code == Code::invalid_argument);
+  const Result<Reader> none = Reader::open("/nonexistent/x.mcap");
+  CHECK(none.error().text() == "/nonexistent/x.mcap: cannot read the file: No such file or directory");
+}
+
+TEST_CASE("a file that is cut at any byte is read as far as its records are whole",
+          "[recording][reader][fault]") {
+  const test::Bytes whole = file_of(60);
+  std::size_t last = 0;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const Result<Reader> reader = Reader::of(std::span(whole).first(size));
+    if (!reader) continue;
+    const std::size_t count = all_messages(*reader).size();
+    CHECK(count >= last);
+    CHECK_FALSE(reader->has_index());
+    last = count;
+  }
+  CHECK(last == 60);
+}
+
+TEST_CASE("a file with one wrong byte is never read wrongly without a word", "[recording][reader][fault]") {
+  const test::Bytes whole = file_of(60);
+  const std::vector<Seen> right = all_messages(*Reader::of(whole));
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    test::Bytes bytes = whole;
+    bytes[i] ^= std::byte{0x10};
+    const Result<Examination> examined = check(bytes);
+    if (!examined || !examined->findings.empty()) continue;
+    // Not covered by a checksum: the header's texts, the schemas and channels and their lengths, and the message indexes.
+    const Result<Reader> reader = Reader::of(bytes);
+    REQUIRE(reader);
+    const std::vector<Seen> seen = all_messages(*reader);
+    REQUIRE(seen.size() == right.size());
+    for (std::size_t k = 0; k < seen.size(); ++k) CHECK(seen[k].payload == right[k].payload);
+  }
+}
+
+TEST_CASE("a chunk that claims to hold more than it does is refused without memory for it",
+          "[recording][reader][fault]") {
+  test::Bytes content;
+  for (const std::uint64_t number : {std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{400} << 20})
+    put(content, number);
+  put(content, std::uint32_t{0});
+  put(content, std::string_view("zstd"));
+  const test::Bytes frame(50);
+  put(content, std::uint64_t{frame.size()});
+  put(content, frame);
+  test::Bytes bytes = foreign_beginning();
+  put_record(bytes, Op::chunk, content);
+  const Result<Examination> examined = check(bytes);
+  REQUIRE(examined);
+  CHECK(examined->findings.size() == 2);  // the chunk, and the missing end
+  CHECK(examined->findings[0].text.starts_with("a chunk is damaged"));
+}
