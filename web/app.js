@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+
+import { Connection } from "./connection.js";
+import { byId, notify, setText } from "./dom.js";
+import { SystemModel } from "./system_model.js";
+import { Teleoperation } from "./teleoperation.js";
+import { WorldModel } from "./world_model.js";
+import { WorldView } from "./world_view.js";
+
+/** Puts the page together: the views behind the tabs, the state of the connection, and STOP. */
+
+const token = new URLSearchParams(location.hash.slice(1)).get("token") ?? "";
+const scheme = location.protocol === "https:" ? "wss" : "ws";
+const connection = new Connection(`${scheme}://${location.host}/ws?token=${encodeURIComponent(token)}`);
+const system = new SystemModel(connection);
+const world = new WorldModel(connection, system);
+const worldView = new WorldView(connection, system, world);
+new Teleoperation(connection, system);
+
+/** @type {Record<string, {show(on: boolean): void}>} */
+const views = { world: worldView };
+
+/** @param {string} name */
+function open(name) {
+  for (const [each, view] of Object.entries(views)) {
+    byId(`tab-${each}`).setAttribute("aria-selected", String(each === name));
+    byId(`tab-${each}`).tabIndex = each === name ? 0 : -1;
+    byId(`view-${each}`).hidden = each !== name;
+    view.show(each === name);
+  }
+  sessionStorage.setItem("view", name);
+}
+
+function listenToTabs() {
+  const names = Object.keys(views);
+  names.forEach((name, i) => {
+    byId(`tab-${name}`).addEventListener("click", () => open(name));
+    byId(`tab-${name}`).addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (step === undefined) return;
+      const next = names[(i + step + names.length) % names.length];
+      open(next);
+      byId(`tab-${next}`).focus();
+    });
+  });
+}
+
+/** Sends the stop before anything else is done. */
+function stop() {
+  const began = performance.now();
+  const answer = connection.ask("estop");
+  byId("stop").classList.add("pressed");
+  answer.then(({ ok, error }) => {
+    byId("stop").classList.remove("pressed");
+    if (ok) notify(`All motors are held, confirmed after ${Math.round(performance.now() - began)} ms.`, "done");
+    else notify(`STOP is not confirmed: ${error}`, "refused");
+    system.poll();
+  });
+}
+
+async function release() {
+  const { ok, error } = await connection.ask("estop", "--release");
+  if (!ok) notify(error, "refused");
+  system.poll();
+}
+
+function listenToStop() {
+  const button = byId("stop");
+  button.addEventListener("pointerdown", stop);
+  button.addEventListener("click", (event) => {
+    if (event.detail === 0) stop();  // by keyboard: no pointer was down
+  });
+  addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.repeat && connection.steers) stop();
+  }, { capture: true });
+  byId("release").addEventListener("click", release);
+}
+
+function showState() {
+  const link = byId("link");
+  const { hello } = connection;
+  const [state, text] = hello !== null ? ["good", hello.role === "operator" ? "live" : "live, look only"]
+    : connection.isOpen ? ["waiting", "waiting for a system"] : ["bad", "no connection"];
+  link.className = `pill ${state}`;
+  setText(link, text);
+  setText(byId("system-name"), hello?.system ?? "");
+  document.title = hello === null ? "Orca" : `${hello.system} – Orca`;
+  byId("stop").hidden = hello !== null && hello.role !== "operator";
+  byId("dropped").hidden = connection.dropped === 0;
+  setText(byId("dropped"), `${connection.dropped} objects left out`);
+}
+
+function showHold() {
+  const alarm = system.alarms.find((each) => each.kind === "ESTOP" && each.active);
+  byId("release").hidden = alarm === undefined || !connection.steers;
+  byId("held").hidden = alarm === undefined;
+  setText(byId("held"), alarm === undefined ? "" : `Motors held: ${alarm.text}`);
+  document.body.classList.toggle("is-held", alarm !== undefined);
+}
+
+listenToTabs();
+listenToStop();
+for (const event of ["hello", "gone", "state", "figures"]) connection.addEventListener(event, showState);
+system.addEventListener("figures", showHold);
+open(sessionStorage.getItem("view") ?? "world");
+showState();
+connection.open();

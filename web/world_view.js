@@ -1,0 +1,479 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+
+import { byId, el, figure, notify, setText } from "./dom.js";
+import { Driver } from "./drive.js";
+import { between, Camera } from "./geometry.js";
+import * as draw from "./world_draw.js";
+
+/**
+ * The picture of the world, and what a person does in it.
+ * @typedef {import("./geometry.js").Point} Point
+ * @typedef {import("./world_model.js").Robot} Robot
+ * @typedef {import("./world_model.js").WorldModel} WorldModel
+ * @typedef {import("./system_model.js").SystemModel} SystemModel
+ * @typedef {import("./connection.js").Connection} Connection
+ * @typedef {"look" | "drive" | "pose" | "measure"} Tool
+ */
+
+const EASE = 0.05;  // [s] in which the drawn robot comes two thirds nearer to where it is
+const LEAST_PULL = 12;  // pixels below which a pull has no direction
+/** @type {Record<Tool, string>} */
+const HINTS = {
+  look: "",
+  drive: "Press where the robot is to go, pull to where it is to look, release. Shift: a point on the way. Enter: the middle of the picture.",
+  pose: "Press where the robot stands, pull to where it looks, release.",
+  measure: "Press and pull to measure.",
+};
+/** @type {Record<string, Tool>} */
+const TOOL_KEYS = { v: "look", d: "drive", p: "pose", m: "measure" };
+
+export class WorldView {
+  /**
+   * @param {Connection} connection
+   * @param {SystemModel} system
+   * @param {WorldModel} world
+   */
+  constructor(connection, system, world) {
+    this.connection = connection;
+    this.system = system;
+    this.world = world;
+    this.canvas = /** @type {HTMLCanvasElement} */ (byId("map"));
+    this.pen = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d", { alpha: false }));
+    this.camera = new Camera();
+    this.palette = draw.readPalette();
+    this.dots = 1;
+    /** @type {Tool} */
+    this.tool = "look";
+    this.follows = false;
+    this.isFitted = false;
+    this.isShown = false;
+    this.lastFrame = 0;
+    this.frames = 0;
+    /** @type {Map<number, Point>} pointers that are down, in pixels */
+    this.pointers = new Map();
+    /** @type {{from: Point, to: Point} | null} what a person pulls, in the world */
+    this.pull = null;
+    /** @type {{from: Point, to: Point} | null} */
+    this.measured = null;
+    /** @type {Point[]} points on the way to a goal that is not given yet */
+    this.via = [];
+    /** @type {Map<string, Driver>} */
+    this.drivers = new Map();
+    /** Prefix of the robot that orders are for. */
+    this.chosen = "";
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
+    world.addEventListener("changed", () => this.showRobots());
+    world.addEventListener("said", (event) => this.say(/** @type {CustomEvent} */ (event).detail));
+    system.addEventListener("figures", () => this.showOrders());
+    system.addEventListener("graph", () => this.showOrders());
+    const frame = (/** @type {number} */ now) => {
+      this.frame(now);
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  // ------------------------------------------------------------------------------------------------ what is shown
+
+  /** @param {boolean} on */
+  show(on) {
+    this.isShown = on;
+    this.world.watch(on && !document.hidden);
+    if (on) this.resize();
+  }
+
+  repaint() {
+    this.palette = draw.readPalette();
+    this.world.stale = true;
+  }
+
+  resize() {
+    const box = this.canvas.getBoundingClientRect();
+    if (box.width === 0) return;
+    this.dots = Math.min(2, devicePixelRatio);
+    this.canvas.width = Math.round(box.width * this.dots);
+    this.canvas.height = Math.round(box.height * this.dots);
+    this.camera.width = box.width;
+    this.camera.height = box.height;
+    this.world.stale = true;
+  }
+
+  /** @returns {Robot | undefined} the robot that orders are for */
+  get robot() {
+    return this.world.robots.get(this.chosen) ?? this.world.robots.values().next().value;
+  }
+
+  /** @returns {Driver} */
+  get driver() {
+    const prefix = this.robot?.prefix ?? "";
+    const known = this.drivers.get(prefix);
+    if (known !== undefined) return known;
+    const driver = new Driver(this.connection, this.system, prefix);
+    this.drivers.set(prefix, driver);
+    return driver;
+  }
+
+  showRobots() {
+    const choice = /** @type {HTMLSelectElement} */ (byId("robot-choice"));
+    const robots = [...this.world.robots.values()].filter((robot) => robot.prefix !== "" || this.world.robots.size === 1);
+    choice.replaceChildren(...robots.map((robot) => el("option", { value: robot.prefix, selected: robot === this.robot }, robot.name)));
+    choice.hidden = robots.length < 2;
+    setText(byId("robot-name"), robots.length < 2 ? this.robot?.name || "Robot" : "");
+  }
+
+  /** Offers the orders that this system takes, and no others. */
+  showOrders() {
+    const driver = this.driver;
+    driver.readGoals();
+    const steers = this.connection.steers;
+    byId("tool-drive").hidden = !steers || !driver.takesGoals;
+    byId("tool-pose").hidden = !steers || driver.posePort === undefined;
+    byId("give-up").hidden = !steers || !driver.takesGoals;
+    const goals = steers && driver.command !== undefined ? driver.goals : [];
+    byId("goals").hidden = goals.length === 0;
+    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (document.querySelectorAll("#layers input[data-types]"))) {
+      const types = (box.dataset.types ?? "").split(" ");
+      const label = /** @type {HTMLElement} */ (box.parentElement);
+      label.hidden = this.system.portsThat((port) => types.includes(port.type) || types.includes(port.reply ?? "")).length === 0;
+    }
+    const list = byId("goal-list");
+    if (list.childElementCount === goals.length) return;
+    list.replaceChildren(
+      ...goals.map((goal) => el("button", { title: goal.text, click: () => this.order(driver.commandGoal(goal.text), `Sent to ${goal.name}.`) }, goal.name)),
+    );
+    this.world.stale = true;
+  }
+
+  /** Says in plain words what the robot does. */
+  describe() {
+    const robot = this.robot;
+    if (robot === undefined || robot.pose === null) return "Nothing is known of a robot yet.";
+    if (this.system.motorsHeld) return "The motors are held. Nothing moves before they are released.";
+    const moves = Math.hypot(robot.motion.forward, robot.motion.left) > 0.01;
+    const turns = Math.abs(robot.motion.turnRate) > 0.03;
+    const doing = moves ? (robot.motion.forward < 0 ? "Backs up" : "Drives") : turns ? "Turns" : "Stands";
+    if (robot.way === null) return `${doing}. It has no goal.`;
+    const points = [robot.pose, ...robot.way.points.slice(1)];
+    const left = points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.x - points[i].x, p.y - points[i].y), 0);
+    return `${doing}, on the way to ${robot.way.name || "a place"}: ${left.toFixed(1)} m to go.`;
+  }
+
+  showFigures() {
+    const robot = this.robot;
+    setText(byId("plain"), this.describe());
+    if (robot === undefined || robot.pose === null) return;
+    const { pose, motion, command } = robot;
+    setText(byId("figure-place"), `${figure(pose.x)}, ${figure(pose.y)} m${robot.frame === "world" ? "" : " (odometry)"}`);
+    setText(byId("figure-heading"), `${figure((pose.yaw * 180) / Math.PI, 0)}°`);
+    setText(byId("figure-speed"), `${figure(motion.forward)} m/s`);
+    setText(byId("figure-turn"), `${figure((motion.turnRate * 180) / Math.PI, 0)}°/s`);
+    const wanted = command === null ? "–" : command.stops ? "stop" : command.silent ? "no wish" : `${figure(command.speed)} m/s`;
+    setText(byId("figure-command"), wanted);
+  }
+
+  /** @param {string} text */
+  say(text) {
+    notify(text);
+    this.driver.arrived();
+  }
+
+  // ------------------------------------------------------------------------------------------------ a frame
+
+  /** @param {number} now  [ms] */
+  frame(now) {
+    const seconds = Math.min(0.1, (now - this.lastFrame) / 1000);
+    this.lastFrame = now;
+    if (!this.isShown || document.hidden) return;
+    this.ease(seconds);
+    if (!this.world.stale) return;
+    this.world.stale = false;
+    if (!this.isFitted && this.robot?.shown) this.fit();
+    if (this.follows && this.robot?.shown) Object.assign(this.camera, { x: this.robot.shown.x, y: this.robot.shown.y });
+    this.paint();
+    this.frames += 1;
+    if (this.frames % 6 === 0) this.showFigures();
+  }
+
+  /** @param {number} seconds  since the last frame */
+  ease(seconds) {
+    const share = 1 - Math.exp(-seconds / EASE);
+    for (const robot of this.world.robots.values()) {
+      if (robot.pose === null || robot.shown === robot.pose) continue;
+      const jumps = robot.shown === null || Math.hypot(robot.pose.x - robot.shown.x, robot.pose.y - robot.shown.y) > 1;
+      robot.shown = jumps || robot.shown === null ? robot.pose : between(robot.shown, robot.pose, share);
+      const rest = Math.hypot(robot.pose.x - robot.shown.x, robot.pose.y - robot.shown.y) + Math.abs(robot.pose.yaw - robot.shown.yaw);
+      if (rest < 1e-4) robot.shown = robot.pose;
+      this.world.stale = true;
+    }
+  }
+
+  paint() {
+    const { pen, camera, palette, dots, world } = this;
+    const pixel = 1 / camera.scale;
+    const shows = (/** @type {string} */ layer) => !world.hidden.has(layer);
+    /** @type {draw.Label[]} */
+    const labels = [];
+    pen.setTransform(1, 0, 0, 1, 0, 0);
+    pen.fillStyle = palette.floor;
+    pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    draw.setMetres(pen, camera, dots);
+    if (world.grid !== null && shows("map")) draw.drawGrid(pen, world.grid);
+    const step = draw.drawRaster(pen, camera, palette);
+    if (shows("echoes")) draw.drawDots(pen, world.echoes.cells.values(), Math.max(0.05, 2 * pixel), palette.echo);
+    for (const robot of world.robots.values()) {
+      if (shows("sonar")) draw.drawSonars(pen, robot, pixel, palette);
+      if (shows("laser")) draw.drawScans(pen, robot, pixel, palette);
+    }
+    for (const robot of world.robots.values()) this.paintRobot(robot, labels, shows);
+    draw.drawContacts(pen, world.contacts, pixel, palette);
+    this.paintGoals(labels);
+    this.paintPull(labels);
+    draw.writeLabels(pen, camera, labels, dots, palette);
+    draw.drawScale(pen, camera, step, dots, palette);
+    if (document.activeElement === this.canvas && this.tool === "drive") this.paintCross();
+  }
+
+  /**
+   * @param {Robot} robot
+   * @param {draw.Label[]} labels
+   * @param {(layer: string) => boolean} shows
+   */
+  paintRobot(robot, labels, shows) {
+    const { pen, palette } = this;
+    const pixel = 1 / this.camera.scale;
+    if (shows("trail")) draw.drawTrail(pen, robot, pixel, palette);
+    if (shows("path")) draw.drawWay(pen, robot, pixel, palette, labels);
+    draw.drawUncertainty(pen, robot, pixel, palette);
+    draw.drawRobot(pen, robot, pixel, palette);
+    if (shows("wishes")) draw.drawWishes(pen, robot, pixel, palette, labels);
+    if (shows("motion")) draw.drawMotion(pen, robot, pixel, palette);
+    const { shown, outline } = robot;
+    if (shown !== null) labels.push({ x: shown.x + outline.radius + 10 * pixel, y: shown.y - outline.radius - 8 * pixel, text: robot.name, colour: palette.ink });
+  }
+
+  /**
+   * Marks the goals that the graph names.
+   * @param {draw.Label[]} labels
+   */
+  paintGoals(labels) {
+    const pixel = 1 / this.camera.scale;
+    const { goals } = this.driver;
+    draw.drawDots(this.pen, goals.map((goal) => goal.end), 8 * pixel, this.palette.muted);
+    for (const { name, end } of goals) if (name !== this.robot?.way?.name) labels.push({ x: end.x + 9 * pixel, y: end.y, text: name, colour: this.palette.muted });
+  }
+
+  /** @param {draw.Label[]} labels */
+  paintPull(labels) {
+    const pixel = 1 / this.camera.scale;
+    for (const p of this.via) draw.drawDots(this.pen, [p], 9 * pixel, this.palette.goal);
+    const line = this.pull ?? this.measured;
+    if (line === null) return;
+    const colour = this.tool === "measure" ? this.palette.ink : this.palette.goal;
+    draw.drawPull(this.pen, line.from, line.to, pixel, colour);
+    if (this.tool !== "measure") return;
+    const [dx, dy] = [line.to.x - line.from.x, line.to.y - line.from.y];
+    const degrees = (Math.atan2(dy, dx) * 180) / Math.PI;
+    labels.push({ x: line.to.x + 12 * pixel, y: line.to.y + 12 * pixel, text: `${Math.hypot(dx, dy).toFixed(2)} m, ${degrees.toFixed(0)}°`, colour });
+  }
+
+  paintCross() {
+    const { pen, camera } = this;
+    const [x, y] = [camera.width / 2, camera.height / 2];
+    pen.beginPath();
+    pen.moveTo(x - 12, y);
+    pen.lineTo(x + 12, y);
+    pen.moveTo(x, y - 12);
+    pen.lineTo(x, y + 12);
+    pen.lineWidth = 2;
+    pen.strokeStyle = this.palette.goal;
+    pen.stroke();
+  }
+
+  fit() {
+    const points = [...this.driver.goals.map((goal) => goal.end), ...this.world.extent()];
+    if (points.length === 0) return;
+    const xs = points.map((p) => p.x);
+    const ys = points.map((p) => p.y);
+    this.camera.fit({ min: { x: Math.min(...xs), y: Math.min(...ys) }, max: { x: Math.max(...xs), y: Math.max(...ys) } });
+    this.isFitted = true;
+    this.world.stale = true;
+  }
+
+  // ------------------------------------------------------------------------------------------------ what a person does
+
+  listen() {
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => this.press(event));
+    canvas.addEventListener("pointermove", (event) => this.drag(event));
+    canvas.addEventListener("pointerup", (event) => this.release(event));
+    canvas.addEventListener("pointercancel", (event) => this.cancel(event));
+    canvas.addEventListener("wheel", (event) => this.turnWheel(event), { passive: false });
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => (this.world.stale = true));
+    for (const tool of Object.values(TOOL_KEYS)) byId(`tool-${tool}`).addEventListener("click", () => this.take(tool));
+    byId("follow").addEventListener("click", () => this.follow(!this.follows));
+    byId("fit").addEventListener("click", () => this.fit());
+    byId("closer").addEventListener("click", () => this.zoom(1.5));
+    byId("farther").addEventListener("click", () => this.zoom(1 / 1.5));
+    byId("give-up").addEventListener("click", () => this.order(this.driver.giveUp(), "The goal is given up."));
+    byId("robot-choice").addEventListener("change", (event) => {
+      this.chosen = /** @type {HTMLSelectElement} */ (event.target).value;
+      this.showOrders();
+    });
+    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (document.querySelectorAll("#layers input"))) {
+      box.checked = !this.world.hidden.has(box.value);
+      box.addEventListener("change", () => this.world.show(box.value, box.checked));
+    }
+    document.addEventListener("visibilitychange", () => this.show(this.isShown));
+  }
+
+  /** @param {Tool} tool */
+  take(tool) {
+    this.tool = tool;
+    this.measured = null;
+    this.via = [];
+    for (const each of Object.values(TOOL_KEYS)) byId(`tool-${each}`).setAttribute("aria-pressed", String(each === tool));
+    setText(byId("hint"), HINTS[tool]);
+    this.canvas.dataset.tool = tool;
+    this.world.stale = true;
+  }
+
+  /** @param {boolean} on */
+  follow(on) {
+    this.follows = on;
+    byId("follow").setAttribute("aria-pressed", String(on));
+    this.world.stale = true;
+  }
+
+  /** @param {number} factor */
+  zoom(factor) {
+    this.camera.zoom(factor, { x: this.camera.width / 2, y: this.camera.height / 2 });
+    this.world.stale = true;
+  }
+
+  /**
+   * @param {MouseEvent} event
+   * @returns {Point} pixels
+   */
+  pixelOf(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  /** @param {PointerEvent} event */
+  press(event) {
+    this.canvas.setPointerCapture(event.pointerId);
+    const pixel = this.pixelOf(event);
+    this.pointers.set(event.pointerId, pixel);
+    const at = this.camera.toWorld(pixel);
+    const pulls = this.tool !== "look" && this.pointers.size === 1 && event.button === 0;
+    this.pull = pulls ? { from: at, to: at } : null;
+    this.world.stale = true;
+  }
+
+  /** @param {PointerEvent} event */
+  drag(event) {
+    const before = this.pointers.get(event.pointerId);
+    if (before === undefined) return;
+    const pixel = this.pixelOf(event);
+    const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
+    if (this.pull !== null) {
+      this.pull.to = this.camera.toWorld(pixel);
+    } else if (other !== undefined) {
+      const spread = Math.hypot(pixel.x - other.x, pixel.y - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y));
+      this.camera.pan((pixel.x - before.x) / 2, (pixel.y - before.y) / 2);
+      this.camera.zoom(spread, { x: (pixel.x + other.x) / 2, y: (pixel.y + other.y) / 2 });
+    } else {
+      this.follow(false);
+      this.camera.pan(pixel.x - before.x, pixel.y - before.y);
+    }
+    this.pointers.set(event.pointerId, pixel);
+    this.world.stale = true;
+  }
+
+  /** @param {PointerEvent} event */
+  release(event) {
+    const pull = this.pull;
+    this.cancel(event);
+    if (pull === null) return;
+    const length = Math.hypot(pull.to.x - pull.from.x, pull.to.y - pull.from.y) * this.camera.scale;
+    const yaw = length < LEAST_PULL ? null : Math.atan2(pull.to.y - pull.from.y, pull.to.x - pull.from.x);
+    if (this.tool === "measure") this.measured = pull;
+    else if (this.tool === "pose") this.putRobot(pull.from, yaw);
+    else if (event.shiftKey && this.driver.takesWays) this.via.push(pull.from);
+    else this.driveTo(pull.from, yaw);
+  }
+
+  /** @param {PointerEvent} event */
+  cancel(event) {
+    this.pointers.delete(event.pointerId);
+    this.pull = null;
+    this.world.stale = true;
+  }
+
+  /** @param {WheelEvent} event */
+  turnWheel(event) {
+    event.preventDefault();
+    this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), this.pixelOf(event));
+    this.world.stale = true;
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    const key = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (key in TOOL_KEYS && !byId(`tool-${TOOL_KEYS[key]}`).hidden) this.take(TOOL_KEYS[key]);
+    else if (key === "f") this.follow(!this.follows);
+    else if (key === "0") this.fit();
+    else if (key === "+") this.zoom(1.25);
+    else if (key === "-") this.zoom(0.8);
+    else if (key === "enter" && this.tool === "drive") this.driveTo({ x: this.camera.x, y: this.camera.y }, null);
+    else if (event.shiftKey && key.startsWith("arrow")) this.step(key);
+  }
+
+  /** @param {string} key */
+  step(key) {
+    const sideways = { arrowleft: 60, arrowright: -60 }[key] ?? 0;
+    const upwards = { arrowup: 60, arrowdown: -60 }[key] ?? 0;
+    this.camera.pan(sideways, upwards);
+    this.follow(false);
+  }
+
+  /**
+   * @param {Point} place
+   * @param {number | null} yaw
+   */
+  driveTo(place, yaw) {
+    const robot = this.robot;
+    const points = [...this.via, place];
+    this.via = [];
+    if (robot !== undefined) robot.ordered = { ...place, yaw: yaw ?? Math.atan2(place.y - (robot.pose?.y ?? 0), place.x - (robot.pose?.x ?? 0)) };
+    this.order(this.driver.driveTo(points, yaw), "").then((ok) => {
+      if (!ok && robot !== undefined) robot.ordered = null;
+    });
+  }
+
+  /**
+   * @param {Point} place
+   * @param {number | null} yaw
+   */
+  putRobot(place, yaw) {
+    this.order(this.driver.setPose({ ...place, yaw: yaw ?? this.robot?.pose?.yaw ?? 0 }), "The robot knows where it is.");
+  }
+
+  /**
+   * Shows what becomes of an order.
+   * @param {Promise<import("./connection.js").Answer>} answer
+   * @param {string} done
+   * @returns {Promise<boolean>}
+   */
+  async order(answer, done) {
+    const { ok, error } = await answer;
+    if (!ok) notify(error, "refused");
+    else if (done !== "") notify(done, "done");
+    return ok;
+  }
+}
