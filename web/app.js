@@ -2,8 +2,12 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
 import { Connection } from "./connection.js";
+import { ComponentView } from "./component_view.js";
+import { askApply } from "./dialogs.js";
 import { byId, notify, setText } from "./dom.js";
+import { Inspector } from "./inspector.js";
 import { SystemModel } from "./system_model.js";
+import { SystemView } from "./system_view.js";
 import { Teleoperation } from "./teleoperation.js";
 import { WorldModel } from "./world_model.js";
 import { WorldView } from "./world_view.js";
@@ -16,10 +20,14 @@ const connection = new Connection(`${scheme}://${location.host}/ws?token=${encod
 const system = new SystemModel(connection);
 const world = new WorldModel(connection, system);
 const worldView = new WorldView(connection, system, world);
+const systemView = new SystemView(connection, system);
+const inspector = new Inspector(byId("inspector"), connection, system, (choice) => systemView.choose(choice));
+systemView.addEventListener("chosen", () => inspector.show(systemView.choice));
+byId("graph-apply").addEventListener("click", () => askApply(connection, system));
 new Teleoperation(connection, system);
 
 /** @type {Record<string, {show(on: boolean): void}>} */
-const views = { world: worldView };
+const views = { world: worldView, system: systemView, component: new ComponentView(connection, system) };
 
 /** @param {string} name */
 function open(name) {
@@ -86,6 +94,7 @@ function showState() {
   setText(link, text);
   setText(byId("system-name"), hello?.system ?? "");
   document.title = hello === null ? "Orca" : `${hello.system} – Orca`;
+  byId("graph-apply").hidden = !connection.steers;
   byId("stop").hidden = hello !== null && hello.role !== "operator";
   byId("dropped").hidden = connection.dropped === 0;
   setText(byId("dropped"), `${connection.dropped} objects left out`);
@@ -103,6 +112,7 @@ listenToTabs();
 listenToStop();
 for (const event of ["hello", "gone", "state", "figures"]) connection.addEventListener(event, showState);
 system.addEventListener("figures", showHold);
-open(sessionStorage.getItem("view") ?? "world");
+const last = sessionStorage.getItem("view") ?? "";
+open(last in views ? last : "world");
 showState();
 connection.open();

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+
+import { byId, el, notify } from "./dom.js";
+
+/**
+ * Questions that a person answers before an order is given: which code to take, which graph to apply.
+ * @typedef {import("./connection.js").Connection} Connection
+ * @typedef {import("./connection.js").Answer} Answer
+ * @typedef {import("./system_model.js").SystemModel} SystemModel
+ * @typedef {import("./system_model.js").Component} Component
+ */
+
+/**
+ * Opens a dialog. The verdict on what was ordered stays in it until it is closed.
+ * @param {string} title
+ * @param {HTMLElement[]} content
+ * @param {{label: string, order: (say: (...parts: (Node | string)[]) => void) => Promise<boolean>}[]} orders  an order returns whether it is done
+ */
+function ask(title, content, orders) {
+  const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
+  const verdict = el("div", { class: "verdict", "aria-live": "polite" });
+  const say = (/** @type {(Node | string)[]} */ ...parts) => verdict.replaceChildren(...parts);
+  const buttons = orders.map(({ label, order }) => {
+    const button = el("button", { class: "primary", type: "button" }, label);
+    button.addEventListener("click", async () => {
+      for (const each of buttons) each.disabled = true;
+      await order(say);
+      for (const each of buttons) each.disabled = false;
+    });
+    return button;
+  });
+  const close = el("button", { type: "button", click: () => dialog.close() }, "Close");
+  dialog.replaceChildren(el("h2", {}, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
+  dialog.showModal();
+}
+
+/**
+ * @param {Record<string, any>[]} rows
+ * @returns {HTMLTableElement}
+ */
+export function tableOf(rows) {
+  const names = [...new Set(rows.flatMap((row) => Object.keys(row)))].filter((name) => rows.some((row) => row[name] !== ""));
+  return el(
+    "table", { class: "rows" },
+    el("thead", {}, el("tr", {}, ...names.map((name) => el("th", { scope: "col" }, name.replace(/_/g, " "))))),
+    el("tbody", {}, ...rows.map((row) => el("tr", {}, ...names.map((name) => el("td", {}, String(row[name] ?? "")))))),
+  );
+}
+
+/**
+ * Exchanges the code of a component: chosen, tried out, and its verdict shown.
+ * @param {Connection} connection
+ * @param {SystemModel} system
+ * @param {Component} component
+ */
+export async function askSwap(connection, system, component) {
+  const { records } = await connection.ask("plugins");
+  const file = el("input", { type: "text", id: "swap-file", value: component.plugin, list: "plugin-files", spellcheck: "false", size: 60 });
+  const type = el("input", { type: "text", id: "swap-type", value: component.type, spellcheck: "false" });
+  const fresh = el("input", { type: "checkbox", id: "swap-fresh" });
+  const untried = el("input", { type: "checkbox", id: "swap-untried" });
+  const order = async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+    say("It is tried out with what reaches the component now, then it takes over between two laps, then it is on probation. That takes some seconds.");
+    const words = [component.name, `${file.value}:${type.value}`, ...(fresh.checked ? ["--fresh"] : []), ...(untried.checked ? ["--untried"] : [])];
+    const answer = await connection.ask("swap", ...words);
+    if (answer.ok) say(el("p", { class: "good" }, `${component.name} runs the code of ${file.value}.`), tableOf(answer.records), ...answer.notes.map((note) => el("p", {}, note)));
+    else say(el("pre", { class: "bad" }, answer.error));
+    await system.refresh();
+    return answer.ok;
+  };
+  ask(`Exchange the code of ${component.name}`, [
+    el("label", { for: "swap-file" }, "File on the robot's machine"), file,
+    el("datalist", { id: "plugin-files" }, ...records.map((row) => el("option", { value: row.plugin }, row.types))),
+    el("label", { for: "swap-type" }, "Type in it"), type,
+    el("label", { class: "check" }, fresh, "begin without the old code's state"),
+    el("label", { class: "check" }, untried, "take it even if it cannot be tried out"),
+  ], [{ label: "Try and swap", order }]);
+}
+
+/**
+ * Applies a graph file: first the difference, then the order.
+ * @param {Connection} connection
+ * @param {SystemModel} system
+ */
+export function askApply(connection, system) {
+  const file = el("input", { type: "text", id: "apply-file", spellcheck: "false", size: 60, placeholder: "graphs/my.xml" });
+  const order = (/** @type {string} */ command) => async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+    if (file.value.trim() === "") return say("Name a graph file on the deployer's machine."), false;
+    say(command === "diff" ? "It is compared …" : "It is applied …");
+    const answer = await connection.ask(command, file.value.trim());
+    if (!answer.ok) say(el("pre", { class: "bad" }, answer.error));
+    else if (answer.records.length === 0) say("Nothing differs from what runs.");
+    else say(el("p", { class: "good" }, command === "diff" ? "This would change:" : "This has changed:"), tableOf(answer.records));
+    if (command === "apply") await system.refresh();
+    return answer.ok;
+  };
+  ask("Let the system become what a graph says", [el("label", { for: "apply-file" }, "Graph file on the deployer's machine"), file], [
+    { label: "Compare", order: order("diff") },
+    { label: "Apply", order: order("apply") },
+  ]);
+}
+
+/**
+ * Gives an order and shows what becomes of it.
+ * @param {Promise<Answer>} asked
+ * @param {string} done
+ * @returns {Promise<boolean>}
+ */
+export async function report(asked, done) {
+  const { ok, error, notes } = await asked;
+  notify(ok ? [done, ...notes].join("\n") : error, ok ? "done" : "refused");
+  return ok;
+}

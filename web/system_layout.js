@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+
+import { componentOf, isSource, shortPort } from "./system_model.js";
+
+/**
+ * Where components stand in the drawing of the graph: boxes with their ports, processes and machines around them. Pixels, x to
+ * the right and y down.
+ *
+ * @typedef {import("./system_model.js").Port} Port
+ * @typedef {import("./system_model.js").Component} Component
+ * @typedef {import("./system_model.js").Wire} Wire
+ * @typedef {{name: string, group: string, width: number, height: number, inputs: string[], outputs: string[]}} Box
+ * @typedef {{name: string, parent: string, kind: "process" | "machine"}} Group
+ * @typedef {{boxes: Box[], groups: Group[], links: {from: string, to: string, weight: number}[]}} Plan  links of components
+ * @typedef {{x: number, y: number}} Point
+ * @typedef {Record<string, Point>} Places  middle of each box
+ */
+
+export const HEAD = 38;
+export const ROW = 17;
+const LETTER = 6.3;
+const EDGE = 10;
+const GAP = 18;
+const ROOM = 14;
+const TITLE = 22;
+const PUSH_WEIGHT = 3;  // so that what sensors push leads to the right, and what is ordered in return may lead back
+
+/**
+ * @param {Port} port
+ * @returns {string} its name in the drawing, where the mark beside it says Push, Send or Query
+ */
+export function drawnName(port) {
+  const name = shortPort(port.port);
+  return name.endsWith(port.pattern) && name !== port.pattern ? name.slice(0, -port.pattern.length) : name;
+}
+
+/**
+ * Returns what is to be arranged.
+ * @param {Component[]} components
+ * @param {Port[]} ports
+ * @param {Wire[]} wires
+ * @param {boolean} all  ports without a connection too
+ * @returns {Plan}
+ */
+export function planOf(components, ports, wires, all) {
+  /** @type {Map<string, Port[]>} */
+  const owned = new Map();
+  for (const port of ports) {
+    if (port.disabled || (!all && port.connected_to.length === 0)) continue;
+    const owner = componentOf(port.port);
+    owned.set(owner, [...(owned.get(owner) ?? []), port]);
+  }
+  const boxes = components.map((component) => boxOf(component, owned.get(component.name) ?? []));
+  /** @type {Map<string, Group>} */
+  const groups = new Map();
+  for (const { process, machine } of components) {
+    if (machine) groups.set(`machine ${machine}`, { name: machine, parent: "", kind: "machine" });
+    groups.set(`process ${process}`, { name: process, parent: machine ? `machine ${machine}` : "", kind: "process" });
+  }
+  const known = new Set(components.map((component) => component.name));
+  /** @type {Map<string, {from: string, to: string, weight: number}>} */
+  const links = new Map();
+  for (const wire of wires) {
+    const [from, to] = [componentOf(wire.from), componentOf(wire.to)];
+    if (!known.has(from) || !known.has(to) || from === to) continue;
+    const link = links.get(`${from}>${to}`) ?? { from, to, weight: 0 };
+    link.weight += wire.pattern === "Push" ? PUSH_WEIGHT : 1;
+    links.set(`${from}>${to}`, link);
+  }
+  return { boxes, groups: [...groups.values()], links: [...links.values()] };
+}
+
+/**
+ * @param {Component} component
+ * @param {Port[]} ports
+ * @returns {Box}
+ */
+function boxOf(component, ports) {
+  const inputs = ports.filter((port) => !isSource(port));
+  const outputs = ports.filter(isSource);
+  const longest = (/** @type {Port[]} */ some) => Math.max(0, ...some.map((port) => drawnName(port).length)) * LETTER;
+  const title = 30 + 8 * Math.max(component.name.length, component.type.length * 0.8);
+  return {
+    name: component.name,
+    group: `process ${component.process}`,
+    inputs: inputs.map((port) => port.port),
+    outputs: outputs.map((port) => port.port),
+    width: Math.max(130, title, longest(inputs) + longest(outputs) + 2 * EDGE + GAP),
+    height: HEAD + ROW * Math.max(inputs.length, outputs.length) + 8,
+  };
+}
+
+/**
+ * Arranges boxes so that most connections lead to the right.
+ * @param {any} dagre  the library
+ * @param {Plan} plan
+ * @returns {Places}
+ */
+export function arrange(dagre, plan) {
+  const graph = new dagre.graphlib.Graph({ compound: true });
+  graph.setGraph({ rankdir: "LR", acyclicer: "greedy", nodesep: 24, ranksep: 64, edgesep: 6 });
+  graph.setDefaultEdgeLabel(() => ({}));
+  for (const group of plan.groups) graph.setNode(`${group.kind} ${group.name}`, {});
+  for (const group of plan.groups) if (group.parent !== "") graph.setParent(`${group.kind} ${group.name}`, group.parent);
+  for (const box of plan.boxes) {
+    graph.setNode(`component ${box.name}`, { width: box.width, height: box.height });
+    graph.setParent(`component ${box.name}`, box.group);
+  }
+  for (const { from, to, weight } of plan.links) graph.setEdge(`component ${from}`, `component ${to}`, { weight });
+  dagre.layout(graph);
+  return Object.fromEntries(plan.boxes.map((box) => {
+    const { x, y } = graph.node(`component ${box.name}`);
+    return [box.name, { x, y }];
+  }));
+}
+
+/**
+ * Returns where a port stands at its component.
+ * @param {Box} box
+ * @param {Point} middle  of the box
+ * @param {string} port
+ * @returns {Point | null} null: the box does not show it
+ */
+export function portPlace(box, middle, port) {
+  const input = box.inputs.indexOf(port);
+  const row = input >= 0 ? input : box.outputs.indexOf(port);
+  if (row < 0) return null;
+  const x = middle.x + (input >= 0 ? -box.width / 2 : box.width / 2);
+  return { x, y: middle.y - box.height / 2 + HEAD + ROW * (row + 0.5) };
+}
+
+/**
+ * @param {Point} from
+ * @param {Point} to
+ * @returns {string} a curve of SVG that leaves to the right and arrives from the left
+ */
+export function curve(from, to) {
+  const reach = Math.max(34, Math.min(160, Math.abs(to.x - from.x) / 2));
+  const n = (/** @type {number} */ value) => value.toFixed(1);
+  return `M${n(from.x)},${n(from.y)} C${n(from.x + reach)},${n(from.y)} ${n(to.x - reach)},${n(to.y)} ${n(to.x)},${n(to.y)}`;
+}
+
+/**
+ * Returns the rectangle around the boxes of a group, and of the groups in it.
+ * @param {Plan} plan
+ * @param {Places} places
+ * @param {Group} group
+ * @returns {{x: number, y: number, width: number, height: number}}
+ */
+export function frameOf(plan, places, group) {
+  const key = `${group.kind} ${group.name}`;
+  const inner = group.kind === "machine" ? plan.groups.filter((each) => each.parent === key).map((each) => `${each.kind} ${each.name}`) : [key];
+  const room = group.kind === "machine" ? 2 * ROOM + TITLE : ROOM;
+  const boxes = plan.boxes.filter((box) => inner.includes(box.group) && box.name in places);
+  const left = Math.min(...boxes.map((box) => places[box.name].x - box.width / 2)) - room;
+  const top = Math.min(...boxes.map((box) => places[box.name].y - box.height / 2)) - room - TITLE;
+  const right = Math.max(...boxes.map((box) => places[box.name].x + box.width / 2)) + room;
+  const bottom = Math.max(...boxes.map((box) => places[box.name].y + box.height / 2)) + room;
+  return { x: left, y: top, width: right - left, height: bottom - top };
+}
+
+/**
+ * Says whether two ports can be connected, before the deployer is asked.
+ * @param {Port} from
+ * @param {Port} to
+ * @param {(type: string, wanted: string) => boolean} isA
+ * @returns {string} "" if they fit, otherwise why not
+ */
+export function misfit(from, to, isA) {
+  if (!isSource(from) || isSource(to)) return "connect an output on the right with an input on the left";
+  if (from.pattern !== to.pattern) return `${from.pattern} does not go to ${to.pattern}`;
+  if (!isA(from.type, to.type)) return `${from.type} is no ${to.type}`;
+  if (from.pattern === "Query" && !isA(to.reply ?? "", from.reply ?? "")) return `the reply ${to.reply} is no ${from.reply}`;
+  if (from.connected_to.includes(to.port)) return "they are connected already";
+  return "";
+}
