@@ -150,6 +150,24 @@ TEST_CASE("a joystick drives while its dead-man button is held, and stops the ro
   CHECK(run.err.find("alarm") == std::string::npos);  // what start() opened may be closed by a lap
 }
 
+TEST_CASE("a command from afar drives the robot for the dead-man time, and without another one it stops",
+          "[system][teleop]") {
+  Subprocess program(teleop({"--set", "keyboard="}));
+  REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
+  const auto send = [](const std::string& command) {
+    const Run run = run_orcactl({"--system", "teleop", "send", "teleop.MotionSend", command});
+    INFO(run.err);
+    CHECK(run.exit_code() == 0);
+  };
+  send(R"(<MotionCommand speed="0.2" direction="1"/>)");
+  CHECK(program.wait_for_output("a person's command has steering BY_TURN_RATE", kLimit));
+  send(R"(<MotionCommand steering="BY_TURN_RATE" speed="0.2" turn_rate="0.1"/>)");
+  CHECK(program.wait_for_output("FUSED by teleop speed 0.20 turn 0.10", kLimit));
+  CHECK(comes_to_stop_after_driving(program));
+  program.send(SIGINT);
+  CHECK(finish(program, kLimit).exit_code() == 0);
+}
+
 TEST_CASE("in virtual time teleop refuses to start, and says what to do", "[system][teleop]") {
   const Run run = run_deployer(Words{system_graph("teleop.xml"), "--set", "keyboard=stdin"} +
                                with_test_plugins() + virtual_clock());

@@ -64,9 +64,10 @@ class Input {
   int fd_ = -1;
 };
 
-/// A behaviour by which a person drives: with the keys of a terminal, with a joystick, or with both. With
-/// both, the joystick has priority while it is not at rest. To let go is to stop: the robot stops as soon as
-/// no key has come for the dead-man time, the joystick's dead-man button is not held, or the device has gone.
+/// A behaviour by which a person drives: with the keys of a terminal, with a joystick, or from afar with commands that a
+/// page sends. The joystick has priority while it is not at rest, then the keys. To let go is to stop: the robot stops as
+/// soon as no key and no command has come for the dead-man time, the joystick's dead-man button is not held, or the device
+/// has gone.
 ///
 /// It needs the steady clock, because a person cannot drive in virtual time.
 class Teleop final : public orca::Component {
@@ -74,22 +75,27 @@ class Teleop final : public orca::Component {
   explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
 
  private:
+  // What a person wants.
+  struct Motion {
+    double speed = 0.0;      // [m/s] forward positive
+    double turn_rate = 0.0;  // [rad/s] positive to the left
+  };
+  // A command that was sent.
+  struct FarCommand {
+    Motion motion;
+    orca::TimePoint came;
+  };
   // The limits of the base.
   struct Limits {
     double speed = std::numeric_limits<double>::infinity();      // [m/s]
     double turn_rate = std::numeric_limits<double>::infinity();  // [rad/s]
   };
 
-  Status configure() override {
-    if (keyboard_->empty() && joystick_->empty())
-      return keyboard_.refuse("it and joystick are both empty; set one of them");
-    return orca::ok();
-  }
-
   Status start() override {
     motion_.start(lap_period());
     keys_ = {};
     stick_.release();
+    far_.reset();
     if (!keyboard_->empty())
       if (Status opened = keyboard_input_.open(*keyboard_); !opened.ok()) return opened;
     if (!joystick_->empty())
@@ -129,15 +135,40 @@ class Teleop final : public orca::Component {
     }
     if (keys_.take_question()) where_.ask(now());
     if (const auto answer = where_.look(now())) log_info(*answer);
+    push(wanted_by_hand(time));
+    return orca::again();
+  }
+
+  // Returns the motion that a person wants.
+  Motion wanted_by_hand(double time) {
     const Stick hand = stick_.stick(map());
     const Stick wanted = hand == Stick{} ? keys_.stick(time, *dead_man_) : hand;
-    if (wanted == Stick{}) {
+    if (wanted == Stick{} && far_ && now() - far_->came <= orca::from_seconds(*dead_man_))
+      return far_->motion;
+    return {wanted.forward * *speed_, wanted.left * *turn_rate_};
+  }
+
+  void push(const Motion& wanted) {
+    if (wanted.speed == 0.0 && wanted.turn_rate == 0.0) {
       motion_.push(orca::full_stop());  // overrules the other behaviours
     } else {
-      motion_.push(orca::turn(wanted.left * std::min(*turn_rate_, limits_.turn_rate),
-                              wanted.forward * std::min(*speed_, limits_.speed), *weight_));
+      motion_.push(orca::turn(std::clamp(wanted.turn_rate, -limits_.turn_rate, limits_.turn_rate),
+                              std::clamp(wanted.speed, -limits_.speed, limits_.speed), *weight_));
     }
-    return orca::again();
+  }
+
+  // A command from afar counts until the next one, for the dead-man time at most.
+  Status on_motion(const orca::ObjectPtr<orca::idl::MotionCommand>& command) {
+    if (command->kind() != orca::idl::NORMAL) {
+      far_.reset();
+      return orca::ok();
+    }
+    if (command->steering() != orca::idl::BY_TURN_RATE || !std::isfinite(command->speed()) ||
+        !std::isfinite(command->turn_rate()))
+      return orca::fail(orca::Code::invalid_argument,
+                        "a person's command has steering BY_TURN_RATE, and numbers as speed and turn_rate");
+    far_ = {{command->speed(), command->turn_rate()}, now()};
+    return orca::ok();
   }
 
   void stop() override {
@@ -170,6 +201,13 @@ class Teleop final : public orca::Component {
   orca::PushServer<orca::idl::MotionCommand> motion_{
       *this, "motion", {.text = "The person's command, one per lap; full stop while no control is held."}};
 
+  orca::SendServer<orca::idl::MotionCommand> from_afar_{
+      *this,
+      "MotionSend",
+      &Teleop::on_motion,
+      {.text = "The command of a person who is elsewhere, such as at orcaview's page, again and again while "
+               "the control is "
+               "held."}};
   orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
       *this,
       "robot",
@@ -204,7 +242,10 @@ class Teleop final : public orca::Component {
       *this,
       "dead_man",
       0.3,
-      {.unit = "s", .min = 0.05, .max = 2.0, .text = "The robot stops when no key has come for this long."}};
+      {.unit = "s",
+       .min = 0.05,
+       .max = 2.0,
+       .text = "The robot stops when neither a key nor a command from afar has come for this long."}};
   orca::Param<std::int64_t> forward_axis_{
       *this, "forward_axis", 1, {.min = 0, .max = 255, .text = "Joystick axis; up is negative."}};
   orca::Param<std::int64_t> left_axis_{
@@ -227,6 +268,7 @@ class Teleop final : public orca::Component {
   orca::teleop::Where where_{odometry_};
   orca::teleop::Keys keys_;
   orca::teleop::Joystick stick_;
+  std::optional<FarCommand> far_;  // the last one
   std::string bytes_;
 };
 
