@@ -3,11 +3,10 @@
 #include "desk.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "answers.hpp"
-#include "page.hpp"
+#include "session.hpp"
 
 namespace orca::view {
 
@@ -27,20 +26,20 @@ void Desk::start() {
   log_link_.start();
 }
 
-void Desk::join(Page& page) { pages_.push_back(&page); }
+void Desk::join(Session& session) { sessions_.push_back(&session); }
 
-void Desk::leave(Page& page) {
-  std::erase(pages_, &page);
-  std::erase_if(followers_, [&](const Follower& one) { return one.page == &page; });
+void Desk::leave(Session& session) {
+  std::erase(sessions_, &session);
+  std::erase_if(followers_, [&](const Follower& one) { return one.session == &session; });
 }
 
-void Desk::follow_log(Page& page, std::uint64_t id) {
-  followers_.push_back({&page, id});
+void Desk::follow_log(Session& session, std::uint32_t id) {
+  followers_.push_back({&session, id});
   ask_for_log();
 }
 
-void Desk::leave_log(const Page& page, std::uint64_t id) {
-  std::erase_if(followers_, [&](const Follower& one) { return one.page == &page && one.id == id; });
+void Desk::leave_log(const Session& session, std::uint32_t id) {
+  std::erase_if(followers_, [&](const Follower& one) { return one.session == &session && one.id == id; });
 }
 
 void Desk::ask_for_log() {
@@ -52,31 +51,13 @@ void Desk::ask_for_log() {
         const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer);
         if (record == nullptr) return;
         const json line = json_of(record->record);
-        for (const Follower& one : std::vector(followers_))
-          one.page->say({{"op", "record"}, {"id", one.id}, {"record", line}});
+        for (const Follower& one : std::vector(followers_)) one.session->hear(one.id, line);
       },
       [](const Status&) {});
 }
 
-std::string Desk::greeting(Role role) const {
-  using Seconds = std::chrono::duration<double>;
-  const Seconds time = std::chrono::system_clock::now().time_since_epoch();
-  return json({{"op", "hello"},
-               {"system", link_.system()},
-               {"role", role == Role::reader ? "reader" : "operator"},
-               {"present", link_.is_up()},
-               {"time", time.count()},
-               {"version", ORCA_VERSION}})
-      .dump();
-}
-
 void Desk::changed(bool is_up) {
-  for (Page* const page : std::vector(pages_)) {
-    if (is_up)
-      page->greet();
-    else
-      page->say({{"op", "system"}, {"present", false}});
-  }
+  for (Session* const session : std::vector(sessions_)) session->system_changed(is_up);
 }
 
 }  // namespace orca::view

@@ -14,9 +14,9 @@
 
 namespace orca::view {
 
-class Page;
+class Session;
 
-/// What all pages share: the connection to the system, its log, the ports at which they look.
+/// What all sessions share: the connection to the system, its log, the ports at which they look.
 ///
 /// Thread contract: the loop's thread.
 class Desk {
@@ -26,23 +26,18 @@ class Desk {
   /// Connects to the system.
   void start();
 
-  void join(Page& page);
-  void leave(Page& page);
-  [[nodiscard]] std::size_t pages() const { return pages_.size(); }
-
+  void join(Session& session);
+  void leave(Session& session);
   [[nodiscard]] SystemLink& link() { return link_; }
   [[nodiscard]] Ports& ports() { return ports_; }
   /// Begins to follow the system's log for a page, until it leaves or looks away.
-  void follow_log(Page& page, std::uint64_t id);
-  void leave_log(const Page& page, std::uint64_t id);
-
-  /// Returns the message with which a page is greeted.
-  [[nodiscard]] std::string greeting(Role role) const;
+  void follow_log(Session& session, std::uint32_t id);
+  void leave_log(const Session& session, std::uint32_t id);
 
  private:
   struct Follower {
-    Page* page = nullptr;
-    std::uint64_t id = 0;
+    Session* session = nullptr;
+    std::uint32_t id = 0;
   };
   void changed(bool is_up);
   void ask_for_log();
@@ -50,7 +45,7 @@ class Desk {
   SystemLink link_;
   SystemLink log_link_;  // of its own: what is asked over it has no end
   Ports ports_;
-  std::vector<Page*> pages_;
+  std::vector<Session*> sessions_;
   std::vector<Follower> followers_;
   bool has_asked_ = false;  // for the log
 };

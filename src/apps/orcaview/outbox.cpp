@@ -23,31 +23,35 @@ std::uint32_t capped(std::uint64_t number) {
 
 }  // namespace
 
-std::string object_head(std::uint8_t kind, std::uint32_t id, const supervisor::Tapped& passed,
-                        std::uint32_t left_out) {
+std::string object_head(const Frame& frame) {
   std::string head;
-  append(head, std::uint32_t{kind});
-  append(head, id);
-  append(head, static_cast<double>(passed.passed) / kNanoseconds);
-  append(head, static_cast<double>(passed.created) / kNanoseconds);
-  append(head, capped(passed.lost));
-  append(head, left_out);
+  append(head, std::uint32_t{1});
+  append(head, frame.look);
+  append(head, static_cast<double>(frame.passed->passed) / kNanoseconds);
+  append(head, static_cast<double>(frame.passed->created) / kNanoseconds);
+  append(head, capped(frame.passed->lost));
+  append(head, frame.left_out);
   return head;
 }
 
-bool Outbox::add(std::string text) {
-  if (answer_bytes_ + text.size() > kBound) return false;
-  answer_bytes_ += text.size();
-  answers_.push_back({true, std::move(text)});
-  return true;
+std::string reply_head(std::uint32_t id) {
+  std::string head;
+  append(head, std::uint32_t{2});
+  append(head, id);
+  constexpr std::size_t kSize = 32;
+  head.resize(kSize);
+  return head;
 }
 
-bool Outbox::add_reply(std::uint32_t id, std::shared_ptr<const supervisor::Tapped> reply) {
-  const std::size_t size = reply->object.size();
-  if (answer_bytes_ > 0 && answer_bytes_ + size > kBound) return false;
-  answer_bytes_ += size;
-  std::string head = object_head(2, id, *reply, 0);
-  answers_.push_back({false, std::move(head), std::move(reply)});
+bool Outbox::add(std::string text) { return add(Frame{Frame::Kind::text, std::move(text)}); }
+
+bool Outbox::add_bytes(std::string bytes) { return add(Frame{Frame::Kind::bytes, std::move(bytes)}); }
+
+// One frame finds room whatever its size.
+bool Outbox::add(Frame frame) {
+  if (answer_bytes_ > 0 && answer_bytes_ + frame.text.size() > kBound) return false;
+  answer_bytes_ += frame.text.size();
+  answers_.push_back(std::move(frame));
   return true;
 }
 
@@ -86,7 +90,7 @@ std::optional<Frame> Outbox::take(Moment now) {
   if (!answers_.empty()) {
     Frame frame = std::move(answers_.front());
     answers_.pop_front();
-    answer_bytes_ -= frame.is_text ? frame.head.size() : frame.passed->object.size();
+    answer_bytes_ -= frame.text.size();
     return frame;
   }
   auto longest = looks_.end();
@@ -101,8 +105,7 @@ std::optional<Frame> Outbox::take(Moment now) {
   object_bytes_ -= passed->object.size();
   const bool is_late = now - look.due >= look.interval;  // a new beat begins
   look.due = (is_late ? now : look.due) + look.interval;
-  std::string head = object_head(1, longest->first, *passed, look.left_out);
-  return Frame{false, std::move(head), std::move(passed)};
+  return Frame{Frame::Kind::object, {}, std::move(passed), longest->first, look.left_out};
 }
 
 std::optional<Outbox::Moment> Outbox::due() const {

@@ -16,11 +16,14 @@
 
 namespace orca::view {
 
-/// A frame to a page: a text, or a head and the bytes of an object that all pages share.
+/// A frame to a page: a text, bytes, or an object that all pages share.
 struct Frame {
-  bool is_text = true;
-  std::string head;
-  std::shared_ptr<const supervisor::Tapped> passed{};  ///< Its object follows the head.
+  enum class Kind { text, bytes, object };
+  Kind kind = Kind::text;
+  std::string text{};                                  ///< Or bytes.
+  std::shared_ptr<const supervisor::Tapped> passed{};  ///< The object.
+  std::uint32_t look = 0;                              ///< That it is for.
+  std::uint32_t left_out = 0;                          ///< Objects of this look that were not sent, so far.
 };
 
 /// The frames that wait until a page takes them. Answers wait up to a bound; of the objects of a look only the newest do, so
@@ -38,8 +41,8 @@ class Outbox {
   /// Adds an answer.
   /// @return whether there is room. If not, the page does not read, and should be closed.
   bool add(std::string text);
-  /// Adds the reply to a question. As add().
-  bool add_reply(std::uint32_t id, std::shared_ptr<const supervisor::Tapped> reply);
+  /// As add(), for a message that is no text.
+  bool add_bytes(std::string bytes);
 
   /// Begins to take objects.
   /// @param interval  least time between two of them that go out; 0: all that there is room for.
@@ -64,6 +67,7 @@ class Outbox {
     std::uint32_t left_out = 0;
     std::deque<std::shared_ptr<const supervisor::Tapped>> waiting{};
   };
+  bool add(Frame frame);
   void drop_oldest(Look& look);
 
   std::deque<Frame> answers_;
@@ -73,10 +77,9 @@ class Outbox {
   std::uint64_t dropped_ = 0;
 };
 
-/// Returns the head of a frame that carries an object: 32 bytes, little-endian.
-/// @param kind      1: an object at a port, 2: the reply to a question.
-/// @param left_out  objects that were not sent to the page.
-[[nodiscard]] std::string object_head(std::uint8_t kind, std::uint32_t id, const supervisor::Tapped& passed,
-                                      std::uint32_t left_out);
+/// Returns what stands before an object in a frame to a page: 32 bytes, little-endian (docs/orcaview.md).
+[[nodiscard]] std::string object_head(const Frame& frame);
+/// The same for the reply to a question.
+[[nodiscard]] std::string reply_head(std::uint32_t id);
 
 }  // namespace orca::view

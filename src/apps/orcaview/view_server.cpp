@@ -26,8 +26,8 @@ using boost::system::error_code;
 constexpr std::chrono::seconds kPatience{10};  // with whoever sends a request or takes an answer
 constexpr std::size_t kLongestHead = std::size_t{16} << 10;
 
-http::response<http::string_body> answer(const Page::Request& request, http::status status, std::string type,
-                                         std::string text) {
+http::response<http::string_body> answer(const Session::Request& request, http::status status,
+                                         std::string type, std::string text) {
   http::response<http::string_body> response(status, request.version());
   response.set(http::field::content_type, type);
   response.set(http::field::cache_control, "no-store");
@@ -42,7 +42,8 @@ http::response<http::string_body> answer(const Page::Request& request, http::sta
   return response;
 }
 
-http::response<http::string_body> refuse(const Page::Request& request, http::status status, std::string why) {
+http::response<http::string_body> refuse(const Session::Request& request, http::status status,
+                                         std::string why) {
   return answer(request, status, "text/plain; charset=utf-8", std::move(why) + "\n");
 }
 
@@ -93,7 +94,7 @@ awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
     error_code error;
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(use_awaitable, error));
     if (error) co_return;
-    Page::Request request = parser.release();
+    Session::Request request = parser.release();
     const std::string why = refusal(request);
     const std::string_view target = view_of(request.target());
     if (why.empty() && beast::websocket::is_upgrade(request)) {
@@ -113,7 +114,7 @@ awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
 }
 
 // Returns why a request is refused; empty: it is not.
-std::string ViewServer::refusal(const Page::Request& request) const {
+std::string ViewServer::refusal(const Session::Request& request) const {
   if (!is_own_host(view_of(request[http::field::host]), port_))
     return "this server is 127.0.0.1:" + std::to_string(port_) + " or localhost, by no other name";
   if (!is_own_origin(view_of(request[http::field::origin]), port_))

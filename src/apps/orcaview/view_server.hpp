@@ -41,7 +41,7 @@ class ViewServer {
   boost::asio::awaitable<void> accept_all();
   boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket);
   boost::asio::awaitable<void> serve_requests(boost::asio::ip::tcp::socket socket);
-  [[nodiscard]] std::string refusal(const Page::Request& request) const;
+  [[nodiscard]] std::string refusal(const Session::Request& request) const;
 
   boost::asio::ip::tcp::acceptor acceptor_;
   Desk& desk_;

@@ -75,7 +75,7 @@ class Teleop final : public orca::Component {
   explicit Teleop(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::milliseconds(25)); }
 
  private:
-  // What a person wants.
+  // The motion that a person wants.
   struct Motion {
     double speed = 0.0;      // [m/s] forward positive
     double turn_rate = 0.0;  // [rad/s] positive to the left

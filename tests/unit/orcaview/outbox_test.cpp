@@ -24,9 +24,6 @@ Number number_at(const std::string& bytes, std::size_t at) {
   return number;
 }
 
-std::uint32_t look_of(const Frame& frame) { return number_at<std::uint32_t>(frame.head, 4); }
-std::uint32_t left_out_of(const Frame& frame) { return number_at<std::uint32_t>(frame.head, 28); }
-
 constexpr Outbox::Moment kNow{100s};
 
 }  // namespace
@@ -37,9 +34,9 @@ TEST_CASE("answers leave in their order, before objects", "[view]") {
   outbox.add_object(1, object_of(10));
   CHECK(outbox.add("first"));
   CHECK(outbox.add("second"));
-  CHECK(outbox.take(kNow)->head == "first");
-  CHECK(outbox.take(kNow)->head == "second");
-  CHECK(look_of(*outbox.take(kNow)) == 1);
+  CHECK(outbox.take(kNow)->text == "first");
+  CHECK(outbox.take(kNow)->text == "second");
+  CHECK(outbox.take(kNow)->look == 1);
   CHECK_FALSE(outbox.take(kNow));
   CHECK(outbox.waiting_bytes() == 0);
 }
@@ -49,7 +46,7 @@ TEST_CASE("an object's head says what it is, in 32 bytes", "[view]") {
   passed->passed = 2'500'000'000;
   passed->created = 2'250'000'000;
   passed->lost = 7;
-  const std::string head = object_head(1, 11, *passed, 3);
+  const std::string head = object_head({Frame::Kind::object, {}, passed, 11, 3});
   REQUIRE(head.size() == 32);
   CHECK(number_at<std::uint32_t>(head, 0) == 1);
   CHECK(number_at<std::uint32_t>(head, 4) == 11);
@@ -71,7 +68,7 @@ TEST_CASE("a look with a rate sends the newest object, no sooner than its interv
   const auto frame = outbox.take(*outbox.due());
   REQUIRE(frame);
   CHECK(frame->passed->passed == 3);
-  CHECK(left_out_of(*frame) == 1);
+  CHECK(frame->left_out == 1);
   CHECK(outbox.dropped() == 0);  // it was not wanted
 }
 
@@ -118,7 +115,7 @@ TEST_CASE("looks take turns", "[view]") {
   for (int i = 0; i < 200; ++i, now += 500us) {
     outbox.add_object(1, object_of(8));
     outbox.add_object(2, object_of(8));
-    if (const auto frame = outbox.take(now)) ++(look_of(*frame) == 1 ? ones : twos);
+    if (const auto frame = outbox.take(now)) ++(frame->look == 1 ? ones : twos);
   }
   CHECK(ones > 90);
   CHECK(twos > 90);
