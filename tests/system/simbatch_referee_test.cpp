@@ -83,6 +83,27 @@ TEST_CASE("a variant that claims success where it is not scores nothing, and is 
                  Contains("the robot within 0.3 m of 4.2 9.8, for 0.5 s"));
 }
 
+TEST_CASE("a robot that gives up a goal that it has reached, while another is on its way, is no crash",
+          "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment = folder.write(
+      "shy.xml", R"(<experiment name="shy" profile="sim odometry" seeds="1" until="60 s" graph=")" +
+                     source_file("graphs/two_robots.xml") +
+                     R"(">
+  <goal robot="Dewey" x="9 m" y="4.5 m" radius="1 m"/>
+  <goal robot="Huey" place="west" radius="1 m"/>
+  <goal robot="Huey" place="east" radius="1 m"/>
+  <variant name="shy"><set arg="dewey/command.reach_radius" value="1 cm"/><set arg="dewey/goto.blocked_after" value="5 s"/></variant>
+  <world name="hall"/>
+</experiment>)");
+  batch(experiment, folder.file("out"));
+  const auto row = rows_of(exported(folder.file("out"))).at(0);
+  CHECK(row.at("ending") == "goal_failed");
+  CHECK(row.at("failure") != "crash");
+  CHECK(row.at("goals") == "2");  // the goal of the one that gave up, and the first of the other
+  CHECK(row.at("claimed") == "0");
+}
+
 TEST_CASE("without goals the components' own word counts, and the report says so", "[system][batch]") {
   const TempFolder folder;
   const Run run = run_simbatch({liars(folder, ""), "--out", folder.file("out")});

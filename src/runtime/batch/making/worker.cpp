@@ -114,7 +114,9 @@ Ending ending_of(const host::RunResult& result, const Judgement& judgement) {
   if (judgement.done) return Ending::success;
   if (judgement.missed > 0 || judgement.claimed_wrongly > 0) return Ending::goal_failed;
   if (result.outcome == host::RunOutcome::time_is_up) return Ending::time_out;
-  return result.outcome == host::RunOutcome::finished ? Ending::goal_failed : Ending::failed;
+  const bool is_over =
+      result.outcome == host::RunOutcome::finished || result.outcome == host::RunOutcome::failed;
+  return is_over ? Ending::goal_failed : Ending::failed;
 }
 
 std::string reason_of(const host::RunResult& result) {
