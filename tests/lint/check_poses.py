@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""In shipped experiments a robot has a pose that it can have, or the variant says by "_truth" in its name that it has the simulator's."""
+import re
+import xml.etree.ElementTree as ElementTree
+
+OWN_POSE = {"odometry"}  # profiles whose pose is the robot's own
+
+
+def variants_of(text):
+    """Returns name and profiles of each variant; none if the text is no experiment."""
+    root = ElementTree.fromstring(text.encode())
+    if root.tag != "experiment":
+        return []
+    return [(variant.get("name"), set((variant.get("profile") or root.get("profile") or "").split()))
+            for variant in root.findall("variant")]
+
+
+def find(tree):
+    findings = []
+    for path in tree.paths:
+        if not re.match(r"sim/experiments/[^/]+\.xml$", path):
+            continue
+        for name, profiles in variants_of(tree.text(path)):
+            is_own, says_truth = bool(profiles & OWN_POSE), "_truth" in name
+            if not is_own and not says_truth:
+                findings.append(f"{path}: variant {name} has the simulator's pose: add the profile odometry, or \"_truth\" to the name")
+            if is_own and says_truth:
+                findings.append(f"{path}: variant {name} says \"_truth\", but has the profile odometry")
+    return findings
+
+
+def _experiment(variant, profile=""):
+    return {"sim/experiments/e.xml": f'<experiment name="e"{profile}><variant {variant}/></experiment>'}
+
+
+_ODOMETRY = ' profile="sim odometry"'
+BAD = [
+    (_experiment('name="a"'), "variant a has the simulator's pose"),
+    (_experiment('name="a" profile="sim"', _ODOMETRY), "variant a has the simulator's pose"),
+    (_experiment('name="a_truth"', _ODOMETRY), "says \"_truth\", but"),
+]
+GOOD = [
+    _experiment('name="a"', _ODOMETRY),
+    _experiment('name="a"' + _ODOMETRY),
+    _experiment('name="a_truth" profile="sim"', _ODOMETRY),
+    {"sim/experiments/g.xml": '<graph name="g"/>'},
+    {"tests/data/e.xml": '<experiment name="e"><variant name="a"/></experiment>'},
+]
