@@ -325,6 +325,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
   for (const auto& [name, size] : {std::pair{"avoid_office", "12 variants, 4 worlds, 10 seeds: 480 runs"},
                                    std::pair{"dead_ends", "8 variants, 40 worlds, 1 seed: 320 runs"},
                                    std::pair{"posts_and_offices", "6 variants, 80 worlds, 1 seed: 480 runs"},
+                                   std::pair{"meeting", "4 variants, 2 worlds, 20 seeds: 160 runs"},
                                    std::pair{"people", "6 variants, 3 worlds, 12 seeds: 216 runs"},
                                    std::pair{"showroom", "6 variants, 2 worlds, 10 seeds: 120 runs"},
                                    std::pair{"sonar_physics", "5 variants, 4 worlds, 20 seeds: 400 runs"},
