@@ -2,6 +2,7 @@
 // Batches of runs from outside: the same experiment gives the same bytes, and nothing that was finished is lost.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -66,9 +67,12 @@ TEST_CASE("the same experiment gives the same bytes with one worker and with sev
   CHECK(batch(experiment, folder.file("baton"), {"--executor", "baton"}) == one);
 }
 
-TEST_CASE("the processor time per lap of each component lies beside the report", "[system][batch]") {
+TEST_CASE("the processor time per lap of each component is on the page and beside it", "[system][batch]") {
   const TempFolder folder;
   batch(drive(folder), folder.file("out"));
+  const std::string page = text_in(folder.file("out") + "/report.md");
+  for (const char* const part : {"## Processor time\n\n| component | ", "\n| avoid | ", "\n| localizer | "})
+    CHECK_THAT(page.substr(std::min(page.size(), page.find("## Processor time"))), Contains(part));
   const std::vector<std::string> laps = split_lines(text_in(folder.file("out") + "/laps.csv"));
   CHECK(laps[0] == "variant,world,seed,component,laps,mean,p95,longest");
   CHECK(laps.size() == 1 + 8 * 7);  // eight runs of seven components

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <string>
 
 #include "orca/base/output_file.hpp"
+#include "orca/batch/lap_times.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::simbatch {
@@ -71,24 +71,14 @@ Status laps_table(const batch::Store& store, const Take& take) {
 }
 
 std::string laps_summary(const batch::Store& store) {
-  struct Sum {
-    double time = 0.0;  // [s]
-    std::uint64_t laps = 0;
-  };
-  std::map<std::string, std::map<std::string, Sum>> sums;  // by variant and component
-  (void)store.for_each([&](const batch::Row& row) {
-    for (const batch::LapCost& one : row.cost.laps) {
-      Sum& sum = sums[row.variant][one.component];
-      sum.time += one.mean * static_cast<double>(one.laps);
-      sum.laps += one.laps;
-    }
-  });
+  batch::LapTimes times;
+  (void)store.for_each([&](const batch::Row& row) { times.add(row); });
   std::string text;
-  for (const auto& [variant, components] : sums) {
+  for (const auto& [variant, components] : times.of_variant) {
     text += variant + ": processor time per lap:";
     for (const auto& [component, sum] : components) {
       char part[32];
-      std::snprintf(part, sizeof part, " %.3g ms", 1e3 * sum.time / static_cast<double>(sum.laps));
+      std::snprintf(part, sizeof part, " %.3g ms", 1e3 * sum.mean());
       text += (text.ends_with(':') ? " " : ", ") + component + part;
     }
     text += "\n";

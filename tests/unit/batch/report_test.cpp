@@ -224,6 +224,18 @@ TEST_CASE("where there are few worlds each shows how far its seeds are apart", "
              Contains("| world: time [s] | bad |\n| --- | --- |\n| w10 | 21.9 (21.0 to 22.9) |"));
 }
 
+TEST_CASE("the page shows the mean processor time per lap over all runs, and the longest",
+          "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "good", 0);
+  CHECK_THAT(report_on(rows).markdown, !Contains("## Processor time"));  // no run has any
+  rows[0].cost.laps = {{"avoid", 100, 0.001, 0.002, 0.004}};
+  rows[1].cost.laps = {{"avoid", 300, 0.002, 0.003, 0.0035}, {"goto", 10, 0.00025, 0.0003, 0.0003}};
+  CHECK_THAT(report_on(rows).markdown,
+             Contains("| component | bad | good |\n| --- | --- | --- |\n| avoid |  | 1.75 ms (4 ms) |\n"
+                      "| goto |  | 0.25 ms (0.3 ms) |\n"));
+}
+
 TEST_CASE("small p-values are not rounded to 0", "[batch][report]") {
   CHECK(p_text(0.0123) == "0.0123");
   CHECK(p_text(1e-7) == "< 0.0001");

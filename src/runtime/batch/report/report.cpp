@@ -14,6 +14,7 @@
 #include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "plots.hpp"
+#include "processor_time.hpp"
 #include "provenance.hpp"
 
 namespace orca::batch {
@@ -61,6 +62,7 @@ class Writer {
     tracks();
     failures();
     add_declarations(store_.declarations(), document_);
+    add_processor_time(experiment_, rows_, document_);
     add_provenance(experiment_, store_, document_);
     return std::move(document_);
   }
