@@ -184,7 +184,7 @@ LAYERS = (
     Layer("batch_experiment", (f"{BATCH}/experiment",), ("orca/batch/experiment.hpp",), ("batch_results",
           "batch_measures", "batch_statistics", "geometry", "xml", "base"), module=BATCH),
     Layer("batch_report", (f"{BATCH}/report",), ("orca/batch/report.hpp",), ("batch_experiment", "batch_results",
-          "batch_statistics", "geometry", "xml", "base"), module=BATCH),
+          "batch_statistics", "geometry", "xml", "base"), ("cairo",), module=BATCH),
     Layer("batch_making", (f"{BATCH}/making",), ("orca/batch/one_run.hpp",), ("batch_experiment", "batch_results",
           "batch_measures", "host_run", "host", "graph", "idl", "base"), module=BATCH),
     Layer("batch_comparing", (f"{BATCH}/comparing",), ("orca/batch/difference.hpp", "orca/batch/results_difference.hpp"),

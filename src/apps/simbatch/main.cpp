@@ -80,7 +80,8 @@ ExitCode could_not_write(const Status& written) {
 
 // Writes drawings and tables for a paper, and removes those of an earlier report, which may have had more.
 Status write_files(const batch::Report& report, const std::filesystem::path& folder) {
-  for (const auto& [name, end] : {std::pair("figures", ".svg"), std::pair("tables", ".tex")}) {
+  for (const auto& [name, end] :
+       {std::pair("figures", ".svg"), std::pair("figures", ".pdf"), std::pair("tables", ".tex")}) {
     std::error_code error;
     std::filesystem::create_directories(folder / name, error);
     if (error) return fail(Code::unavailable, (folder / name).string() + ": " + error.message());

@@ -83,7 +83,7 @@ TEST_CASE("a metric that there is not is refused", "[batch][report]") {
              Contains("there is no metric \"tme\"") && Contains("did you mean \"time\"?"));
 }
 
-TEST_CASE("each drawing is an SVG file of its own, each table a LaTeX file", "[batch][report]") {
+TEST_CASE("each drawing is an SVG and a PDF file of its own, each table a LaTeX file", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad_one", 5);
   add(rows, "good", 0);
@@ -96,6 +96,10 @@ TEST_CASE("each drawing is an SVG file of its own, each table a LaTeX file", "[b
     CHECK(xml::read_text(drawing, name, diagnostics));
     CHECK(diagnostics.text().empty());
     CHECK_THAT(report.html, Contains(drawing.substr(drawing.find("</desc>") + 7)));
+    const std::string pdf = std::string(name).replace(std::string(name).size() - 3, 3, "pdf");
+    CHECK_THAT(report.files.at(pdf),
+               StartsWith("%PDF-1.") && EndsWith("%%EOF\n") && !Contains("/CreationDate"));
+    CHECK(report_on(rows).files.at(pdf) == report.files.at(pdf));
   }
   CHECK_THAT(report.files.at("figures/times-and-speeds-1.svg"),
              Contains("<desc>Share of the runs that were done"));
@@ -166,7 +170,7 @@ TEST_CASE("the report of nine runs of each variant is the approved one, in Markd
 }
 
 TEST_CASE("the curve of a distribution rises at each value, by the share of all runs", "[batch][report]") {
-  const std::string plot = distribution_plot("x", {{"a", {1.0, 3.0}, 4}});
+  const std::string plot = to_svg(distribution_plot("x", {{"a", {1.0, 3.0}, 4}}));
   const std::size_t begin = plot.find("points=\"") + 8;
   const std::string points = plot.substr(begin, plot.find('"', begin) - begin);
   // 438 pixels for 0.9 to 3.1, 268 pixels for 0 to 1; two of four runs have a value.
@@ -193,13 +197,13 @@ TEST_CASE("lines are read as they were written, and what is no place is left out
 TEST_CASE("a map has a line for each wall and track, and a cross at each contact, to scale",
           "[batch][report]") {
   Map map{.walls = {{{0.0, 0.0}, {4.0, 0.0}, {4.0, 2.0}}}, .tracks = {{{{1.0, 1.0}, {3.0, 1.0}}, 0, true}}};
-  const std::string without_contact = map_plot(map);
+  const std::string without_contact = to_svg(map_plot(map));
   CHECK_THAT(without_contact, Contains("width=\"420\" height=\"237\""));  // 4.6 m by 2.6 m with the margins
   CHECK_THAT(without_contact, Contains("d=\"M27.4 210.0L392.6 210.0L392.6 27.4\""));
   CHECK_THAT(without_contact, Contains("points=\"118.7,118.7 301.3,118.7 \""));
   CHECK_THAT(without_contact, Contains("<circle cx=\"301.3\" cy=\"118.7\"") && !Contains("<line"));
   map.contacts = {{4.0, 1.0}};
-  CHECK_THAT(map_plot(map), Contains("<line x1=\"387.6\" y1=\"113.7\" x2=\"397.6\" y2=\"123.7\""));
+  CHECK_THAT(to_svg(map_plot(map)), Contains("<line x1=\"387.6\" y1=\"113.7\" x2=\"397.6\" y2=\"123.7\""));
 }
 
 TEST_CASE("each failure that is shown has a picture with the walls and the contacts", "[batch][report]") {

@@ -31,7 +31,9 @@ struct HtmlWriter {
   void operator()(const Paragraph& block) const { page += "<p>" + escaped(block.text) + "</p>\n"; }
   void operator()(const Command& block) const { page += "<pre>" + escaped(block.text) + "</pre>\n"; }
   void operator()(const Figure& block) const {
-    page += "<figure>\n" + block.svg + "<figcaption>" + escaped(block.caption) + "</figcaption></figure>\n";
+    page += "<figure>\n";
+    for (const Drawing& drawing : block.drawings) page += to_svg(drawing);
+    page += "<figcaption>" + escaped(block.caption) + "</figcaption></figure>\n";
   }
   void operator()(const Table& block) const {
     page += "<table>\n<thead>" + html_row(block.head, "th") + "</thead>\n<tbody>\n";

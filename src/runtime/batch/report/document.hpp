@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "drawing.hpp"
+
 namespace orca::batch {
 
 /// A report as a list of blocks, which becomes a page of HTML or of Markdown. Texts are plain: whoever writes the page escapes
@@ -21,9 +23,9 @@ struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<std::string>> rows;
 };
-/// A drawing; a page of Markdown has only its caption.
+/// Drawings with a caption, for instance a legend and a map; a page of Markdown has only the caption.
 struct Figure {
-  std::string svg;
+  std::vector<Drawing> drawings;
   std::string caption;
 };
 /// A command to type.
@@ -45,8 +47,8 @@ struct Document {
 /// Returns one self-contained page, which is well-formed XML too.
 [[nodiscard]] std::string to_html(const Document& document);
 [[nodiscard]] std::string to_markdown(const Document& document);
-/// Returns each drawing as an SVG file with its caption as the description, and each table as a LaTeX file with a plain tabular. The
-/// names have the section's heading and a number: "figures/times-and-speeds-1.svg", "tables/success-1.tex".
+/// Returns each drawing as an SVG and a PDF file with its caption as the description, and each table as a LaTeX file with a plain tabular.
+/// The names have the section's heading and a number: "figures/times-and-speeds-1.svg", "tables/success-1.tex".
 [[nodiscard]] std::map<std::string, std::string> to_files(const Document& document);
 
 }  // namespace orca::batch

@@ -5,12 +5,9 @@
 #include <string_view>
 
 #include "document.hpp"
-#include "orca/xml/document.hpp"
 
 namespace orca::batch {
 namespace {
-
-constexpr std::string_view kEndOfDrawing = "</svg>\n";
 
 // Returns a heading as a part of a file's name: "Times and speeds" is "times-and-speeds".
 std::string name_part(const std::string& heading) {
@@ -55,15 +52,12 @@ std::string to_tex(const Table& table) {
 class Files {
  public:
   void operator()(const Heading& block) { section_ = name_part(block.text); }
-  void operator()(const Table& block) { add("tables/", ".tex", to_tex(block)); }
+  void operator()(const Table& block) { all[next("tables/") + ".tex"] = to_tex(block); }
   void operator()(const Figure& block) {
-    std::string_view rest = block.svg;  // a legend may stand before a map
-    for (std::size_t end = rest.find(kEndOfDrawing); end != std::string_view::npos;
-         end = rest.find(kEndOfDrawing)) {
-      std::string drawing(rest.substr(0, end + kEndOfDrawing.size()));
-      drawing.insert(drawing.find('>') + 1, "\n<desc>" + xml::escaped(block.caption) + "</desc>");
-      add("figures/", ".svg", drawing);
-      rest.remove_prefix(end + kEndOfDrawing.size());
+    for (const Drawing& drawing : block.drawings) {
+      const std::string name = next("figures/");
+      all[name + ".svg"] = to_svg(drawing, block.caption);
+      if (std::string pdf = to_pdf(drawing, block.caption); !pdf.empty()) all[name + ".pdf"] = std::move(pdf);
     }
   }
   void operator()(const Paragraph& /*block*/) {}
@@ -72,9 +66,10 @@ class Files {
   std::map<std::string, std::string> all{};
 
  private:
-  void add(const std::string& folder, const std::string& end, const std::string& text) {
+  // Returns the name of the next file of this section, without its end.
+  std::string next(const std::string& folder) {
     const std::string name = folder + section_ + "-";
-    all[name + std::to_string(++counts_[name]) + end] = text;
+    return name + std::to_string(++counts_[name]);
   }
 
   std::string section_ = "experiment";

@@ -112,7 +112,7 @@ void add_families(const std::vector<Row>& rows, const std::map<std::string, std:
   for (const FamilyResult& family : result.families)
     if (const std::vector<Series> times = times_in(family.name, rows, families, result);
         has_enough(family) && !times.empty())
-      document.add(Figure{distribution_plot("time until the last goal [s]", times),
+      document.add(Figure{{distribution_plot("time until the last goal [s]", times)},
                           "Family " + family.name + ": share of the runs that were done by then."});
 }
 

@@ -6,13 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-
-#include "orca/xml/document.hpp"
-
 namespace orca::batch {
 namespace {
-
-using xml::escaped;
 
 // Colours that people with any colour vision distinguish (M. Okabe and K. Ito, "Color universal design", 2008).
 constexpr std::array kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
@@ -25,30 +20,6 @@ std::string number(double value, const char* format = "%.1f") {
   char text[32];
   std::snprintf(text, sizeof text, format, value);
   return text;
-}
-
-std::string svg(double width, double height, const std::string& inside) {
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + number(width, "%.0f") + "\" height=\"" +
-         number(height, "%.0f") + "\" viewBox=\"0 0 " + number(width, "%.0f") + " " + number(height, "%.0f") +
-         "\" font-size=\"12\" font-family=\"sans-serif\">\n" + inside + "</svg>\n";
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& stroke) {
-  return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" +
-         number(y2) + "\" stroke=\"" + stroke + "\"/>\n";
-}
-
-std::string words(double x, double y, const std::string& text, const std::string& anchor = "start",
-                  const std::string& fill = "#222") {
-  return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
-         fill + "\">" + escaped(text) + "</text>\n";
-}
-
-std::string polyline(const std::vector<Vec2>& points, const char* stroke, double width) {
-  std::string text = "<polyline fill=\"none\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
-                     number(width) + "\" stroke-opacity=\"0.8\" points=\"";
-  for (const Vec2& point : points) text += number(point.x) + "," + number(point.y) + " ";
-  return text + "\"/>\n";
 }
 
 // Returns 1, 2 or 5 times a power of ten, so that some five steps make up the range.
@@ -86,20 +57,21 @@ Axes axes_of(const std::vector<Series>& all) {
   return {low - margin, high + margin};
 }
 
-std::string ticks(const Axes& axes, const std::string& title) {
-  std::string text;
+void draw_ticks(const Axes& axes, const std::string& title, Drawing& drawing) {
   for (int i = 0; i <= 4; ++i) {
     const double share = 0.25 * i;
-    text += line(kLeft, Axes::y(share), kWidth - kRight, Axes::y(share), "#ddd");
-    text += words(kLeft - 6.0, Axes::y(share) + 4.0, number(100.0 * share, "%.0f %%"), "end");
+    const double y = Axes::y(share);
+    drawing.add(Stroke{{kLeft, y}, {kWidth - kRight, y}, "#ddd"});
+    drawing.add(Words{{kLeft - 6.0, y + 4.0}, number(100.0 * share, "%.0f %%"), "end"});
   }
   const double step = step_of(axes.high - axes.low);
   for (double value = std::ceil(axes.low / step) * step; value <= axes.high; value += step) {
-    text += line(axes.x(value), Axes::y(0.0), axes.x(value), Axes::y(0.0) + 4.0, "#888");
-    text += words(axes.x(value), Axes::y(0.0) + 17.0,
-                  number(std::fabs(value) < 1e-9 * step ? 0.0 : value, "%.4g"), "middle");
+    const Vec2 at{axes.x(value), Axes::y(0.0)};
+    drawing.add(Stroke{at, {at.x, at.y + 4.0}, "#888"});
+    drawing.add(
+        Words{{at.x, at.y + 17.0}, number(std::fabs(value) < 1e-9 * step ? 0.0 : value, "%.4g"), "middle"});
   }
-  return text + words(0.5 * (kLeft + kWidth - kRight), kHeight - 6.0, title, "middle");
+  drawing.add(Words{{0.5 * (kLeft + kWidth - kRight), kHeight - 6.0}, title, "middle"});
 }
 
 // A step up at each value.
@@ -144,63 +116,60 @@ MapFrame frame_of(const Map& map) {
   return {area, std::min(kMapWidth / size.x, kMostMapHeight / size.y)};
 }
 
-std::string drawn(const Track& track, const MapFrame& frame) {
-  if (track.places.empty()) return {};
-  std::vector<Vec2> points;
+void draw(const Track& track, const MapFrame& frame, Drawing& drawing) {
+  if (track.places.empty()) return;
+  Places points;
   for (const Vec2& place : track.places) points.push_back(frame(place));
-  std::string text = polyline(points, colour(track.variant), 1.5);
   const Vec2 end = points.back();
-  if (track.ends_badly)
-    text += "<circle cx=\"" + number(end.x) + "\" cy=\"" + number(end.y) +
-            "\" r=\"5\" fill=\"none\" stroke=\"" + colour(track.variant) + "\" stroke-width=\"2\"/>\n";
-  return text;
+  drawing.add(Polyline{std::move(points), colour(track.variant), 1.5});
+  if (track.ends_badly) drawing.add(Circle{end, colour(track.variant)});
 }
 
-std::string cross(Vec2 at) {
+void draw_cross(Vec2 at, Drawing& drawing) {
   constexpr double kHalf = 5.0;  // [pixels]
-  return line(at.x - kHalf, at.y - kHalf, at.x + kHalf, at.y + kHalf, "#d00000") +
-         line(at.x - kHalf, at.y + kHalf, at.x + kHalf, at.y - kHalf, "#d00000");
+  for (const double down : {kHalf, -kHalf})
+    drawing.add(Stroke{{at.x - kHalf, at.y - down}, {at.x + kHalf, at.y + down}, "#d00000"});
 }
 
 }  // namespace
 
-std::string distribution_plot(const std::string& axis, const std::vector<Series>& all) {
+Drawing distribution_plot(const std::string& axis, const std::vector<Series>& all) {
+  Drawing drawing{{kWidth, kHeight}};
   const Axes axes = axes_of(all);
-  std::string inside = ticks(axes, axis);
+  draw_ticks(axes, axis, drawing);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    inside += polyline(steps_of(all[i], axes), colour(i), 2.0);
+    drawing.add(Polyline{steps_of(all[i], axes), colour(i), 2.0});
     const double y = kTop + 14.0 + 18.0 * static_cast<double>(i);
-    inside += words(kWidth - kRight + 10.0, y, all[i].name, "start", colour(i));
+    drawing.add(Words{{kWidth - kRight + 10.0, y}, all[i].name, "start", colour(i)});
   }
-  return svg(kWidth, kHeight, inside);
+  return drawing;
 }
 
-std::string map_plot(const Map& map) {
+Drawing map_plot(const Map& map) {
   const MapFrame frame = frame_of(map);
-  std::string path = "<path fill=\"none\" stroke=\"#444\" d=\"";
-  for (const Places& wall : map.walls) {
-    for (std::size_t i = 0; i < wall.size(); ++i) {
-      const Vec2 at = frame(wall[i]);
-      path += (i == 0 ? "M" : "L") + number(at.x) + " " + number(at.y);
-    }
-  }
-  std::string inside = path + "\"/>\n";
-  for (const Track& track : map.tracks) inside += drawn(track, frame);
-  for (const Vec2& contact : map.contacts) inside += cross(frame(contact));
   const Vec2 size = frame.area.high - frame.area.low;
-  return svg(frame.scale * size.x, frame.scale * size.y, inside);
+  Drawing drawing{{frame.scale * size.x, frame.scale * size.y}};
+  Walls walls;
+  for (const Places& wall : map.walls) {
+    walls.lines.emplace_back();
+    for (const Vec2& place : wall) walls.lines.back().push_back(frame(place));
+  }
+  drawing.add(std::move(walls));
+  for (const Track& track : map.tracks) draw(track, frame, drawing);
+  for (const Vec2& contact : map.contacts) draw_cross(frame(contact), drawing);
+  return drawing;
 }
 
-std::string legend_plot(const std::vector<std::string>& variants) {
-  std::string inside;
+Drawing legend_plot(const std::vector<std::string>& variants) {
+  Drawing drawing{{0.0, 18.0}};
   double x = 0.0;
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    inside +=
-        "<rect x=\"" + number(x) + "\" y=\"4\" width=\"14\" height=\"4\" fill=\"" + colour(i) + "\"/>\n";
-    inside += words(x + 20.0, 12.0, variants[i], "start", colour(i));
+    drawing.add(Bar{{x, 4.0}, {14.0, 4.0}, colour(i)});
+    drawing.add(Words{{x + 20.0, 12.0}, variants[i], "start", colour(i)});
     x += 40.0 + 8.0 * static_cast<double>(variants[i].size());
   }
-  return svg(std::max(x, 1.0), 18.0, inside);
+  drawing.size.x = std::max(x, 1.0);
+  return drawing;
 }
 
 std::vector<Places> read_lines(const std::string& text) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "drawing.hpp"
 #include "orca/geometry/vec2.hpp"
 
 namespace orca::batch {
@@ -18,10 +19,8 @@ struct Series {
 };
 
 /// Returns the share of the runs whose value is at most x, as a stepped line for each series. @pre  one has a value.
-[[nodiscard]] std::string distribution_plot(const std::string& axis, const std::vector<Series>& all);
+[[nodiscard]] Drawing distribution_plot(const std::string& axis, const std::vector<Series>& all);
 
-/// Places that a line joins, [m] in the world.
-using Places = std::vector<Vec2>;
 /// The way of a robot on a map.
 struct Track {
   Places places;
@@ -37,10 +36,10 @@ struct Map {
 };
 
 /// Returns a map. @pre  there is a wall or a track with a place.
-[[nodiscard]] std::string map_plot(const Map& map);
+[[nodiscard]] Drawing map_plot(const Map& map);
 
 /// Returns the names of variants with their colours, for the lines of a map.
-[[nodiscard]] std::string legend_plot(const std::vector<std::string>& variants);
+[[nodiscard]] Drawing legend_plot(const std::vector<std::string>& variants);
 
 /// Reads lines of a Sketch. Words that are no place are left out; there is no line without a place.
 [[nodiscard]] std::vector<Places> read_lines(const std::string& text);

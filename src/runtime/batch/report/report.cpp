@@ -294,11 +294,11 @@ class Writer {
     }
     if (std::ranges::any_of(times, [](const Series& one) { return !one.values.empty(); })) {
       document_.add(Heading{"Times and speeds"});
-      document_.add(Figure{distribution_plot("time until the last goal [s]", times),
+      document_.add(Figure{{distribution_plot("time until the last goal [s]", times)},
                            "Share of the runs that were done by then. Runs without success never are."});
     }
     if (std::ranges::any_of(speeds, [](const Series& one) { return !one.values.empty(); }))
-      document_.add(Figure{distribution_plot("mean speed of a success [m/s]", speeds),
+      document_.add(Figure{{distribution_plot("mean speed of a success [m/s]", speeds)},
                            "Share of the runs at most that fast."});
   }
 
@@ -327,7 +327,7 @@ class Writer {
       if (is_first) document_.add(Heading{"Where they drove"});
       is_first = false;
       document_.add(
-          Figure{legend_plot(variant_names()) + map_plot(map),
+          Figure{{legend_plot(variant_names()), map_plot(map)},
                  "World " + world + ": all seeds; a circle marks the end of a run without success."});
     }
   }
@@ -360,7 +360,7 @@ class Writer {
       add(map, row);
       if (!map.tracks.empty())
         document_.add(
-            Figure{map_plot(map),
+            Figure{{map_plot(map)},
                    map.contacts.empty()
                        ? "Where it drove, up to the circle."
                        : "Where it drove, up to the circle; a cross marks each of the first contacts."});
