@@ -3,9 +3,12 @@
 #include <catch2/catch.hpp>
 
 #include <sched.h>
+#include <sys/inotify.h>
 #include <sys/resource.h>
 #include <sys/types.h>
+#include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -60,6 +63,44 @@ TEST_CASE("the plugin folder of one graph is not that of the next graph", "[syst
   CHECK(run.exit_code() == 2);
   CHECK(run.says("(variant lacks_it, world here)"));
   CHECK_FALSE(run.says("(variant has_it, world here)"));
+}
+
+namespace {
+
+// Returns how often the world of an experiment with these avoid behaviours is opened while its graphs are checked.
+std::size_t opens_in_check(const Words& behaviours) {
+  const TempFolder folder;
+  const std::string world = folder.write("office.xml", text_in(source_file("sim/worlds/office.xml")));
+  std::string experiment = "<experiment name=\"e\" seeds=\"1\" until=\"1 s\" graph=\"" +
+                           source_file("graphs/pioneer_laser_goto.xml") + "\"><set arg=\"world\" value=\"" +
+                           world + "\"/><world name=\"office\"/>";
+  for (const std::string& one : behaviours)
+    experiment += "<variant name=\"" + one + "\"><set arg=\"avoid\" value=\"orca." + one + "\"/></variant>";
+  const std::string file = folder.write("e.xml", experiment + "</experiment>");
+  const int watch = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  // Equal events that follow each other count as one, so closing is watched, too.
+  REQUIRE(inotify_add_watch(watch, folder.path().c_str(), IN_OPEN | IN_CLOSE_NOWRITE) >= 0);
+  const Run run = run_simbatch({file, "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  alignas(inotify_event) std::array<char, 65536> bytes{};
+  const ssize_t size = read(watch, bytes.data(), bytes.size());
+  close(watch);
+  std::size_t opens = 0;
+  for (ssize_t at = 0; at < size;) {
+    const auto* const event = reinterpret_cast<const inotify_event*>(bytes.data() + at);
+    if ((event->mask & IN_OPEN) != 0 && event->len > 0 && std::string(event->name) == "office.xml") ++opens;
+    at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
+  }
+  return opens;
+}
+
+}  // namespace
+
+TEST_CASE("the check reads a world for all variants as often as for one", "[system][batch]") {
+  const std::size_t of_one = opens_in_check({"LaserAvoid"});
+  CHECK(of_one > 0);
+  CHECK(opens_in_check({"LaserAvoid", "VfhPlus", "Dwa"}) == of_one);
 }
 
 TEST_CASE("seven parts that are joined are the whole, byte for byte, in any order", "[system][batch]") {

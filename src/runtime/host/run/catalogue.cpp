@@ -16,13 +16,14 @@ PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
 PluginCatalogue::~PluginCatalogue() { forget_answers(); }
 
 void PluginCatalogue::forget_graph() {
-  hardware_.clear();
+  of_graph_.clear();
   const std::lock_guard lock(mutex_);
   index_ = own_index_;
 }
 
 void PluginCatalogue::forget_answers() {
   hardware_.clear();  // before the code that made them
+  of_graph_.clear();
   const std::lock_guard lock(mutex_);
   held_.clear();
 }
@@ -120,25 +121,42 @@ Result<Contract> PluginCatalogue::hardware(const std::string& type) {
 }
 
 Result<plugin::DescribedHardware*> PluginCatalogue::described(const graph::HardwareUse& use) {
-  const auto known = hardware_.find(use.name);
-  if (known != hardware_.end()) return known->second.get();
-  return describe_anew(use);
+  if (of_graph_.contains(use.name)) return hardware_.at(use.name).hardware.get();
+  const Result<KnownHardware*> made = describe_anew(use);
+  if (!made) return made.error();
+  return (*made)->hardware.get();
 }
 
-Result<plugin::DescribedHardware*> PluginCatalogue::describe_anew(const graph::HardwareUse& use) {
+Result<PluginCatalogue::KnownHardware*> PluginCatalogue::describe_anew(const graph::HardwareUse& use) {
   const Result<LoadedType> found = find(PluginKind::hardware, use.type);
   if (!found) return found.error();
   auto made = plugin::describe_hardware(*found->entry, found->file(), use.name);
   if (!made) return made.error();
-  return hardware_.insert_or_assign(use.name, std::move(made).value()).first->second.get();
+  of_graph_.insert(use.name);
+  return &(hardware_[use.name] = {found->entry, std::move(made).value()});
+}
+
+Result<PluginCatalogue::KnownHardware*> PluginCatalogue::prepared(const graph::HardwareUse& use) {
+  const Result<LoadedType> found = find(PluginKind::hardware, use.type);
+  const auto known = hardware_.find(use.name);
+  if (found && known != hardware_.end() && known->second.entry == found->entry &&
+      known->second.params == use.params) {
+    of_graph_.insert(use.name);
+    return &known->second;
+  }
+  // A container is prepared only once: a second one of its name, which is an error, gets its own.
+  const Result<KnownHardware*> made = describe_anew(use);
+  if (!made) return made.error();
+  (*made)->params = use.params;
+  (*made)->faults = (*made)->hardware->prepare(use.params);
+  return *made;
 }
 
 std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::HardwareUse& use) {
-  // A container is prepared only once: a second one of its name, which is an error, gets its own.
-  const Result<plugin::DescribedHardware*> made = describe_anew(use);
+  const Result<KnownHardware*> made = prepared(use);
   if (!made) return {{"", made.error().text()}};
-  std::vector<HardwareFault> faults = (*made)->prepare(use.params);
-  const std::string& line = (*made)->container().line_name();
+  std::vector<HardwareFault> faults = (*made)->faults;
+  const std::string& line = (*made)->hardware->container().line_name();
   if (clock_ == ClockKind::virtual_time && !line.empty() && !hw::link::fits_virtual_time(line))
     faults.push_back(
         {"device", "in virtual time nothing is at the other end of " + in_quotes(line) +
@@ -148,8 +166,8 @@ std::vector<HardwareFault> PluginCatalogue::validate_hardware(const graph::Hardw
 
 std::vector<HardwareFault> PluginCatalogue::hardware_conflicts(const graph::HardwareUse& use,
                                                                const graph::HardwareUse& earlier) {
-  plugin::DescribedHardware& later = *hardware_.at(use.name);
-  plugin::DescribedHardware& first = *hardware_.at(earlier.name);
+  plugin::DescribedHardware& later = *hardware_.at(use.name).hardware;
+  plugin::DescribedHardware& first = *hardware_.at(earlier.name).hardware;
   const std::string& line = later.container().line_name();
   if (!line.empty() && hw::link::real_place(line) == hw::link::real_place(first.container().line_name()))
     return {{"device", "it is that of hardware " + in_quotes(earlier.name) +

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,7 +83,8 @@ class PluginCatalogue final : public graph::Catalogue {
   /// Sets the question whether to give up trials of components, for a program that is asked to stop meanwhile.
   void give_up_if(std::function<bool()> give_up) { give_up_ = std::move(give_up); }
 
-  /// Forgets the folders and the hardware of a graph. Plugins stay loaded, so that the next graph is checked sooner.
+  /// Forgets the folders and the hardware of a graph, so that another can be checked. Plugins stay loaded, and hardware of which the
+  /// next graph has an equal one stays prepared: worlds and other files that it names are read once.
   void forget_graph();
 
   /// Releases everything that was loaded and constructed only to answer questions.
@@ -93,8 +96,15 @@ class PluginCatalogue final : public graph::Catalogue {
   static Result<LoadedType> type_in(std::shared_ptr<plugin::PluginLibrary> library, PluginKind kind,
                                     const std::string& type);
   Result<LoadedType> find(PluginKind kind, const std::string& type);
+  struct KnownHardware {
+    const TypeEntry* entry = nullptr;
+    std::unique_ptr<plugin::DescribedHardware> hardware{};
+    std::optional<graph::Params> params{};  // with which it was prepared
+    std::vector<HardwareFault> faults{};    // that were found then
+  };
   Result<plugin::DescribedHardware*> described(const graph::HardwareUse& use);
-  Result<plugin::DescribedHardware*> describe_anew(const graph::HardwareUse& use);
+  Result<KnownHardware*> describe_anew(const graph::HardwareUse& use);
+  Result<KnownHardware*> prepared(const graph::HardwareUse& use);
 
   void raise_pinned(const std::string& file, const std::string& why) const;
 
@@ -106,8 +116,9 @@ class PluginCatalogue final : public graph::Catalogue {
   std::function<bool()> give_up_;
   mutable std::mutex mutex_;
   std::map<std::string, std::weak_ptr<plugin::PluginLibrary>> libraries_;  // by file
-  std::map<std::string, LoadedType> held_;  // by type; kept because answers came from them
-  std::map<std::string, std::unique_ptr<plugin::DescribedHardware>> hardware_;  // by name in the graph
+  std::map<std::string, LoadedType> held_;         // by type; kept because answers came from them
+  std::map<std::string, KnownHardware> hardware_;  // by name in a graph: the last of each name
+  std::set<std::string> of_graph_;                 // names of those of the graph that is checked now
 };
 
 }  // namespace orca::host
