@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processes, machines and links in the graph: virtual time takes no notice of them, and a start in real time refuses what
+// Processes, machines and links in the graph: virtual time takes no notice of them but for delays, and a start in real time refuses what
 // Orca does not have yet.
 #include <catch2/catch.hpp>
 
@@ -133,4 +133,24 @@ TEST_CASE("two simulated robots of one world in two processes are refused, with 
                  "\"p\"; put both "
                  "into one process"));
   CHECK(check("p").exit_code() == 0);
+}
+
+TEST_CASE("a delay between machines or processes is a part of a run, the same one each time",
+          "[system][placement]") {
+  const auto drive = [](const std::string& graph, const Words& more) {
+    const Run run = run_deployer(
+        Words{source_file("graphs/" + graph + ".xml"), "--until", "20 s"} + more + virtual_clock(),
+        Seconds(60));
+    INFO(run.err);
+    REQUIRE(run.exit_code() == 0);
+    REQUIRE(run.trace_hash());
+    return *run.trace_hash();
+  };
+  const std::string none = drive("scout_goto", {});
+  for (const std::string graph : {"two_machines", "scout_goto_processes"}) {
+    CHECK(drive(graph, {}) == none);
+    const std::string delayed = drive(graph, {"--set", "delay=100 ms"});
+    CHECK(delayed != none);
+    CHECK(drive(graph, {"--set", "delay=100 ms", "--executor", "baton"}) == delayed);
+  }
 }

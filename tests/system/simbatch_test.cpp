@@ -331,6 +331,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
                                    std::pair{"posts_and_offices", "6 variants, 80 worlds, 1 seed: 480 runs"},
                                    std::pair{"meeting", "4 variants, 2 worlds, 20 seeds: 160 runs"},
                                    std::pair{"people", "6 variants, 3 worlds, 12 seeds: 216 runs"},
+                                   std::pair{"radio", "4 variants, 1 world, 10 seeds: 40 runs"},
                                    std::pair{"showroom", "6 variants, 2 worlds, 10 seeds: 120 runs"},
                                    std::pair{"sonar_physics", "5 variants, 4 worlds, 20 seeds: 400 runs"},
                                    std::pair{"computing", "6 variants, 40 worlds, 1 seed: 240 runs"},

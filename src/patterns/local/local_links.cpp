@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/patterns/local/local_links.hpp"
 
+#include "delayed_ends.hpp"
+
 namespace orca {
 namespace {
 
@@ -40,14 +42,17 @@ Status LocalLinks::renew(Endpoint& from, Endpoint& to, const QueuePolicy& policy
 }
 
 void LocalLinks::push(PushServerEndpoint& server, PushClientEndpoint& client, const QueuePolicy& policy) {
+  if (takes_time()) return connect_delayed(server, client, policy, {*courier_, delay_});
   client.connect(server.connect(client.path()), policy);
 }
 
 void LocalLinks::query(QueryClientEndpoint& client, QueryServerEndpoint& server) {
+  if (takes_time()) return connect_delayed(client, server, {*courier_, delay_});
   client.connect(server.connect(client.path()));
 }
 
 void LocalLinks::send(SendClientEndpoint& client, SendServerEndpoint& server, const QueuePolicy& policy) {
+  if (takes_time()) return connect_delayed(client, server, policy, {*courier_, delay_});
   client.connect(server.connect(client.path(), policy));
 }
 

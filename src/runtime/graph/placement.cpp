@@ -132,6 +132,24 @@ std::string machine_of(const Graph& graph, const std::string& component) {
   return node == graph.processes.end() ? "" : node->machine;
 }
 
+Duration delay_of(const Graph& graph, const Edge& edge) {
+  const auto delay_within = [](const auto& nodes, const std::string& name) {
+    const auto node = std::ranges::find(nodes, name, [](const auto& one) { return one.name; });
+    return node == nodes.end() ? Duration{0} : node->delay;
+  };
+  const auto delay_between = [&](const auto& nodes, const std::string& from, const std::string& to) {
+    return from == to ? Duration{0} : delay_within(nodes, from) + delay_within(nodes, to);
+  };
+  const auto has_delay = [](const auto& node) { return node.delay > Duration{0}; };
+  if (std::ranges::none_of(graph.processes, has_delay) && std::ranges::none_of(graph.machines, has_delay))
+    return Duration{0};  // without a search for the ends
+  const std::string& from = edge.from.component;
+  const std::string& to = edge.to.component;
+  return delay_between(graph.processes, graph.find_component(from)->process,
+                       graph.find_component(to)->process) +
+         delay_between(graph.machines, machine_of(graph, from), machine_of(graph, to));
+}
+
 std::vector<std::string> start_order(const Graph& graph) { return StartOrder(graph).run(); }
 
 }  // namespace orca::graph

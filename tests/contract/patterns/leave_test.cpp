@@ -10,7 +10,7 @@ using Catch::Contains;
 namespace {
 
 // The link through DDS stays until the ports go.
-using LeavingKits = std::tuple<LocalKit, ShmKit>;
+using LeavingKits = std::tuple<LocalKit, DelayedKit, ShmKit>;
 
 // Removes a connection: the client leaves first.
 void part(Endpoint& client, Endpoint& server) {
@@ -50,6 +50,24 @@ CONTRACT_CASE_OF(LeavingKits, "a port whose connection is removed hears nothing,
   source.push_numbers(3, 3);
   sleep(kit.executive, 20ms);
   CHECK_FALSE(listener.in.new_data_arrived());
+}
+
+TEST_CASE("objects that are under way when their connection is removed never arrive", "[contract][leave]") {
+  on_each_executive<DelayedKit>([](DelayedKit& kit) {
+    Source source(kit.executive, "source");
+    Listener listener(kit.executive);
+    const PushEdge& edge = listener.listen(kit, source, {.depth = 4});
+    source.push_numbers(1, 1);
+    sleep(kit.executive, DelayedKit::kDelay);
+    source.push_numbers(2, 3);
+    part(listener.endpoint("in"), source.endpoint("out"));
+    listener.listen(kit, source, {.depth = 4});
+    source.push_numbers(4, 4);
+    sleep(kit.executive, 20ms);
+    CHECK(listener.take_all() == std::vector{4});
+    CHECK(edge.counters().delivered == 2);
+    CHECK(edge.counters().left_behind == 1);
+  });
 }
 
 CONTRACT_CASE_OF(LeavingKits,

@@ -5,11 +5,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "dds_links.hpp"
@@ -38,6 +40,9 @@ class Kit {
 
   Executive& executive;
 
+  /// Virtual time [s] for which everything is under way.
+  static constexpr Duration kDelay{0};
+
  protected:
   template <class... Arguments>
   explicit Kit(Executive& used, Arguments&... arguments) : executive(used), links_(arguments...) {}
@@ -59,6 +64,23 @@ struct LocalKit : Kit<LocalLinks> {
   static std::vector<ExecutiveOptions> executives() { return all_executives(); }
 
   explicit LocalKit(Executive& used) : Kit(used) {}
+};
+
+/// The links within a process on which objects are under way for some virtual time.
+struct DelayedKit : Kit<LocalLinks> {
+  static constexpr bool kSharesObjects = true;
+
+  static std::vector<ExecutiveOptions> executives() { return virtual_executives(); }
+
+  explicit DelayedKit(Executive& used) : DelayedKit(used, std::make_unique<Courier>(used)) {}
+
+  static constexpr Duration kDelay = 3ms;
+
+ private:
+  DelayedKit(Executive& used, std::unique_ptr<Courier> courier)
+      : Kit(used, *courier, kDelay), courier_(std::move(courier)) {}
+
+  std::unique_ptr<Courier> courier_;
 };
 
 /// The links through shared memory, with both ends in this process.
@@ -87,7 +109,7 @@ struct DdsKit : Kit<DdsLinks> {
   explicit DdsKit(Executive& used) : Kit(used, used) {}
 };
 
-using LinkKits = std::tuple<LocalKit, ShmKit, DdsKit>;
+using LinkKits = std::tuple<LocalKit, DelayedKit, ShmKit, DdsKit>;
 
 /// Runs `body` with a fresh kit on each executive where the kit works.
 template <class Kit>

@@ -20,7 +20,7 @@ CONTRACT_CASE("send returns when the server has accepted the object, which is ha
 
 CONTRACT_CASE("a client knows whether its server can be replaced, and that it was not", "[contract][send]") {
   Line line(kit);
-  const bool apart = !std::is_same_v<TestType, LocalKit>;
+  const bool apart = !TestType::kSharesObjects;
   CHECK(line.sender.out.server_restarts().has_value() == apart);
   CHECK(line.sender.out.server_restarts().value_or(0) == 0);
   CHECK_FALSE(Sender(kit.executive, "alone").out.server_restarts());

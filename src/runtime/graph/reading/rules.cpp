@@ -78,7 +78,12 @@ constexpr std::array kMachine{
                   one_of(kMachineLoss)},
     AttributeRule{"loss_limit", false,
                   "Time without a sign of life after which the others take it for gone; 1 s if not given.",
-                  seconds(0.5)}};
+                  seconds(0.5)},
+    AttributeRule{
+        "delay", false,
+        "Time that its link to other machines takes in virtual time, each way, for example 20 ms; 0 s if not "
+        "given.",
+        seconds(0.0)}};
 constexpr std::array kProcess{
     AttributeRule{"name", true, "Name of the process."},
     AttributeRule{"machine", false, "Machine on which it runs; needed if the graph declares machines."},
@@ -96,6 +101,10 @@ constexpr std::array kProcess{
                   "Number of laps with takes that compute at once in virtual time, the others wait; any "
                   "number if not given.",
                   integer(1, 1024)},
+    AttributeRule{
+        "delay", false,
+        "Time that its connections to other processes take in virtual time, each way; 0 s if not given.",
+        seconds(0.0)},
     AttributeRule{"priority", false, "Real-time priority from 1 to 99 (SCHED_FIFO); none if not given.",
                   integer(1, 99)},
     AttributeRule{"lock_memory", false, "Whether its memory always stays in RAM; false if not given.",

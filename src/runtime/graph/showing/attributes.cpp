@@ -70,6 +70,7 @@ Attributes attributes_of(const MachineNode& node) {
   add(result, "interface", node.interface);
   if (node.on_loss == OnLoss::go_on) add(result, "on_loss", "go_on");
   if (node.loss_limit != MachineNode{}.loss_limit) add(result, "loss_limit", seconds_text(node.loss_limit));
+  if (node.delay > Duration{0}) add(result, "delay", seconds_text(node.delay));
   return result;
 }
 
@@ -81,6 +82,7 @@ Attributes attributes_of(const ProcessNode& node) {
   if (node.spin != standard.spin) add(result, "spin", seconds_text(node.spin));
   add(result, "processors", processors_text(node.processors));
   if (node.cores > 0) add(result, "cores", std::to_string(node.cores));
+  if (node.delay > Duration{0}) add(result, "delay", seconds_text(node.delay));
   if (node.priority) add(result, "priority", std::to_string(*node.priority));
   if (node.lock_memory) add(result, "lock_memory", "true");
   if (node.memory) add(result, "memory", std::to_string(*node.memory) + " B");

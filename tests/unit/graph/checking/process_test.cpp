@@ -65,6 +65,24 @@ TEST_CASE("a process that says nothing has threads, no limits and is started aga
   CHECK_FALSE(plain.priority);
   CHECK_FALSE(plain.memory);
   CHECK(plain.cores == 0);
+  CHECK(plain.delay == 0s);
+}
+
+TEST_CASE("a connection takes the delays of its two processes, and none within one", "[graph][process]") {
+  const Graph graph = must_load(robot_in_processes(
+      "<process name='a' delay='3 ms'/><process name='b' delay='4 ms'/>", "process='a'", "process='b'", ""));
+  const auto delay_between = [&](const std::string& from, const std::string& to) {
+    Edge edge;
+    edge.from.component = from;
+    edge.to.component = to;
+    return delay_of(graph, edge);
+  };
+  CHECK(delay_between("base", "avoid") == 7ms);
+  CHECK(delay_between("avoid", "base") == 7ms);
+  CHECK(delay_between("fuser", "avoid") == 4ms);
+  CHECK(delay_between("base", "base") == 0s);
+  CHECK(said_about(robot_in_processes("<process name='a' delay='-1 ms'/>", "", "process='a'", ""))
+            .find("delay") != std::string::npos);
 }
 
 TEST_CASE("a process that is started on demand ends after 10 s without use unless the graph says otherwise",
@@ -92,16 +110,19 @@ TEST_CASE("a connection over DDS cannot wake a process, but one from it can be o
 }
 
 TEST_CASE("the attributes of a machine are read", "[graph][process]") {
-  const Graph graph = must_load(robot_in_processes(
-      "<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on' loss_limit='2.5 s'/>"
-      "<machine name='n'/><process name='main' machine='m'/>",
-      "", "", ""));
+  const Graph graph =
+      must_load(robot_in_processes("<machine name='m' address='10.0.0.2' interface='wlan0' on_loss='go_on' "
+                                   "loss_limit='2.5 s' delay='20 ms'/>"
+                                   "<machine name='n'/><process name='main' machine='m'/>",
+                                   "", "", ""));
   REQUIRE(graph.machines.size() == 2);
   MachineNode expected{.name = "m", .address = "10.0.0.2", .interface = "wlan0"};
   CHECK(graph.machines[0] != expected);
   expected.on_loss = OnLoss::go_on;
   CHECK(graph.machines[0] != expected);
   expected.loss_limit = 2500ms;
+  CHECK(graph.machines[0] != expected);
+  expected.delay = 20ms;
   CHECK(graph.machines[0] == expected);
   CHECK(graph.machines[1] == MachineNode{.name = "n"});
 }

@@ -61,14 +61,14 @@ class RandomGraph {
   std::string places() {
     const bool machines = pick(2) == 0;
     const auto on = [&](const char* name) { return machines ? " machine='" + std::string(name) + "'" : ""; };
-    return (machines
-                ? "<machine name='robot'" + maybe(" address='10.0.0.2'") + maybe(" interface='wlan0'") +
-                      "/><machine name='laptop'" + maybe(" on_loss='go_on'") + maybe(" loss_limit='3 s'") +
-                      "/>" + "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
-                : "") +
+    return (machines ? "<machine name='robot'" + maybe(" address='10.0.0.2'") + maybe(" interface='wlan0'") +
+                           "/><machine name='laptop'" + maybe(" on_loss='go_on'") +
+                           maybe(" loss_limit='3 s'") + maybe(" delay='0.1 s'") + "/>" +
+                           "<process name='main'" + on("laptop") + maybe(" priority='1'") + "/>"
+                     : "") +
            "<process name='p1'" + on("robot") + maybe(" executor='fiber'") +
            maybe(" spin='" + integer(0, 99) + " us'") + maybe(" processors='3 0,1'") + maybe(" cores='2'") +
-           maybe(" text='x'") + "/><process name='p2'" + on("robot") +
+           maybe(" delay='3 ms'") + maybe(" text='x'") + "/><process name='p2'" + on("robot") +
            maybe(" priority='" + integer(1, 99) + "'") + maybe(" lock_memory='true'") +
            maybe(" memory='" + integer(1, 4000) + " MiB'") + maybe(" hang_limit='" + real(0.01, 9) + "'") +
            maybe(" restart='" + choice({"permanent", "transient", "temporary"}) + "'") + "/>";

@@ -55,6 +55,7 @@ class ProcessReader {
     if (read_attribute<std::string>(node_, "executor", report_) == "fiber") value.executor = Backend::fiber;
     read_time(node_, "spin", value.spin, report_);
     read_time(node_, "hang_limit", value.hang_limit, report_);
+    read_time(node_, "delay", value.delay, report_);
     value.priority = read_int(node_, "priority", report_);
     value.cores = static_cast<std::uint32_t>(read_int(node_, "cores", report_).value_or(0));
     value.lock_memory = read_attribute<bool>(node_, "lock_memory", report_).value_or(false);
@@ -186,6 +187,7 @@ MachineNode read_machine(const Node& node, Report& report) {
   check_network(node, report);
   if (read_attribute<std::string>(node, "on_loss", report) == "go_on") machine.on_loss = OnLoss::go_on;
   read_time(node, "loss_limit", machine.loss_limit, report);
+  read_time(node, "delay", machine.delay, report);
   return machine;
 }
 

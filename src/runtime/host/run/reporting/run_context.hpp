@@ -13,6 +13,7 @@
 #include "orca/host/kept_state.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/patterns/endpoints/cores.hpp"
+#include "orca/patterns/endpoints/courier.hpp"
 #include "reporter.hpp"
 #include "run/recording/trace.hpp"
 
@@ -50,6 +51,8 @@ struct RunContext {
   bool measures_laps = false;
   /// Cores on which laps compute in virtual time, by process; only of processes whose graph numbers them.
   std::map<std::string, Cores> cores{};
+  /// Carries what is under way between components in virtual time.
+  Courier courier{executive};
 };
 
 }  // namespace orca::host

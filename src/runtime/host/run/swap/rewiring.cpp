@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "orca/patterns/local/local_links.hpp"
 #include "run/system/component_making.hpp"
 
 namespace orca::host {
@@ -12,7 +11,7 @@ Error no_such(const graph::PortRef& port) {
   return fail(Code::not_found, "there is no port " + port.text() + " in this process");
 }
 
-Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool makes) {
+Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool makes, LocalLinks links) {
   Endpoint* const from = system.endpoint(edge.from);
   Endpoint* const to = system.endpoint(edge.to);
   for (const auto& [port, ref] : {std::pair(from, &edge.from), std::pair(to, &edge.to)})
@@ -21,7 +20,7 @@ Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool
   const QueuePolicy policy = policy_of(edge);
   if (makes) {
     if (Status fits = LocalLinks::check_fit(*from, *to, policy); !fits.ok()) return fits.error();
-    return Rewiring{client, [=] { return LocalLinks().renew(*from, *to, policy); }};
+    return Rewiring{client, [=]() mutable { return links.renew(*from, *to, policy); }};
   }
   const bool pushes = edge.pattern == Pattern::push;
   return Rewiring{client, [pushes, from, to, server = edge.server().text(), path = edge.client().text()] {

@@ -6,6 +6,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "run/system/system.hpp"
 
 namespace orca::host {
@@ -23,9 +24,11 @@ struct Rewiring {
 /// removes one that is there or not.
 ///
 /// @param system  with both ends.
+/// @param links   that make it.
 /// @errors  not_found: there is no such port here; those of LocalLinks::renew(), so that the change itself does not fail.
 /// @thread  that of the system.
-[[nodiscard]] Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool makes);
+[[nodiscard]] Result<Rewiring> rewiring_of(const System& system, const graph::Edge& edge, bool makes,
+                                           LocalLinks links = {});
 
 /// Lets the client of an edge use it from now on, of those that it chooses from.
 /// @errors  not_found: the client is not in this process, or does not choose.

@@ -7,6 +7,7 @@
 #include "orca/graph/print.hpp"
 #include "orca/plugin/image.hpp"
 #include "rewiring.hpp"
+#include "run/system/component_making.hpp"
 
 namespace orca::host {
 namespace {
@@ -89,7 +90,8 @@ Status TimedChanges::rewire(const std::vector<graph::GraphPlan::Rewiring>& conne
 
 Status TimedChanges::rewire(const graph::Edge& edge, bool makes) {
   graph::put(edge, makes, graph_.edges);
-  Result<Rewiring> rewiring = rewiring_of(watched_.system(), edge, makes);
+  Result<Rewiring> rewiring = rewiring_of(watched_.system(), edge, makes,
+                                          makes ? links_of(graph_, edge, watched_.context()) : LocalLinks());
   if (!rewiring) return rewiring.error();
   return watched_.system().on_strand(rewiring->component, watched_.changed(), executive_.now() + kLapLimit,
                                      std::move(rewiring->body));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "orca/graph/placement.hpp"
+
 namespace orca::host {
 
 ComponentSettings settings_of(const graph::ComponentNode& node, const std::vector<PlannedFailure>& failures) {
@@ -42,6 +44,11 @@ Status declare(const graph::Graph& graph, const graph::ComponentNode& node, Comp
   return ok();
 }
 
+LocalLinks links_of(const graph::Graph& graph, const graph::Edge& edge, RunContext& run) {
+  if (!run.executive.is_virtual()) return {};
+  return {run.courier, graph::delay_of(graph, edge)};
+}
+
 QueuePolicy policy_of(const graph::Edge& edge) {
   QueuePolicy policy = edge.queue;
   policy.min_interval = edge.interval;
@@ -49,7 +56,7 @@ QueuePolicy policy_of(const graph::Edge& edge) {
 }
 
 Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
-               Links& links) {
+               const std::function<LocalLinks(const graph::Edge&)>& links_of) {
   for (const graph::Edge& edge : graph.edges) {
     Endpoint* const from = find(edge.from.component)->endpoint(edge.from.port);
     Endpoint* const to = find(edge.to.component)->endpoint(edge.to.port);
@@ -58,7 +65,8 @@ Status connect(const graph::Graph& graph, const std::function<ComponentInstance*
                   edge.position.text());
     Endpoint& client = edge.pattern == Pattern::push ? *to : *from;
     prepare_choice(edge, client);
-    if (Status connected = links.connect(*from, *to, policy_of(edge)); !connected.ok()) return connected;
+    const Status connected = links_of(edge).connect(*from, *to, policy_of(edge));
+    if (!connected.ok()) return connected;
     take_first_choice(edge, client);
   }
   return ok();

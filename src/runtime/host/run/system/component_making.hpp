@@ -9,7 +9,7 @@
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
 #include "orca/patterns/endpoints/cores.hpp"
-#include "orca/patterns/endpoints/links.hpp"
+#include "orca/patterns/local/local_links.hpp"
 #include "run/component/component_instance.hpp"
 
 namespace orca::host {
@@ -29,14 +29,18 @@ namespace orca::host {
 Status declare(const graph::Graph& graph, const graph::ComponentNode& node, ComponentInstance& instance,
                PluginCatalogue& catalogue);
 
+/// Returns the links for an edge within this process: in virtual time, objects are under way on them as long as the graph says.
+[[nodiscard]] LocalLinks links_of(const graph::Graph& graph, const graph::Edge& edge, RunContext& run);
+
 /// Returns the whole policy of an edge.
 [[nodiscard]] QueuePolicy policy_of(const graph::Edge& edge);
 
 /// Connects the ports of a graph's components.
-/// @param find  returns a component by name.
+/// @param find      returns a component by name.
+/// @param links_of  returns the links for an edge.
 /// @errors  internal if a port is not there; those of the links.
 Status connect(const graph::Graph& graph, const std::function<ComponentInstance*(const std::string&)>& find,
-               Links& links);
+               const std::function<LocalLinks(const graph::Edge&)>& links_of);
 
 /// Lets the port at an edge move if the graph gives it several edges to choose from.
 /// @pre  the edge is not connected yet.

@@ -10,7 +10,6 @@
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/settings.hpp"
-#include "orca/patterns/local/local_links.hpp"
 
 namespace orca::host {
 namespace {
@@ -28,9 +27,9 @@ Status System::build(PluginCatalogue& catalogue) {
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
   catalogue.forget_answers();
-  LocalLinks within_this_process;
   return connect(
-      graph_, [this](const std::string& name) { return components_.find(name); }, within_this_process);
+      graph_, [this](const std::string& name) { return components_.find(name); },
+      [this](const graph::Edge& edge) { return links_of(graph_, edge, run_); });
 }
 
 Status System::build_hardware(PluginCatalogue& catalogue) {
@@ -161,6 +160,7 @@ std::vector<std::string> System::take_down(TimePoint deadline, bool keeps_states
   }
   for (const auto& hardware : hardware_)
     if (!hardware->join_until(deadline)) stuck.push_back(hardware->name());
+  run_.courier.end();
   return stuck;
 }
 

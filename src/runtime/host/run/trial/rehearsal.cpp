@@ -58,9 +58,8 @@ class Rehearsal {
 
   /// Connects the ports; false if they are not there.
   bool connect_all() {
-    LocalLinks within_this_process;
     const auto find = [this](const std::string& name) { return components_.at(name).get(); };
-    return sound_ && connect(graph_, find, within_this_process).ok();
+    return sound_ && connect(graph_, find, [](const graph::Edge&) { return LocalLinks(); }).ok();
   }
 
   /// Configures the components one after the other. Runs as the executive's main task.

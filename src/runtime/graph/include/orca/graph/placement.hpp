@@ -45,6 +45,11 @@ struct ProcessPart {
 /// @pre  the graph has the component.
 [[nodiscard]] std::string machine_of(const Graph& graph, const std::string& component);
 
+/// Returns how long each object on an edge is under way in virtual time [s], each way: between two processes the sum of their delays, and
+/// between two machines that of theirs in addition.
+/// @pre  the graph has the components of both ends.
+[[nodiscard]] Duration delay_of(const Graph& graph, const Edge& edge);
+
 /// Returns the names of all components in the order in which they come up: each after those that its start_after
 /// names, otherwise as in the graph.
 /// @pre  the graph was checked: start_after names components and goes in no circle.

@@ -63,16 +63,17 @@ struct Uncompared : Value {
 };
 using Place = Uncompared<xml::Position>;  ///< Of the element from which a part was read.
 
-/// A host process of the system. Virtual time takes no notice of it but for its cores: all parts run in one process there.
+/// A host process of the system. In virtual time all parts run in one process, which takes notice of its cores and delay only.
 struct ProcessNode {
   std::string name{};
   std::string machine{};               ///< Name of a MachineNode; empty: the graph declares no machines.
   Backend executor = Backend::thread;  ///< Thread or fiber.
   Duration spin{0};  ///< Longest time [s] that an idle strand spins before it sleeps; 0: it sleeps at once.
-  std::uint32_t cores = 0;                ///< Laps that compute at once in virtual time; 0: any number.
-  std::vector<int> processors{};          ///< Numbers of the processors that it may use; empty: all.
-  std::optional<int> priority{};          ///< SCHED_FIFO priority, 1 to 99; nothing: not real-time.
-  bool lock_memory = false;               ///< Its memory is never paged out.
+  std::uint32_t cores = 0;        ///< Laps that compute at once in virtual time; 0: any number.
+  Duration delay{0};              ///< Time [s] that objects to or from other processes take in virtual time.
+  std::vector<int> processors{};  ///< Numbers of the processors that it may use; empty: all.
+  std::optional<int> priority{};  ///< SCHED_FIFO priority, 1 to 99; nothing: not real-time.
+  bool lock_memory = false;       ///< Its memory is never paged out.
   std::optional<std::uint64_t> memory{};  ///< Most memory that it may have [byte]; nothing: no limit.
   Restart restart = Restart::permanent;
   bool on_demand = false;  ///< Started when something in it is needed.
@@ -90,6 +91,7 @@ struct MachineNode {
   std::string interface {};       ///< Network interface for links to other machines, "wlan0"; empty: any.
   OnLoss on_loss = OnLoss::stop;  ///< What the other machines do when this one goes away.
   Duration loss_limit{std::chrono::seconds(1)};  ///< Silence [s] after which it counts as gone.
+  Duration delay{0};  ///< Time [s] that objects to or from other machines take in virtual time.
   Place position{};
 
   friend bool operator==(const MachineNode&, const MachineNode&) = default;
