@@ -49,6 +49,8 @@ LAYERS = (
     Layer("recording", ("src/recording",), ("orca/recording/",), ("base",), ("lz4", "zlib", "zstd")),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
+    Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
+    Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base")),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "memory_output.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::recording;
@@ -18,16 +19,6 @@ using namespace orca::test;
 namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that is there as long as the object.
-struct Folder {
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "recording_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-};
 
 test::Bytes piece_of(std::size_t size) { return test::Bytes(size, std::byte{7}); }
 
@@ -50,8 +41,8 @@ struct FullDisk {
 }  // namespace
 
 TEST_CASE("a recording overwrites nothing", "[recording][output]") {
-  const Folder folder;
-  const std::string path = folder.path / "run.mcap";
+  const TempFolder folder;
+  const std::string path = folder.file("run.mcap");
   std::ofstream(path) << "precious";
   const auto opened = open_file(path);
   REQUIRE_FALSE(opened);
@@ -61,8 +52,8 @@ TEST_CASE("a recording overwrites nothing", "[recording][output]") {
 }
 
 TEST_CASE("what is appended in the background is all there at the end", "[recording][output]") {
-  const Folder folder;
-  const std::string path = folder.path / "run.mcap";
+  const TempFolder folder;
+  const std::string path = folder.file("run.mcap");
   auto output = open_file_in_background(path, 5000);
   REQUIRE(output);
   for (int i = 0; i < 100; ++i) REQUIRE((*output)->append(piece_of(1000)).ok());
@@ -72,8 +63,8 @@ TEST_CASE("what is appended in the background is all there at the end", "[record
 
 TEST_CASE("a piece that finds no room is taken back whole, and the failure is reported",
           "[recording][output][fault]") {
-  const Folder folder;
-  const std::string path = folder.path / "run.mcap";
+  const TempFolder folder;
+  const std::string path = folder.file("run.mcap");
   const FullDisk disk(2500);
   const bool in_background = GENERATE(false, true);
   auto output = in_background ? open_file_in_background(path, 100) : open_file(path);

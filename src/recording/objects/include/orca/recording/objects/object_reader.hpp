@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/recording/reader.hpp"
+
+namespace orca::recording {
+
+/// A row of objects in a recording.
+struct RecordedRow {
+  std::string name;                            ///< "base.OdometryPush", or that of a row without a port.
+  std::map<std::string, std::uint64_t> types;  ///< Types of its objects, with how many there are of each.
+};
+
+/// An object of a recording.
+struct RecordedObject {
+  std::string_view row;
+  ObjectRef object;
+  TimePoint passed;
+};
+
+/// A reader of the objects that an ObjectWriter has written. What others have written, and twins of objects, it passes over.
+///
+/// Thread contract: constant; any thread.
+class ObjectReader {
+ public:
+  /// Opens a recording.
+  /// @errors  as Reader::open(); failed_precondition if it has objects of a type that is not known here, or that has another layout
+  ///          here.
+  [[nodiscard]] static Result<ObjectReader> open(const std::string& path);
+
+  [[nodiscard]] const Reader& file() const { return file_; }
+  /// Returns the rows, by name.
+  [[nodiscard]] const std::map<std::string, RecordedRow>& rows() const { return rows_; }
+  /// Returns the texts of "orca.recording" and "orca.end", as far as they are there.
+  [[nodiscard]] const Values& facts() const { return facts_; }
+  [[nodiscard]] bool is_virtual() const;
+
+  /// Passes objects on in the order in which they have passed.
+  /// @param rows  which; empty: all.
+  /// @param take  returns false to end.
+  /// @errors  data_loss if the file is damaged; what came before was passed on.
+  Status objects(const std::set<std::string>& rows,
+                 const std::function<bool(const RecordedObject&)>& take) const;
+
+ private:
+  struct Source {
+    std::string row;
+    const ObjectType* type;
+  };
+  explicit ObjectReader(Reader file) : file_(std::move(file)) {}
+  Status find_rows();
+  void read_facts();
+
+  Reader file_;
+  std::map<std::uint16_t, Source> sources_;  // by channel
+  std::map<std::string, RecordedRow> rows_;
+  Values facts_;
+};
+
+}  // namespace orca::recording
