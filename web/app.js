@@ -9,6 +9,7 @@ import { Inspector } from "./inspector.js";
 import { SystemModel } from "./system_model.js";
 import { SystemView } from "./system_view.js";
 import { Teleoperation } from "./teleoperation.js";
+import { TimeView } from "./time_view.js";
 import { WorldModel } from "./world_model.js";
 import { WorldView } from "./world_view.js";
 
@@ -27,7 +28,7 @@ byId("graph-apply").addEventListener("click", () => askApply(connection, system)
 new Teleoperation(connection, system);
 
 /** @type {Record<string, {show(on: boolean): void}>} */
-const views = { world: worldView, system: systemView, component: new ComponentView(connection, system) };
+const views = { world: worldView, system: systemView, component: new ComponentView(connection, system), time: new TimeView(connection, system) };
 
 /** @param {string} name */
 function open(name) {

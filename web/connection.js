@@ -12,7 +12,7 @@ import { parseLayout } from "./layout.js";
  *   passed and created by the run's clock [s]; lost and leftOut count objects since the look began
  * @typedef {{port: string, rate: number, take: (object: any, passage: Passage) => void, state: (text: string, type: string) => void,
  *   type: string, again: number}} Look
- * @typedef {{system: string, role: string, time: number, wall: number, version: string}} Hello
+ * @typedef {{system: string, role: string, time: number, version: string}} Hello
  */
 
 const PROTOCOL = "orca.view.v1";
@@ -37,6 +37,7 @@ export class Connection extends EventTarget {
     this.socket = null;
     /** @type {Hello | null} */
     this.hello = null;
+    this.role = "";
     this.isOpen = false;
     this.dropped = 0;
     this.next = 1;
@@ -76,6 +77,12 @@ export class Connection extends EventTarget {
     this.dispatchEvent(new Event("state"));
     setTimeout(() => this.open(), this.pause);
     this.pause = Math.min(LONGEST_PAUSE, 2 * this.pause);
+  }
+
+  /** The system is not there. */
+  end() {
+    this.hello = null;
+    this.dispatchEvent(new Event("gone"));
   }
 
   /** Whether this page may give orders. */
@@ -181,6 +188,8 @@ export class Connection extends EventTarget {
   takeText(message) {
     switch (message.op) {
       case "hello":
+        this.role = message.role;
+        if (message.present === false) return this.end();
         this.hello = message;
         this.parsed.clear();
         this.put({ op: "types" });
@@ -191,9 +200,7 @@ export class Connection extends EventTarget {
         for (const [id, look] of this.looks) this.put({ op: "look", id, port: look.port, rate: look.rate });
         return;
       case "system":
-        if (message.present === false) this.hello = null;
-        this.dispatchEvent(new Event("gone"));
-        return;
+        return this.end();
       case "figures":
         this.dropped = message.dropped;
         this.dispatchEvent(new Event("figures"));

@@ -130,6 +130,9 @@ export function portPlace(box, middle, port) {
   return { x, y: middle.y - box.height / 2 + HEAD + ROW * (row + 0.5) };
 }
 
+const STUB = 18;
+const n = (/** @type {number} */ value) => value.toFixed(1);
+
 /**
  * @param {Point} from
  * @param {Point} to
@@ -137,8 +140,63 @@ export function portPlace(box, middle, port) {
  */
 export function curve(from, to) {
   const reach = Math.max(34, Math.min(160, Math.abs(to.x - from.x) / 2));
-  const n = (/** @type {number} */ value) => value.toFixed(1);
   return `M${n(from.x)},${n(from.y)} C${n(from.x + reach)},${n(from.y)} ${n(to.x - reach)},${n(to.y)} ${n(to.x)},${n(to.y)}`;
+}
+
+/**
+ * @param {Point} from
+ * @param {Point} to
+ * @param {number} share  0: from, 1: to
+ * @returns {Point} a place on that curve, nearly
+ */
+export function along(from, to, share) {
+  return { x: from.x + share * (to.x - from.x), y: from.y + (3 - 2 * share) * share * share * (to.y - from.y) };
+}
+
+/**
+ * Returns the way of a connection that leads back: over or under the boxes, where fewest are in its way.
+ * @param {Point} from
+ * @param {Point} to
+ * @param {Rectangle[]} boxes
+ * @param {number} lane  number of this way among those that lead back, so that they do not lie on each other
+ * @returns {{path: string, middle: Point}}
+ */
+export function detour(from, to, boxes, lane) {
+  const [right, left] = [from.x + STUB + 4 * (lane % 4), to.x - STUB - 4 * (lane % 4)];
+  const ends = boxes.filter((box) => [from, to].some((p) => p.y > box.y && p.y < box.y + box.height && p.x > box.x - STUB && p.x < box.x + box.width + STUB));
+  const heights = ends.flatMap((box) => [box.y - STUB / 2 - 5 * (lane % 3), box.y + box.height + STUB / 2 + 5 * (lane % 3)]);
+  const cost = (/** @type {number} */ y) => boxes.filter((box) => crosses(box, right, left, y)).length * 2000
+    + Math.abs(y - from.y) + Math.abs(y - to.y) + blocked(boxes, right, from.y, y) + blocked(boxes, left, y, to.y);
+  const y = heights.sort((a, b) => cost(a) - cost(b))[0] ?? Math.max(from.y, to.y) + 60;
+  const bend = (/** @type {number} */ at) => Math.sign(y - at) * Math.min(8, Math.abs(y - at) / 2);
+  const [down, up] = [bend(from.y), bend(to.y)];
+  const path = `M${n(from.x)},${n(from.y)} H${n(right - 8)} Q${n(right)},${n(from.y)} ${n(right)},${n(from.y + down)} V${n(y - down)} `
+    + `Q${n(right)},${n(y)} ${n(right - 8)},${n(y)} H${n(left + 8)} Q${n(left)},${n(y)} ${n(left)},${n(y - up)} V${n(to.y + up)} Q${n(left)},${n(to.y)} ${n(left + 8)},${n(to.y)} H${n(to.x)}`;
+  return { path, middle: { x: (left + right) / 2, y } };
+}
+
+/** @typedef {{x: number, y: number, width: number, height: number}} Rectangle */
+
+/**
+ * @param {Rectangle} box
+ * @param {number} right
+ * @param {number} left
+ * @param {number} y
+ */
+function crosses(box, right, left, y) {
+  return y > box.y && y < box.y + box.height && right > box.x && left < box.x + box.width;
+}
+
+/**
+ * @param {Rectangle[]} boxes
+ * @param {number} x
+ * @param {number} a
+ * @param {number} b
+ * @returns {number} the cost of boxes in the way up or down
+ */
+function blocked(boxes, x, a, b) {
+  const [top, bottom] = [Math.min(a, b), Math.max(a, b)];
+  return 2000 * boxes.filter((box) => x > box.x && x < box.x + box.width && bottom > box.y && top < box.y + box.height).length;
 }
 
 /**

@@ -3,7 +3,7 @@
 
 import { byId, el, figure, notify, setText, svg } from "./dom.js";
 import { componentOf } from "./system_model.js";
-import { curve, drawnName, frameOf, misfit, planOf, portPlace, ROW } from "./system_layout.js";
+import { along, curve, detour, drawnName, frameOf, misfit, planOf, portPlace, ROW } from "./system_layout.js";
 
 /**
  * The drawing of the graph, live: what runs where, how it is, and what its connections carry.
@@ -20,6 +20,9 @@ import { curve, drawnName, frameOf, misfit, planOf, portPlace, ROW } from "./sys
  * @typedef {{component: string} | {wire: Wire} | null} Choice
  */
 
+const n = (/** @type {number} */ value) => value.toFixed(1);
+const ABOVE = 46;  // pixels that the buttons take
+const BELOW = 32;
 const FEW = 30;  // components up to which ports without a connection are shown at first
 /** @type {Record<string, string>} a mark and a class for each state; a mark says the same without colours */
 const MARKS = { WORK: "● good", WORK_DONE: "✓ good", IDLE: "○ calm", INIT: "◌ calm", CONNECT: "◌ calm", UNLOADED: "– calm", SUSPENDED: "‖ waiting", WORK_FAILED: "× bad", EXIT: "– bad" };
@@ -72,6 +75,9 @@ export class SystemView extends EventTarget {
     this.drawing.append(this.sheet);
     this.worker = new Worker(new URL("layout_worker.js", import.meta.url), { type: "module" });
     this.number = 0;
+    /** @type {import("./system_layout.js").Rectangle[]} */
+    this.rectangles = [];
+    this.lanes = { forward: 0, back: 0 };
     this.zoomed = { x: 0, y: 0, scale: 1 };
     this.isShown = false;
     this.isFitted = false;
@@ -129,6 +135,8 @@ export class SystemView extends EventTarget {
     const frames = this.plan.groups.map((group) => this.frame(group));
     frames.sort((a) => (a.classList.contains("machine") ? -1 : 1));
     const boxes = this.plan.boxes.filter((box) => box.name in this.places).map((box) => this.box(box));
+    this.rectangles = [...this.boxes.values()].map(({ box }) => this.rectangleOf(box));
+    this.lanes = { forward: 0, back: 0 };
     this.wires = this.system.wires.flatMap((wire) => this.wire(wire) ?? []);
     const lines = svg("g", { class: "wires" }, ...this.wires.flatMap(({ hit, line }) => [hit, line]));
     const labels = svg("g", { class: "flows" }, ...this.wires.map(({ label }) => label));
@@ -143,6 +151,12 @@ export class SystemView extends EventTarget {
     const title = svg("text", { x: x + 10, y: y + 16 });
     title.textContent = `${group.kind} ${group.name}`;
     return svg("g", { class: `frame ${group.kind}` }, svg("rect", { x, y, width, height, rx: 8 }), title);
+  }
+
+  /** @param {Box} box */
+  rectangleOf({ name, width, height }) {
+    const { x, y } = this.places[name];
+    return { x: x - width / 2, y: y - height / 2, width, height };
   }
 
   /** @param {Box} box */
@@ -194,16 +208,31 @@ export class SystemView extends EventTarget {
   wire(wire) {
     const ends = this.ends(wire);
     if (ends === null) return null;
-    const d = curve(ends[0], ends[1]);
+    const { path: d, middle } = this.way(ends);
     const line = svg("path", { d, class: `wire ${wire.pattern}`, "marker-end": "url(#arrow)" });
     const tip = svg("title");
     tip.textContent = `${wire.from} → ${wire.to}`;
     const hit = svg("path", { d, class: "hit" }, tip);
     const label = svg("text", { class: "flow" });
-    const drawn = { wire, line, hit, label };
-    this.placeLabel(drawn, ends);
+    label.setAttribute("x", n(middle.x));
+    label.setAttribute("y", n(middle.y - 3));
     for (const part of [hit, label]) part.addEventListener("click", () => this.choose({ wire }));
-    return drawn;
+    return { wire, line, hit, label };
+  }
+
+  /**
+   * @param {[Point, Point]} ends
+   * @returns {{path: string, middle: Point}}
+   */
+  way([from, to]) {
+    if (to.x > from.x + 20) {
+      const shares = [0.5, 0.35, 0.65, 0.2, 0.8];  // so that figures stand neither on each other nor on a box
+      const first = this.lanes.forward++ % 3;
+      const places = [...shares.slice(first), ...shares.slice(0, first)].map((share) => along(from, to, share));
+      const free = places.find((p) => !this.rectangles.some((box) => p.x > box.x - 16 && p.x < box.x + box.width + 16 && p.y > box.y && p.y < box.y + box.height + 10));
+      return { path: curve(from, to), middle: free ?? places[0] };
+    }
+    return detour(from, to, this.rectangles, this.lanes.back++);
   }
 
   /**
@@ -216,15 +245,6 @@ export class SystemView extends EventTarget {
     const start = portPlace(a.box, this.places[a.box.name], from);
     const end = portPlace(b.box, this.places[b.box.name], to);
     return start === null || end === null ? null : [start, { x: end.x - 6, y: end.y }];
-  }
-
-  /**
-   * @param {DrawnWire} wire
-   * @param {[Point, Point]} ends
-   */
-  placeLabel({ label }, [from, to]) {
-    label.setAttribute("x", String((from.x + to.x) / 2));
-    label.setAttribute("y", String((from.y + to.y) / 2 - 3));
   }
 
   /** Shows new figures, and touches only what has changed. */
@@ -462,8 +482,9 @@ export class SystemView extends EventTarget {
     const top = Math.min(...frames.map((f) => f.y)) - 12;
     const width = Math.max(...frames.map((f) => f.x + f.width)) + 12 - left;
     const height = Math.max(...frames.map((f) => f.y + f.height)) + 12 - top;
-    const scale = Math.min(1.3, view.width / width, (view.height - 50) / height);
-    this.place({ scale, x: (view.width - width * scale) / 2 - left * scale, y: 46 + (view.height - 50 - height * scale) / 2 - top * scale });
+    const room = view.height - ABOVE - BELOW;
+    const scale = Math.min(1.3, view.width / width, room / height);
+    this.place({ scale, x: (view.width - width * scale) / 2 - left * scale, y: ABOVE + (room - height * scale) / 2 - top * scale });
     this.isFitted = true;
   }
 }

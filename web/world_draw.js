@@ -298,7 +298,8 @@ function traceArrow(pen, from, to, head) {
  */
 function strokeMotion(pen, pose, radius, motion, pixel) {
   if (Math.hypot(motion.forward, motion.left) > 0.005) {
-    traceArrow(pen, pose, transform(pose, { x: motion.forward * SECOND, y: motion.left * SECOND }), Math.max(9 * pixel, 0.06));
+    const length = Math.hypot(motion.forward, motion.left) * SECOND;
+    traceArrow(pen, pose, transform(pose, { x: motion.forward * SECOND, y: motion.left * SECOND }), Math.min(0.6 * length, Math.max(9 * pixel, 0.06)));
     pen.stroke();
   }
   if (Math.abs(motion.turnRate) < 0.01) return;

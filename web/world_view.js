@@ -17,6 +17,7 @@ import * as draw from "./world_draw.js";
  */
 
 const EASE = 0.05;  // [s] in which the drawn robot comes two thirds nearer to where it is
+const FIT_AGAIN = 1500;  // [ms]
 const LEAST_PULL = 12;  // pixels below which a pull has no direction
 /** @type {Record<Tool, string>} */
 const HINTS = {
@@ -46,7 +47,9 @@ export class WorldView {
     /** @type {Tool} */
     this.tool = "look";
     this.follows = false;
-    this.isFitted = false;
+    /** Whether a person has moved the picture. */
+    this.isTouched = false;
+    this.lastFit = -Infinity;
     this.isShown = false;
     this.lastFrame = 0;
     this.frames = 0;
@@ -190,7 +193,7 @@ export class WorldView {
     this.ease(seconds);
     if (!this.world.stale) return;
     this.world.stale = false;
-    if (!this.isFitted && this.robot?.shown) this.fit();
+    if (!this.isTouched && now - this.lastFit > FIT_AGAIN && this.robot?.shown && !this.showsAll()) this.fit(now);
     if (this.follows && this.robot?.shown) Object.assign(this.camera, { x: this.robot.shown.x, y: this.robot.shown.y });
     this.paint();
     this.frames += 1;
@@ -292,13 +295,25 @@ export class WorldView {
     pen.stroke();
   }
 
-  fit() {
-    const points = [...this.driver.goals.map((goal) => goal.end), ...this.world.extent()];
+  get known() {
+    return [...this.driver.goals.map((goal) => goal.end), ...this.world.extent()];
+  }
+
+  showsAll() {
+    return this.known.map((p) => this.camera.toScreen(p)).every(({ x, y }) => x >= 0 && y >= 0 && x <= this.camera.width && y <= this.camera.height);
+  }
+
+  /**
+   * Shows everything that is known.
+   * @param {number} now  [ms]
+   */
+  fit(now) {
+    const points = this.known;
     if (points.length === 0) return;
     const xs = points.map((p) => p.x);
     const ys = points.map((p) => p.y);
     this.camera.fit({ min: { x: Math.min(...xs), y: Math.min(...ys) }, max: { x: Math.max(...xs), y: Math.max(...ys) } });
-    this.isFitted = true;
+    this.lastFit = now;
     this.world.stale = true;
   }
 
@@ -315,7 +330,7 @@ export class WorldView {
     for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => (this.world.stale = true));
     for (const tool of Object.values(TOOL_KEYS)) byId(`tool-${tool}`).addEventListener("click", () => this.take(tool));
     byId("follow").addEventListener("click", () => this.follow(!this.follows));
-    byId("fit").addEventListener("click", () => this.fit());
+    byId("fit").addEventListener("click", () => this.fit(performance.now()));
     byId("closer").addEventListener("click", () => this.zoom(1.5));
     byId("farther").addEventListener("click", () => this.zoom(1 / 1.5));
     byId("give-up").addEventListener("click", () => this.order(this.driver.giveUp(), "The goal is given up."));
@@ -344,12 +359,14 @@ export class WorldView {
   /** @param {boolean} on */
   follow(on) {
     this.follows = on;
+    this.isTouched ||= on;
     byId("follow").setAttribute("aria-pressed", String(on));
     this.world.stale = true;
   }
 
   /** @param {number} factor */
   zoom(factor) {
+    this.isTouched = true;
     this.camera.zoom(factor, { x: this.camera.width / 2, y: this.camera.height / 2 });
     this.world.stale = true;
   }
@@ -366,6 +383,7 @@ export class WorldView {
   /** @param {PointerEvent} event */
   press(event) {
     this.canvas.setPointerCapture(event.pointerId);
+    this.isTouched = true;
     const pixel = this.pixelOf(event);
     this.pointers.set(event.pointerId, pixel);
     const at = this.camera.toWorld(pixel);
@@ -417,6 +435,7 @@ export class WorldView {
   /** @param {WheelEvent} event */
   turnWheel(event) {
     event.preventDefault();
+    this.isTouched = true;
     this.camera.zoom(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015)), this.pixelOf(event));
     this.world.stale = true;
   }
@@ -427,7 +446,7 @@ export class WorldView {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (key in TOOL_KEYS && !byId(`tool-${TOOL_KEYS[key]}`).hidden) this.take(TOOL_KEYS[key]);
     else if (key === "f") this.follow(!this.follows);
-    else if (key === "0") this.fit();
+    else if (key === "0") this.fit(performance.now());
     else if (key === "+") this.zoom(1.25);
     else if (key === "-") this.zoom(0.8);
     else if (key === "enter" && this.tool === "drive") this.driveTo({ x: this.camera.x, y: this.camera.y }, null);
@@ -436,6 +455,7 @@ export class WorldView {
 
   /** @param {string} key */
   step(key) {
+    this.isTouched = true;
     const sideways = { arrowleft: 60, arrowright: -60 }[key] ?? 0;
     const upwards = { arrowup: 60, arrowdown: -60 }[key] ?? 0;
     this.camera.pan(sideways, upwards);

@@ -8,9 +8,9 @@ EXCEPTION = "LICENSES/Orca-plugin-exception.txt"
 
 # The longest matching prefix decides.
 LICENCE_OF_FOLDER = {
-    "": LGPL, "dev": GPL, ".ci/": GPL, "src/apps/": GPL, "tests/": GPL, "bench/": GPL,
+    "": LGPL, "dev": GPL, ".ci/": GPL, "src/apps/": GPL, "tests/": GPL, "bench/": GPL, "web/": GPL,
 }
-SOURCES = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".sh", ".cmake", "CMakeLists.txt")
+SOURCES = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".sh", ".cmake", "CMakeLists.txt", ".js", ".mjs", ".css", ".html")
 DATA = (".xml", ".xsd", ".urdf")  # either licence; those in tests/ are bad on purpose or compared byte by byte
 LINE = re.compile(r"SPDX-License-Identifier: *([^\s*<>]+)")
 
@@ -42,7 +42,7 @@ def fault(tree, path, wanted_licences):
         return f"no licence on top; expected the line SPDX-License-Identifier: {choice}"
     if found[1] not in wanted_licences:
         return f"licence {found[1]}, expected {choice} (LICENSE.md says which folder has which)"
-    is_program = path.startswith("src/apps/") and path.endswith((".cpp", ".hpp"))
+    is_program = path.startswith(("src/apps/", "web/")) and path.endswith((".cpp", ".hpp", ".js"))
     if is_program and EXCEPTION not in top:
         return f"no notice of the plugin exception on top; expected the line: Additional permission: {EXCEPTION}"
     return None
