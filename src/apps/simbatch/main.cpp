@@ -22,6 +22,7 @@
 #include "orca/batch/missing_runs.hpp"
 #include "orca/batch/report.hpp"
 #include "orca/batch/store.hpp"
+#include "orca/batch/tuning.hpp"
 #include "orca/xml/number.hpp"
 #include "pack.hpp"
 #include "progress.hpp"
@@ -67,7 +68,7 @@ ExitCode check(const Options& options) {
 }
 
 Status write_file(const std::filesystem::path& file, const std::string& text) {
-  OutputFile out("the report");
+  OutputFile out("the result");
   if (const Status opened = out.open(file.string()); !opened.ok()) return opened;
   out.write(text);
   return out.close();
@@ -177,32 +178,78 @@ std::string make_runs(const Options& options, const batch::Experiment& experimen
 // Hears what the runs of a batch depend on, before the first of them.
 using Listener = std::function<void(const batch::Inputs&)>;
 
+// Writes the best settings of each variant, and all draws.
+ExitCode write_tuned(const batch::Experiment& experiment, const batch::Experiment& drawn,
+                     const batch::Store& store, const std::filesystem::path& folder) {
+  const std::vector<batch::Tuned> all = batch::judged(experiment, drawn, store);
+  if (const Status written = write_file(folder / "draws.csv", batch::draws_table(all)); !written.ok())
+    return could_not_write(written);
+  for (const batch::Tuned& tuned : all) {
+    const std::filesystem::path file = folder / (tuned.variant + ".xml");
+    if (const Status written = write_file(file, batch::settings_file(tuned, experiment)); !written.ok())
+      return could_not_write(written);
+    std::printf("%s: %s\n", tuned.variant.c_str(), tuned.text(*experiment.tuning).c_str());
+  }
+  return ExitCode::done;
+}
+
+// Opens the folder for the results of an experiment, and keeps what they depend on.
+Result<std::unique_ptr<batch::Store>> prepare(const Options& options, const batch::Experiment& experiment,
+                                              const std::filesystem::path& folder, const Listener& listener) {
+  if (std::filesystem::exists(results_in(folder)) && !options.resume)
+    return fail(Code::already_exists, in_quotes(folder.string()) +
+                                          " holds results already; --resume makes what is missing, "
+                                          "--out DIR takes another folder");
+  std::error_code error;
+  if (const Status trusted = check_output_place(folder.string()); !trusted.ok())
+    return fail(trusted.error().code, folder.string() + ": " + trusted.error().message);
+  std::filesystem::create_directories(folder, error);
+  if (error) return fail(Code::unavailable, folder.string() + ": " + error.message());
+  Result<std::unique_ptr<batch::Store>> store = batch::Store::open(
+      results_in(folder).string(), batch::identity_of(experiment),
+      {std::filesystem::absolute(options.subject).lexically_normal().string(), options.plugins});
+  if (!store) return store;
+  const batch::Inputs inputs = batch::inputs_of(experiment);
+  if (listener) listener(inputs);
+  if (const Status kept = (*store)->keep(inputs); !kept.ok()) return kept.error();
+  return store;
+}
+
+ExitCode did_not_finish(const std::string& fault) {
+  std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
+  return ExitCode::could_not_finish;
+}
+
+// Tries values of what each variant may change, in worlds that the experiment does not compare in, and writes the best.
+ExitCode tune(Options options) {
+  xml::Diagnostics diagnostics;
+  const std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
+  const Result<batch::Experiment> drawn =
+      experiment ? batch::draws_of(*experiment) : fail(Code::invalid_argument, "the experiment has errors");
+  if (experiment && drawn) batch::check_graphs(*drawn, options.batch, diagnostics, check_watch());
+  LiveLine::erase();
+  std::fputs(diagnostics.text().c_str(), stderr);
+  if (diagnostics.has_errors()) return ExitCode::bad_input;
+  if (!drawn) return refuse(drawn.error());
+  const std::filesystem::path folder = options.out.empty() ? experiment->name + ".tuned" : options.out;
+  options.batch.alone.clear();  // no file holds the experiment of the draws
+  Result<std::unique_ptr<batch::Store>> store = prepare(options, *drawn, folder, {});
+  if (!store) return refuse(store.error());
+  if (const std::string fault = make_runs(options, *drawn, **store); !fault.empty())
+    return did_not_finish(fault);
+  return write_tuned(*experiment, *drawn, **store, folder);
+}
+
 ExitCode run(const Options& options, const Listener& listener = {}) {
   const std::optional<batch::Experiment> experiment = checked(options);
   if (!experiment) return ExitCode::bad_input;
   const std::filesystem::path folder = folder_of(options, *experiment);
-  if (std::filesystem::exists(results_in(folder)) && !options.resume)
-    return refuse(fail(Code::already_exists, in_quotes(folder.string()) +
-                                                 " holds results already; --resume makes what is missing, "
-                                                 "--out DIR takes another folder"));
-  std::error_code error;
-  if (const Status trusted = check_output_place(folder.string()); !trusted.ok())
-    return refuse(fail(trusted.error().code, folder.string() + ": " + trusted.error().message));
-  std::filesystem::create_directories(folder, error);
-  if (error) return refuse(fail(Code::unavailable, folder.string() + ": " + error.message()));
-  Result<std::unique_ptr<batch::Store>> store = batch::Store::open(
-      results_in(folder).string(), batch::identity_of(*experiment),
-      {std::filesystem::absolute(options.subject).lexically_normal().string(), options.plugins});
+  Result<std::unique_ptr<batch::Store>> store = prepare(options, *experiment, folder, listener);
   if (!store) return refuse(store.error());
-  const batch::Inputs inputs = batch::inputs_of(*experiment);
-  if (listener) listener(inputs);
-  if (const Status kept = (*store)->keep(inputs); !kept.ok()) return refuse(kept.error());
   if (const Status declared = declare(*experiment, **store); !declared.ok()) return refuse(declared.error());
   if (const Status declared = declare_build(**store); !declared.ok()) return refuse(declared.error());
-  if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty()) {
-    std::fprintf(stderr, "error: %s; what was finished is kept, --resume goes on\n", fault.c_str());
-    return ExitCode::could_not_finish;
-  }
+  if (const std::string fault = make_runs(options, *experiment, **store); !fault.empty())
+    return did_not_finish(fault);
   if (options.shard.count == 1) return report(*experiment, **store, folder);
   std::fprintf(stderr, "part %s is in %s; simbatch join puts the parts together\n",
                shard_text(options.shard, " of ").c_str(), folder.c_str());
@@ -336,6 +383,7 @@ ExitCode act(const Options& options) {
     }
     case Options::Action::pack: return pack(options);
     case Options::Action::repeat: return repeat(options);
+    case Options::Action::tune: return tune(options);
     case Options::Action::run: return run(options);
   }
   return ExitCode::bad_input;

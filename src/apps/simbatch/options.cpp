@@ -27,6 +27,7 @@ constexpr std::string_view kDetails =
   simbatch diff before.batch after.batch                 the first run that differs, and the first delivery in it that does
   simbatch pack sim/experiments/avoid_office.xml         avoid_office.batch/avoid_office.pack.tar.gz, for others to repeat
   simbatch repeat avoid_office.pack.tar.gz               its runs once more, and whether they are the same to the last byte
+  simbatch tune sim/experiments/barn.xml                 the best settings of each variant, into the folder barn.tuned
 
 Each run is made in a process of its own, so one that crashes, hangs or takes too much memory costs no other; it is a result,
 too. Ctrl-C and kill -9 lose nothing that was finished. The same experiment gives the same bytes, whatever --jobs and the
@@ -53,6 +54,12 @@ constexpr std::string_view kRepeatDetails =
     "were, names the programs and plugins that are built otherwise here, makes all runs and compares "
     "runs.csv byte for byte. With --resume it goes on. Exit status 0: the same, 1: different or not "
     "finished, 2: the archive is damaged, and nothing was run.";
+
+constexpr std::string_view kTuneDetails =
+    "It makes the draws that <tuning> asks for of each variant with a <tune>, all with the same budget, in "
+    "the worlds of <tuning>, none of which the experiment may compare in. Into the folder NAME.tuned, or "
+    "--out, it writes draws.csv and, for each variant, a file with the best settings and the budget, which "
+    "a variant takes by its attribute settings. With --resume it goes on.";
 
 const apps::Argument kExperiment{"EXPERIMENT.xml", apps::Names::file};
 
@@ -89,7 +96,11 @@ const apps::Program& program() {
                    {.name = "repeat",
                     .arguments = {{"PACK", apps::Names::file}},
                     .text = "unpack an archive, make all its runs again, and compare the results",
-                    .details = kRepeatDetails}},
+                    .details = kRepeatDetails},
+                   {.name = "tune",
+                    .arguments = {kExperiment},
+                    .text = "choose settings by random search, in worlds of the tuner's own",
+                    .details = kTuneDetails}},
       .options = {{"--check", "", "only say what is wrong with the experiment and its graphs", false,
                    "Options"},
                   {"--out", "DIR",
@@ -123,7 +134,7 @@ Options::Action action_of(const apps::Call& call) {
   static const std::map<std::string_view, Action> all{{"export", Action::table},  {"report", Action::report},
                                                       {"diff", Action::diff},     {"join", Action::join},
                                                       {"submit", Action::submit}, {"pack", Action::pack},
-                                                      {"repeat", Action::repeat}};
+                                                      {"repeat", Action::repeat}, {"tune", Action::tune}};
   if (call.command != nullptr) return all.at(call.command->name);
   return call.has("--check") ? Action::check : Action::run;
 }

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the runs of sim/experiments/barn.xml at one level of realism with one kind of pose, and writes their table.
 
-    tests/system/barn/tables.py LEVEL POSE [--build DIR] [--out DIR] [--jobs N] [--to FILE.md] [--numbers 1-20]
+    tests/system/barn/tables.py LEVEL POSE [--tuned DIR] [--build DIR] [--out DIR] [--jobs N] [--to FILE.md] [--numbers "1-20 25"]
 
+With --tuned it runs those variants only for which DIR holds settings, NAME.xml, as `simbatch tune sim/experiments/barn.xml` writes them.
 LEVEL is ideal, nominal, harsh or recorded; POSE is odometry (drifts, as that of a robot without a map) or truth (the simulator's).
 The runs are kept in OUT/LEVEL_POSE.batch; called again it goes on where it was stopped. All columns are the referee's
 (docs/comparing.md). Exit status: 0 if all runs were made; 77 if the worlds are missing; otherwise that of simbatch.
@@ -31,14 +32,27 @@ def absolute(attributes, name):
         attributes[name] = os.path.normpath(EXPERIMENT.parent / attributes[name])
 
 
-def experiment(level, pose, numbers):
+def take_settings(root, folder):
+    """Gives variants the settings that the folder holds, and leaves out the others."""
+    for variant in root.findall("variant"):
+        file = folder.resolve() / f"{variant.get('name')}.xml"
+        if file.exists():
+            variant.set("settings", str(file))
+        else:
+            root.remove(variant)
+
+
+def experiment(level, pose, numbers, tuned):
     """Returns the text of barn.xml at that level and pose. Its paths are absolute, so that it may lie anywhere."""
     root = ElementTree.parse(EXPERIMENT).getroot()
-    root.set("name", f"barn_{level}_{pose}")
+    root.set("name", f"barn_{level}_{pose}{'_tuned' if tuned else ''}")
     root.set("profile", PROFILES[pose])
     root.insert(0, ElementTree.Element("set", {"arg": "realism", "value": level}))
+    if tuned:
+        take_settings(root, tuned)
     for element in root.iter():
         absolute(element.attrib, "graph")
+    root.remove(root.find("tuning"))
     for worlds in root.iter("worlds"):
         for name in ("file", "references"):
             worlds.set(name, str(DATA / "barn" / pathlib.Path(worlds.get(name)).name))
@@ -67,7 +81,7 @@ def line(variant, rows):
             f"| {total(rows, 'claimed_wrongly')} | {total(rows, 'not_claimed')} | {', '.join(failures) or '-'} |")
 
 
-def table(level, pose, rows, commit):
+def table(args, rows, commit):
     variants = {}
     for row in rows:
         variants.setdefault(row["variant"], []).append(row)
@@ -75,9 +89,9 @@ def table(level, pose, rows, commit):
     order = [element.get("name") for element in ElementTree.parse(EXPERIMENT).getroot().iter("variant")]
     return "\n".join([
         "<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->",
-        f"# BARN, level {level}, pose by {pose}",
+        f"# BARN, level {args.level}, pose by {args.pose}{', tuned' if args.tuned else ''}",
         "",
-        f"Made by `tests/system/barn/tables.py {level} {pose}` on {time.strftime('%Y-%m-%d', time.gmtime())} with commit {commit}: "
+        f"Made by `tests/system/barn/tables.py {args.level} {args.pose}{f' --tuned {os.path.relpath(args.tuned, TREE)}' if args.tuned else ''}` on {time.strftime('%Y-%m-%d', time.gmtime())} with commit {commit}: "
         f"{len(rows)} runs, each behaviour once in each of {worlds} worlds,",
         "judged by the referee. [comparing.md](../comparing.md#barn) says what the columns mean.",
         "",
@@ -95,6 +109,7 @@ def options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("level", choices=("ideal", "nominal", "harsh", "recorded"))
     parser.add_argument("pose", choices=PROFILES)
+    parser.add_argument("--tuned", type=pathlib.Path, help="folder of settings for variants")
     parser.add_argument("--build", type=pathlib.Path, default=TREE / "build/release")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     parser.add_argument("--to", type=pathlib.Path, help="the table; default: LEVEL_POSE.md in OUT")
@@ -108,10 +123,10 @@ def main():
     if not (DATA / "barn/cylinders.csv.gz").exists():
         print(f"SKIPPED: there is no {DATA}/barn; set ORCA_DATA to the folder that holds barn/")
         return 77
-    name = f"{args.level}_{args.pose}"
+    name = f"{args.level}_{args.pose}{'_tuned' if args.tuned else ''}"
     args.out.mkdir(parents=True, exist_ok=True)
     file = args.out / f"{name}.xml"
-    file.write_text(experiment(args.level, args.pose, args.numbers), encoding="utf-8")
+    file.write_text(experiment(args.level, args.pose, args.numbers, args.tuned), encoding="utf-8")
     simbatch = str(args.build / "bin/simbatch")
     folder = args.out / f"{name}.batch"
     made = subprocess.run([simbatch, str(file), "--out", str(folder), "--resume", "--jobs", str(args.jobs)],
@@ -121,7 +136,7 @@ def main():
     runs = subprocess.run([simbatch, "export", str(folder)], capture_output=True, text=True, check=True).stdout
     rows = list(csv.DictReader(io.StringIO(runs)))
     to = args.to or args.out / f"{name}.md"
-    to.write_text(table(args.level, args.pose, rows, commit_of_tree()), encoding="utf-8")
+    to.write_text(table(args, rows, commit_of_tree()), encoding="utf-8")
     print(to)
     return 0
 

@@ -19,6 +19,7 @@
 #include "references.hpp"
 #include "results/metric.hpp"
 #include "rules.hpp"
+#include "tuned_ranges.hpp"
 
 namespace orca::batch {
 namespace {
@@ -53,10 +54,12 @@ class ExperimentReader {
       if (rule == &kWorldRule) world(child);
       if (rule == &kWorldsRule) worlds(child);
       if (rule == &kContrastRule) contrasts_.push_back(child);
+      if (rule == &kTuningRule) tuning(child);
     }
     multiply(factors(attributes));
     for (const Attributes& element : contrasts_) contrast(element);
     check_whole(attributes);
+    check_held_out(experiment_, reporter_);
     return std::move(experiment_);
   }
 
@@ -84,7 +87,13 @@ class ExperimentReader {
     if (variant.graph.empty())
       element.error(codes::kNoGraph, "variant " + in_quotes(variant.name) +
                                          " has no graph; give it one, or the experiment one for all");
-    settings(element, variant.settings);
+    for (const auto& [child, rule] : element.children()) {
+      const Attributes part = element.of_child(*child, *rule);
+      if (rule == &kSetRule) set(part, variant.settings);
+      if (rule != &kTuneRule) continue;
+      if (auto range = read_range(part)) variant.ranges.push_back(*std::move(range));
+    }
+    if (element.has("settings")) add_settings_of_file(element, variant.settings);
     remember(element, "variant", variant.name);
     experiment_.variants.push_back(std::move(variant));
   }
@@ -215,8 +224,38 @@ class ExperimentReader {
     return name;
   }
 
-  void settings(const Attributes& element, std::vector<Setting>& to) {
-    for (const auto& [child, rule] : element.children()) set(element.of_child(*child, *rule), to);
+  // Adds the settings that a file holds, but for those that the variant has itself. Their paths start at the experiment's folder, too.
+  void add_settings_of_file(const Attributes& variant, std::vector<Setting>& to) {
+    const std::string file = path(variant.text("settings").value_or(""));
+    const std::optional<xml::Document> document = xml::read_file(file, reporter_.diagnostics());
+    experiment_.tables.push_back(file);
+    if (!document) return;
+    const xml::Element& root = document->root;
+    if (root.name() != kSettingsFileRule.name)
+      return variant.error_at("settings", codes::kWrongRoot,
+                              in_quotes(file) + " holds <" + root.name() + ">, not <settings>");
+    const Attributes attributes(root, kSettingsFileRule, kExperimentFile, reporter_);
+    std::vector<Setting> settings;
+    for (const auto& [child, rule] : attributes.children()) set(attributes.of_child(*child, *rule), settings);
+    const std::vector<Setting> own = to;
+    for (Setting& setting : settings)
+      if (std::ranges::find(own, setting.name, &Setting::name) == own.end()) to.push_back(std::move(setting));
+  }
+
+  // The worlds of a tuner are read as those of the experiment.
+  void tuning(const Attributes& element) {
+    std::vector<World> own = std::exchange(experiment_.worlds, {});
+    for (const auto& [child, rule] : element.children()) {
+      const Attributes part = element.of_child(*child, *rule);
+      if (rule == &kWorldRule) world(part);
+      if (rule == &kWorldsRule) worlds(part);
+    }
+    experiment_.tuning =
+        Tuning{static_cast<std::size_t>(element.integer("draws").value_or(2)),
+               static_cast<std::uint64_t>(element.has("seed") ? element.integer("seed").value_or(1) : 1),
+               std::exchange(experiment_.worlds, std::move(own))};
+    if (experiment_.tuning->worlds.empty())
+      element.error(codes::kMissing, "a tuner needs a <world> or <worlds> of its own");
   }
 
   void set(const Attributes& element, std::vector<Setting>& to) {

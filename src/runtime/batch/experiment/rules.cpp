@@ -54,9 +54,33 @@ constexpr std::array kGoal{
     AttributeRule{"heading", false, "Direction that the robot faces there; any if not given.", kAngle},
     AttributeRule{"heading_tolerance", false, "Largest difference from it; 20 deg if not given.", kTolerance},
     AttributeRule{"hold", false, "Time that it has to stay there; 0 if not given.", kHold}};
-constexpr std::array kVariant{AttributeRule{"name", true, "Name of the variant.", kName},
-                              AttributeRule{"graph", false, "Its graph, if it is not that of all."},
-                              AttributeRule{"profile", false, "Its profiles, if they are not those of all."}};
+constexpr std::array kVariant{
+    AttributeRule{"name", true, "Name of the variant.", kName},
+    AttributeRule{"graph", false, "Its graph, if it is not that of all."},
+    AttributeRule{"profile", false, "Its profiles, if they are not those of all."},
+    AttributeRule{"settings", false,
+                  "A file of settings for it, such as simbatch tune writes; its own "
+                  "<set> have the last word."}};
+constexpr std::array<std::string_view, 2> kScales{"linear", "log"};
+constexpr std::array kTune{
+    AttributeRule{"arg", true, "Argument of the graph, or COMPONENT.PARAM."},
+    AttributeRule{"from", true, "Smallest value, with its unit."},
+    AttributeRule{"to", true, "Largest value, of the same unit."},
+    AttributeRule{
+        "scale",
+        false,
+        "Whether equal differences or equal factors (log) are equally likely; \"linear\" if not given.",
+        {.choices = kScales}}};
+constexpr std::array kTuning{AttributeRule{"draws",
+                                           true,
+                                           "Draws of each variant; the first is what it is without any.",
+                                           {.form = ValueRule::Form::integer, .min = 2, .max = 100'000}},
+                             AttributeRule{"seed",
+                                           false,
+                                           "Seed of the draws; 1 if not given.",
+                                           {.form = ValueRule::Form::integer, .min = 0, .max = 1e15}}};
+constexpr std::array kSettingsFile{
+    AttributeRule{"version", true, "Version of the format; the only one is 1."}};
 constexpr std::array<std::string_view, 3> kClaims{"difference", "not_worse", "equal"};
 constexpr std::array kContrast{
     AttributeRule{"first", true, "Name of a variant."},
@@ -87,17 +111,25 @@ constexpr ElementRule kGoalRule{.name = "goal",
                                 .attributes = kGoal,
                                 .text = "Where a robot has to be, by its true pose, for the run to succeed."};
 
+constexpr ElementRule kTuneRule{
+    .name = "tune", .attributes = kTune, .text = "A setting that simbatch tune may choose from a range."};
+
 namespace {
 
 constexpr std::array kSettings{&kSetRule};
+constexpr std::array kInVariant{&kSetRule, &kTuneRule};
 constexpr std::array kInWorld{&kSetRule, &kGoalRule};
 
 }  // namespace
 
 constexpr ElementRule kVariantRule{.name = "variant",
                                    .attributes = kVariant,
-                                   .children = kSettings,
+                                   .children = kInVariant,
                                    .text = "One of the things that are compared."};
+constexpr ElementRule kSettingsFileRule{.name = "settings",
+                                        .attributes = kSettingsFile,
+                                        .children = kSettings,
+                                        .text = "Settings of a variant, in a file of their own."};
 constexpr ElementRule kWorldRule{.name = "world",
                                  .attributes = kWorld,
                                  .children = kInWorld,
@@ -112,8 +144,19 @@ constexpr ElementRule kContrastRule{
 
 namespace {
 
-constexpr std::array kInExperiment{&kSetRule,   &kGoalRule,   &kVariantRule,
-                                   &kWorldRule, &kWorldsRule, &kContrastRule};
+constexpr std::array kInTuning{&kWorldRule, &kWorldsRule};
+
+}  // namespace
+
+constexpr ElementRule kTuningRule{.name = "tuning",
+                                  .attributes = kTuning,
+                                  .children = kInTuning,
+                                  .text = "The budget and the worlds of simbatch tune."};
+
+namespace {
+
+constexpr std::array kInExperiment{&kSetRule,    &kGoalRule,     &kVariantRule, &kWorldRule,
+                                   &kWorldsRule, &kContrastRule, &kTuningRule};
 
 }  // namespace
 
@@ -124,8 +167,9 @@ constexpr ElementRule kExperimentRule{.name = "experiment",
 
 namespace {
 
-constexpr std::array kElements{&kExperimentRule, &kSetRule,    &kGoalRule,    &kVariantRule,
-                               &kWorldRule,      &kWorldsRule, &kContrastRule};
+constexpr std::array kElements{&kExperimentRule, &kSetRule,         &kGoalRule,     &kVariantRule,
+                               &kWorldRule,      &kWorldsRule,      &kContrastRule, &kTuneRule,
+                               &kTuningRule,     &kSettingsFileRule};
 
 }  // namespace
 

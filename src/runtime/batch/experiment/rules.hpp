@@ -20,6 +20,7 @@ inline constexpr const char* kTooMany = "E011";
 inline constexpr const char* kReferences = "E012";
 inline constexpr const char* kGoalPlace = "E013";
 inline constexpr const char* kContrast = "E014";
+inline constexpr const char* kTuning = "E015";
 
 }  // namespace orca::batch::codes
 
@@ -29,6 +30,9 @@ extern const xml::ElementRule kContrastRule;
 extern const xml::ElementRule kExperimentRule;
 extern const xml::ElementRule kSetRule;
 extern const xml::ElementRule kGoalRule;
+extern const xml::ElementRule kSettingsFileRule;
+extern const xml::ElementRule kTuneRule;
+extern const xml::ElementRule kTuningRule;
 extern const xml::ElementRule kVariantRule;
 extern const xml::ElementRule kWorldRule;
 extern const xml::ElementRule kWorldsRule;

@@ -27,6 +27,17 @@ struct Setting {
   [[nodiscard]] std::string text_from(const std::string& folder) const;
 };
 
+/// A range from which a tuner draws the value of a setting. A plain value.
+struct SettingRange {
+  std::string name;   ///< The setting.
+  double from = 0.0;  ///< In the SI unit.
+  double to = 0.0;    ///< Likewise, above `from`.
+  std::string unit;   ///< The SI unit; empty: a plain number.
+  bool by_factors =
+      false;  ///< Equal factors are equally likely, not equal differences; `from` is above 0 then.
+  xml::Position position{};
+};
+
 /// One of the things that are compared: a graph, and what is set in it.
 struct Variant {
   std::string name;
@@ -36,6 +47,7 @@ struct Variant {
   std::vector<std::string>
       profiles{};          ///< The graph's, in the order in which they are merged; none: its default_profile.
   double computing = 1.0;  ///< Its laps take this many times as long as its graph says.
+  std::vector<SettingRange> ranges{};  ///< Settings that a tuner may choose.
 };
 
 /// One of the places in which each variant is tried.
@@ -46,6 +58,13 @@ struct World {
   std::optional<double> reference{};  ///< [m] Length of the way that a run in it is compared with.
   std::vector<Goal> goals{};          ///< Instead of those of the experiment; empty: those.
   std::string family{};               ///< Worlds of one kind; its own name if it is the only one.
+};
+
+/// The budget of a tuner, the same for each variant, and the worlds that it may see. A plain value.
+struct Tuning {
+  std::size_t draws = 0;      ///< Number of each variant, with the declared values as the first.
+  std::uint64_t seed = 1;     ///< The seed of the draws.
+  std::vector<World> worlds;  ///< None of those in which variants are compared.
 };
 
 /// A question about two variants, declared before anything runs. A plain value.
@@ -81,7 +100,9 @@ struct Experiment {
   Duration until{0};                ///< Limit of each run [s of its clock].
   Duration limit{0};                ///< Limit of each run [s of the wall clock].
   std::uint64_t memory_limit = 0;   ///< [bytes] of address space of each run.
-  std::vector<std::string> tables{};  ///< Paths of the tables of references that were read.
+  std::vector<std::string>
+      tables{};                    ///< Paths of the tables of references and of the settings that were read.
+  std::optional<Tuning> tuning{};  ///< The budget of `simbatch tune`; no other run depends on it.
 
   [[nodiscard]] std::size_t run_count() const { return variants.size() * worlds.size() * seeds.size(); }
   /// Returns a run. Those that differ in the variant only stand together, so that what a stopped batch has finished can be
