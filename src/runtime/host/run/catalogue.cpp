@@ -139,7 +139,8 @@ Result<PluginCatalogue::KnownHardware*> PluginCatalogue::describe_anew(const gra
 Result<PluginCatalogue::KnownHardware*> PluginCatalogue::prepared(const graph::HardwareUse& use) {
   const Result<LoadedType> found = find(PluginKind::hardware, use.type);
   const auto known = hardware_.find(use.name);
-  if (found && known != hardware_.end() && known->second.entry == found->entry &&
+  const bool is_of_earlier_graph = known != hardware_.end() && !of_graph_.contains(use.name);
+  if (found && is_of_earlier_graph && known->second.entry == found->entry &&
       known->second.params == use.params) {
     of_graph_.insert(use.name);
     return &known->second;

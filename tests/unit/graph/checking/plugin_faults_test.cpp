@@ -68,6 +68,26 @@ TEST_CASE("each graph with a broken plugin, world or robot gives its approved er
                    replaced(errors_of(path, {.settings = {"plugins=" + folder}}), folder, "PLUGINS"));
 }
 
+TEST_CASE("a graph that is checked again reads its files again, unless it was forgotten for a next one",
+          "[graph]") {
+  const TempFolder folder;
+  const std::string office = std::string(ORCA_SOURCE_DIR) + "/sim/worlds/office.xml";
+  const std::string world = folder.file("office.xml");
+  PluginCatalogue catalogue{PluginIndex({kShipped})};
+  const auto is_faultless = [&] {
+    xml::Diagnostics diagnostics;
+    const graph::LoadOptions options{.settings = {"world=" + world}};
+    return graph::load_file(ORCA_SOURCE_DIR "/graphs/scout_goto.xml", options, catalogue, diagnostics)
+        .has_value();
+  };
+  fs::copy_file(office, world);
+  CHECK(is_faultless());
+  catalogue.forget_graph();
+  std::ofstream(world) << "no world";
+  CHECK(is_faultless());  // the world is as it was for the graph before
+  CHECK_FALSE(is_faultless());
+}
+
 #if !defined(__SANITIZE_THREAD__)  // nothing is tried out then
 TEST_CASE("each graph that only configure() can judge gives its approved errors, all of them at their places",
           "[graph][approval]") {
