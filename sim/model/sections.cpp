@@ -171,6 +171,14 @@ std::vector<Shape> sections_at(const std::vector<Part>& parts, double height) {
   return cut_all(parts, {height, height});
 }
 
+std::vector<Shape> sections_of(const RobotModel& robot, const std::vector<std::string>& links,
+                               double height) {
+  std::vector<Part> chosen;
+  for (const Part& part : robot.parts)
+    if (std::ranges::find(links, part.link) != links.end()) chosen.push_back(part);
+  return sections_at(chosen, height);
+}
+
 std::vector<Shape> plans_between(const std::vector<Part>& parts, double low, double high) {
   return low < high ? cut_all(parts, {low, high}) : std::vector<Shape>{};
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "objects.hpp"
+
+#include <limits>
+
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -22,6 +25,9 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
 
 void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser) {
   object.ranges().assign(scan.ranges.begin(), scan.ranges.end());
+  for (std::size_t k = 0; k < scan.ranges.size(); ++k)
+    if (laser.ignores(laser.first_angle + static_cast<double>(k) * laser.pitch))
+      object.ranges()[k] = std::numeric_limits<double>::quiet_NaN();
   object.min_range(laser.min_range);
   object.max_range(laser.max_range);
   object.pose(level_pose(scan.X_RB * laser.center, laser.height, scan.stamp));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
+#include "rays/intersect.hpp"
 
 namespace orca::sim::detail {
 namespace {
@@ -38,7 +39,8 @@ Ray turned(Ray ray, double angle) {
 
 }  // namespace
 
-LaserModel::LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomStream random, TimePoint start)
+LaserModel::LaserModel(LaserScanner scanner, const std::vector<Shape>& own, const ErrorLevels& errors,
+                       RandomStream random, TimePoint start)
     : scanner_(std::move(scanner)),
       errors_(errors),
       random_(random),
@@ -46,6 +48,11 @@ LaserModel::LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomSt
       bias_(random_.uniform(-errors.laser_bias, errors.laser_bias)),
       scan_end_(start + scanner_.period) {
   scanner_.divergence *= errors.laser_spot;
+  for (const Shape& shape : own) {
+    if (const auto* circle = std::get_if<Circle>(&shape)) own_circles_.push_back(*circle);
+    const std::vector<Segment> edges = edges_of(shape);
+    own_edges_.insert(own_edges_.end(), edges.begin(), edges.end());
+  }
 }
 
 TimePoint LaserModel::due(std::size_t beam) const {
@@ -67,8 +74,10 @@ void LaserModel::run(const Caster& caster, std::size_t own_body, const TickSpan&
     if (ranges_.empty()) X_RB_ = span.in_robot(next);
     if (!looking || ranges_.size() % kTogether == 0) look(caster, own_body, span);
     looking = true;
-    const Ray ray = this->ray(span.at(next), static_cast<double>(ranges_.size()), own_body);
-    shoot(caster, {ray, seen(caster, ray, view_.cast(ray))});
+    const auto beam = static_cast<double>(ranges_.size());
+    const Ray ray = this->ray(span.at(next), beam, own_body);
+    const double angle = scanner_.first_angle + beam * scanner_.pitch;
+    shoot(caster, {ray, angle, seen(caster, ray, angle, view_.cast(ray))});
     if (ranges_.size() == scanner_.count) complete();
   }
 }
@@ -97,9 +106,32 @@ void LaserModel::shoot(const Caster& caster, const Beam& beam) {
   previous_ = beam;
 }
 
+// Returns the first thing that a beam sees. `hit` is what it meets first in the world.
+Hit LaserModel::seen(const Caster& caster, const Ray& ray, double angle, Hit hit) const {
+  hit = through_glass(caster, ray, hit);
+  if (!own_circles_.empty() || !own_edges_.empty()) look_at_own(angle, hit);
+  return hit;
+}
+
+// Replaces the hit by what the beam meets of the robot itself, if that is nearer. Such a hit is given in the base frame.
+void LaserModel::look_at_own(double angle, Hit& hit) const {
+  constexpr std::uint64_t kFirst = std::uint64_t{1}
+                                   << 63U;  // Number of the first element; those of the world are smaller.
+  const Vec2 origin = scanner_.center.position();
+  const Vec2 ahead = direction(scanner_.center.yaw + angle);
+  std::uint64_t number = kFirst;
+  const auto test = [&](const auto& boundary) {
+    if (meet(origin, ahead, boundary, hit.range))
+      hit = {hit.range, boundary, number, origin + hit.range * ahead, ahead, Finish::plain};
+    ++number;
+  };
+  for (const Circle& circle : own_circles_) test(circle);
+  for (const Segment& edge : own_edges_) test(edge);
+}
+
 // Returns the first thing on a ray that is not glass, or glass that is met head on. `hit` is what the ray meets first. At
 // ideal all surfaces are alike.
-Hit LaserModel::seen(const Caster& caster, const Ray& ray, Hit hit) const {
+Hit LaserModel::through_glass(const Caster& caster, const Ray& ray, Hit hit) const {
   if (errors_.laser_threshold == 0.0) return hit;
   Ray rest = ray;
   double gone = 0.0;
@@ -129,7 +161,7 @@ bool LaserModel::returns(const Hit& hit) const { return hit.found() && hit.steep
 // A surface that returns nothing has no share. `rim` [rad] is the spot's end on the side to look at.
 void LaserModel::mix(const Caster& caster, const Beam& beam, double rim, double& range) const {
   const Ray at_rim = turned(beam.ray, rim);
-  const Hit other = seen(caster, at_rim, caster.cast(at_rim));
+  const Hit other = seen(caster, at_rim, beam.angle + rim, caster.cast(at_rim));
   if (!returns(beam.hit) || !returns(other)) return;
   if (std::fabs(other.range - beam.hit.range) < kDepthEdge) return;
   double inside = 0.0;
@@ -137,7 +169,7 @@ void LaserModel::mix(const Caster& caster, const Beam& beam, double rim, double&
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (inside + outside);
     const Ray between = turned(beam.ray, middle);
-    const double depth = seen(caster, between, caster.cast(between)).range;
+    const double depth = seen(caster, between, beam.angle + middle, caster.cast(between)).range;
     const bool same = std::fabs(depth - beam.hit.range) < std::fabs(depth - other.range);
     (same ? inside : outside) = middle;
   }

@@ -18,7 +18,9 @@ namespace orca::sim::detail {
 // scan falls at the end of the period.
 class LaserModel {
  public:
-  LaserModel(LaserScanner scanner, const ErrorLevels& errors, RandomStream random, TimePoint start);
+  // @param own  what its beams meet of the robot itself, in the base frame.
+  LaserModel(LaserScanner scanner, const std::vector<Shape>& own, const ErrorLevels& errors,
+             RandomStream random, TimePoint start);
 
   // Shoots every beam that is due in the span.
   void run(const Caster& caster, std::size_t own_body, const TickSpan& span);
@@ -29,6 +31,7 @@ class LaserModel {
  private:
   struct Beam {
     Ray ray;
+    double angle;  // [rad] In the sensor frame.
     Hit hit;
   };
 
@@ -36,7 +39,9 @@ class LaserModel {
   [[nodiscard]] Ray ray(const Pose2& X_WB, double beam, std::size_t own_body) const;
   void look(const Caster& caster, std::size_t own_body, const TickSpan& span);
   void shoot(const Caster& caster, const Beam& beam);
-  [[nodiscard]] Hit seen(const Caster& caster, const Ray& ray, Hit hit) const;
+  [[nodiscard]] Hit seen(const Caster& caster, const Ray& ray, double angle, Hit hit) const;
+  [[nodiscard]] Hit through_glass(const Caster& caster, const Ray& ray, Hit hit) const;
+  void look_at_own(double angle, Hit& hit) const;
   [[nodiscard]] bool returns(const Hit& hit) const;
   [[nodiscard]] double strength_of(const Hit& hit) const;
   void mix(const Caster& caster, const Beam& beam, double rim, double& range) const;
@@ -44,6 +49,8 @@ class LaserModel {
   [[nodiscard]] double measured(double range, double strength);
 
   LaserScanner scanner_;
+  std::vector<Circle> own_circles_;  // Of the robot itself, in the base frame.
+  std::vector<Segment> own_edges_;
   ErrorLevels errors_;
   RandomStream random_;
   double drop_tangent_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "orca/geometry/arc.hpp"
+#include "orca/sim/sections.hpp"
 
 namespace orca::sim::detail {
 
@@ -26,7 +27,8 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
   if (model.gripper) gripper.emplace(*model.gripper);
   const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
   for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
-  for (const LaserScanner& s : model.lasers) lasers.emplace_back(s, errors, stream(s.name), birth.time);
+  for (const LaserScanner& s : model.lasers)
+    lasers.emplace_back(s, sections_of(model, s.sees, s.height), errors, stream(s.name), birth.time);
   for (const InfraredRing& s : model.infrareds) infrareds.emplace_back(s, errors, stream(s.name), birth.time);
   for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }

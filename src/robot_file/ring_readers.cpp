@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "orca/base/text.hpp"
+#include "orca/xml/quantity.hpp"
 #include "part_readers.hpp"
 
 namespace orca::robot_file {
@@ -36,7 +39,35 @@ void read_directions(const xml::Attributes& e, BumperRing& ring) {
   if (ring.count > 0) set(ring.angles, e.numbers("angles", ring.count));
 }
 
+// Reads sectors with ';' between them: "50 deg, 65 deg".
+std::vector<LaserScanner::Sector> read_sectors(const xml::Attributes& e, std::string_view name) {
+  std::vector<LaserScanner::Sector> sectors;
+  const xml::Attribute* const a = e.readable(name);
+  if (a == nullptr) return sectors;
+  for (const std::string_view piece : xml::split(a->value, ";")) {
+    const std::vector<std::string_view> ends = xml::split(piece, ",");
+    const auto angle = [&](std::size_t i) { return xml::parse_quantity(ends[i], "rad"); };
+    if (ends.size() == 2 && angle(0) && angle(1) && *angle(0) < *angle(1)) {
+      sectors.push_back({angle(0).value(), angle(1).value()});
+    } else {
+      e.error_at(
+          name, codes::kBadValue,
+          in_quotes(std::string(piece)) +
+              " is not a sector; write two angles, the smaller one first, as in \"50 deg, 65 deg\", and ';' "
+              "between sectors");
+    }
+  }
+  return sectors;
+}
+
 }  // namespace
+
+bool LaserScanner::ignores(double angle) const {
+  return std::ranges::any_of(ignore, [&](const Sector& sector) {
+    const double half = 0.5 * (sector.to - sector.from);
+    return std::fabs(std::remainder(angle - sector.from - half, 2.0 * std::numbers::pi)) <= half + kRounding;
+  });
+}
 
 void read_laser(const xml::Attributes& e, Devices& model) {
   LaserScanner laser;
@@ -51,6 +82,9 @@ void read_laser(const xml::Attributes& e, Devices& model) {
   set(laser.divergence, e.number_or("divergence", 0.0));
   set(laser.period, e.duration("period"));
   set(laser.sweep, e.duration_or("sweep", Duration{0}));
+  if (e.has("sees"))
+    for (const std::string_view link : xml::words(e.attribute("sees")->value)) laser.sees.emplace_back(link);
+  laser.ignore = read_sectors(e, "ignore");
   check(e, laser);
   laser.label = read_label(e);
   laser.errors = read_range_errors(e, laser.max_range);

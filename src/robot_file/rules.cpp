@@ -84,6 +84,8 @@ constexpr std::array kLaser{required("name", kName),
                             optional("divergence", not_negative("rad")),
                             required("period", kPeriod),
                             optional("sweep", kTime),
+                            optional("sees", kText),
+                            optional("ignore", kText),
                             optional("vendor", kText),
                             optional("model", kText),
                             optional("port", kText)};

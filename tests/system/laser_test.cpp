@@ -108,6 +108,27 @@ TEST_CASE("without LaserAvoid the robot drives into the pillar", "[system][laser
   CHECK_FALSE(run.contacts().empty());
 }
 
+TEST_CASE("a robot whose laser sees its own posts drives if its file says where, and is blocked if not",
+          "[system][laser]") {
+  const auto first_goal_of = [](const std::string& robot) {
+    return run_deployer(
+        Words{source_file("graphs/pioneer_laser_goto.xml"), "--set", "robot=" + robot, "--until", "30 s"} +
+        virtual_clock());
+  };
+  const Run driven = first_goal_of(source_file("sim/fixtures/pioneer_2dx_deck.urdf"));
+  INFO(driven.err);
+  CHECK(driven.arrivals().size() == 1);
+  CHECK(driven.contacts().empty());
+  std::string text = read_text(source_file("sim/fixtures/pioneer_2dx_deck.urdf"));
+  const std::string ignore = "ignore=\"51 deg, 69 deg; -70 deg, -54 deg\"";
+  REQUIRE(text.find(ignore) != std::string::npos);
+  text.replace(text.find(ignore), ignore.size(), "");
+  const TempFolder folder;
+  const Run blocked = first_goal_of(folder.write("deck.urdf", text));
+  INFO(blocked.err);
+  CHECK(blocked.arrivals().empty());
+}
+
 TEST_CASE("LaserAvoid learns from the base how large the robot is, as if the graph said so",
           "[system][laser]") {
   const Run asked = pioneer_with(kQuestion,

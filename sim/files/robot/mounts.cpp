@@ -7,7 +7,9 @@
 #include "footprint.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
+#include "orca/sim/sections.hpp"
 #include "orca/xml/attributes.hpp"
+#include "orca/xml/number.hpp"
 #include "urdf_check.hpp"
 
 namespace orca::sim::detail {
@@ -77,6 +79,30 @@ void turn_over(std::vector<LaserScanner>& lasers, const UrdfBody& body) {
     laser.upside_down = true;
     laser.first_angle = -laser.first_angle;
     laser.pitch = -laser.pitch;
+    for (LaserScanner::Sector& sector : laser.ignore) sector = {-sector.to, -sector.from};
+  }
+}
+
+// Reports links that a laser is to see and cannot: there are none of the name, nothing solid is at the laser's height, or they turn
+// where it does not.
+void check_sight(const RobotModel& model, const UrdfBody& body, const UrdfJoint* turret,
+                 const xml::Attributes& e) {
+  const xml::Attribute* const name = e.attribute("name");
+  const auto laser = name == nullptr ? model.lasers.end()
+                                     : std::ranges::find(model.lasers, name->value, &LaserScanner::name);
+  if (laser == model.lasers.end()) return;
+  for (const std::string& link : laser->sees) {
+    if (!body.links.contains(link)) {
+      e.error_at("sees", robot_codes::kUnknownName, "there is no link " + in_quotes(link));
+    } else if (is_on(turret, link) != laser->on_turret) {
+      e.error_at("sees", robot_codes::kContradiction,
+                 "the link " + in_quotes(link) +
+                     " and the laser must both turn with the turret, or both stay with the body");
+    } else if (sections_of(model, {link}, laser->height).empty()) {
+      e.error_at("sees", robot_codes::kContradiction,
+                 "the link " + in_quotes(link) + " has no <collision> at the height of the laser, " +
+                     xml::number_text(laser->height) + " m above the floor");
+    }
   }
 }
 
@@ -112,6 +138,8 @@ void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& 
   mount(model.sonars, body, turns);
   mount(model.lasers, body, turns);
   turn_over(model.lasers, body);
+  for (const xml::Element& e : orca.children())
+    if (e.name() == "laser") check_sight(model, body, turns, {e, kRobotFile, reporter});
   mount(model.infrareds, body, turns);
   const xml::Element* gripper = only_child(orca, "gripper");
   if (gripper != nullptr && model.gripper)

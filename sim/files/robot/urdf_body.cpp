@@ -72,7 +72,10 @@ std::vector<std::string> add_link(const urdf::Link& link, const btTransform& X_B
   std::vector<std::string> names{link.name};
   body.links[link.name] = pose_of(X_BL);
   if (link.inertial && link.inertial->mass > 0.0) add_inertial(*link.inertial, X_BL, body);
-  for (const auto& collision : link.collision_array) body.parts.push_back(part_of(*collision, X_BL, hulls));
+  for (const auto& collision : link.collision_array) {
+    body.parts.push_back(part_of(*collision, X_BL, hulls));
+    body.parts.back().link = link.name;
+  }
   for (const auto& child : link.child_links) {
     const urdf::Joint& joint = *child->parent_joint;
     const btTransform X_BJ = X_BL * transform_of(joint.parent_to_joint_origin_transform);

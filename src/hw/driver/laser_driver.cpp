@@ -2,6 +2,7 @@
 #include "orca/hw/laser_driver.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/geometry/objects/ranges.hpp"
@@ -58,6 +59,9 @@ void LaserDriver::publish(std::span<const double> ranges, TimePoint stamp, doubl
   const Scans scans = this->scans();
   auto object = endpoint_->loan();
   object->ranges().assign(ranges.begin(), ranges.end());
+  for (std::size_t k = 0; k < ranges.size(); ++k)
+    if (place_.ignores(place_.sense() * (scans.first_angle + static_cast<double>(k) * scans.increment)))
+      object->ranges()[k] = std::numeric_limits<double>::quiet_NaN();
   object->min_range(scans.min_range);
   object->max_range(scans.max_range);
   object->pose(level_pose(place_.place(), place_.height(), stamp));

@@ -44,6 +44,7 @@ void LaserPlace::read_file(std::vector<HardwareFault>& faults) {
   height_ = found->height;
   sense_ = found->upside_down ? -1.0 : 1.0;
   errors_ = found->errors.general();
+  laser_ = *found;
 }
 
 }  // namespace orca::hw

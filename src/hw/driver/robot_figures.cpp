@@ -23,6 +23,8 @@ void place(robot_file::LaserScanner& laser, const LinkTree& tree, const xml::Ele
                   portable::atan2(place(1, 0), place(0, 0))};
   laser.height = place.translation().z();
   laser.upside_down = place(2, 2) < 0.0;
+  if (laser.upside_down)
+    for (robot_file::LaserScanner::Sector& sector : laser.ignore) sector = {-sector.to, -sector.from};
   if (std::abs(place(2, 2)) < 1.0 - kLevel)
     reporter.error(robot_file::codes::kContradiction, at.position(),
                    "the laser " + in_quotes(laser.name) +

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <numbers>
+#include <tuple>
 
 #include "orca/hw/base_figures.hpp"
 #include "orca/hw/laser_place.hpp"
@@ -246,6 +247,44 @@ TEST_CASE("the file of a robot that drives otherwise, or not at all, is refused"
   CHECK_THAT(all_of(base.read(kPioneer)), Contains("has no <drive>"));
   owner.set("robot", kRobots + "nobody.urdf");
   CHECK_THAT(all_of(base.read(kPioneer)), Contains("nobody.urdf"));
+}
+
+TEST_CASE("drivers and the simulator leave out the same readings of the robot itself, also upside down",
+          "[hw][robot_file]") {
+  const TempFolder folder;
+  const std::string text = read_text(std::string(ORCA_SOURCE_DIR) + "/sim/fixtures/pioneer_2dx_deck.urdf");
+  const std::string upright = R"(<origin xyz="0.017 0.008 0.3"/>)";
+  REQUIRE(text.find(upright) != std::string::npos);
+  std::string hanging = text;
+  hanging.replace(hanging.find(upright), upright.size(),
+                  R"(<origin xyz="0.017 0.008 0.3" rpy="3.141592653589793 0 0"/>)");
+  const auto ignored = [&](const std::string& robot, int degrees) {
+    xml::Diagnostics diagnostics;
+    const std::string file = folder.write("r.urdf", robot);
+    const auto model = sim::read_robot(file, diagnostics);
+    REQUIRE(model);
+    Owner owner;
+    hw::LaserPlace place(owner, "its middle beam");
+    owner.set("robot", file);
+    REQUIRE(place.read().empty());
+    const double angle = degrees * std::numbers::pi / 180.0;
+    CHECK(place.ignores(angle) == model->lasers[0].ignores(angle));
+    return place.ignores(angle);
+  };
+  for (const auto& [degrees, of_upright, of_hanging] : {std::tuple{50, false, false},
+                                                        {51, true, false},
+                                                        {60, true, true},
+                                                        {69, true, true},
+                                                        {70, false, true},
+                                                        {71, false, false},
+                                                        {-51, false, true},
+                                                        {-54, true, true},
+                                                        {-70, true, false},
+                                                        {0, false, false}}) {
+    INFO(degrees);
+    CHECK(ignored(text, degrees) == of_upright);
+    CHECK(ignored(hanging, degrees) == of_hanging);
+  }
 }
 
 TEST_CASE("a laser that hangs upside down measures in the other sense, for drivers and in the simulator",

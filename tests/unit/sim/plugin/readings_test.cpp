@@ -2,6 +2,8 @@
 // The poses and stamps of range readings, for sensors on a body that stays behind when the base's wheels steer.
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 #include "objects.hpp"
 
 using namespace orca;
@@ -55,6 +57,19 @@ TEST_CASE("a round of an infrared ring says where the ring's middle was", "[sim]
   fill(readings, InfraredScan{kStamp, {0.1, 0.2, 0.3}, kBody}, mounted<InfraredRing>());
   check_pose(readings);
   CHECK(sensed_at(readings) == kStamp);
+}
+
+TEST_CASE("readings in directions that a laser ignores are left out, and the others stay",
+          "[sim][readings]") {
+  LaserScanner laser = mounted<LaserScanner>();
+  laser.first_angle = -0.1;
+  laser.pitch = 0.1;
+  laser.ignore = {{-0.02, 0.02}};
+  idl::LaserRangeReadings readings;
+  fill(readings, LaserScan{kStamp, {1.0, 2.0, 3.0}, kBody}, laser);
+  CHECK(readings.ranges()[0] == 1.0);
+  CHECK(std::isnan(readings.ranges()[1]));
+  CHECK(readings.ranges()[2] == 3.0);
 }
 
 TEST_CASE("a scan of a laser says where the scanner was at the first reading", "[sim][readings]") {

@@ -28,7 +28,7 @@ double ahead_of_edge(double edge, double far = kFar) {
   const Caster caster(world);
   ErrorLevels errors;
   errors.mixed_pixels = true;
-  detail::LaserModel model(laser, errors, orca::RandomStream(1, "dewey", "laser"), {});
+  detail::LaserModel model(laser, {}, errors, orca::RandomStream(1, "dewey", "laser"), {});
   const orca::TimePoint end = orca::TimePoint{} + laser.period;
   model.run(caster, static_cast<std::size_t>(-1), {{}, end, {}, {}});
   return model.completed().value().ranges[90];

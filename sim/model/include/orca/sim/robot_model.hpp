@@ -48,6 +48,7 @@ struct Part {
   };
   std::variant<Block, Cylinder, Ball, Hull> form;
   Pose3 X_BP;
+  std::string link{};  ///< URDF link that it belongs to.
 };
 
 /// The description of a type of robot for the simulation, or of sensors without a robot. A plain value; see read_robot().

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,10 @@ namespace orca::sim {
 /// @param height  [m] height above the floor.
 /// @thread  pure function; any thread.
 [[nodiscard]] std::vector<Shape> sections_at(const std::vector<Part>& parts, double height);
+
+/// Returns the same for the parts of some links of a robot.
+[[nodiscard]] std::vector<Shape> sections_of(const RobotModel& robot, const std::vector<std::string>& links,
+                                             double height);
 
 /// Returns the convex plans, in the base frame, of what the parts have between two heights: at most one per
 /// part, in the order of the parts. Each is a Circle or a convex Outline, as exact as those of sections_at().

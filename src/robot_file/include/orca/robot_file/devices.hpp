@@ -28,6 +28,13 @@ struct DeviceLabel {
 /// A scanning laser. Reading k looks along first_angle + k * pitch in the sensor frame; the beam sweeps from
 /// the first to the last at an even pace.
 struct LaserScanner {
+  /// Directions between two angles [rad] in the sensor frame, from `from` counter-clockwise to `to`, both included.
+  struct Sector {
+    double from = 0.0;
+    double to = 0.0;
+    friend bool operator==(const Sector&, const Sector&) = default;
+  };
+
   std::string name;
   std::size_t count = 0;  ///< Number of ranges in a scan.
   /// [rad] Direction of reading 0 in the sensor frame, counter-clockwise from its x axis.
@@ -45,8 +52,15 @@ struct LaserScanner {
   bool on_turret = false;   ///< Whether that link turns with the turret.
   /// Whether it hangs upside down. The angles above are those of a level frame all the same; its own are their negatives.
   bool upside_down = false;
+  /// Links of the robot itself that its beams meet; they pass through all others.
+  std::vector<std::string> sees{};
+  /// Directions in which it sees the robot itself: these readings are left out, as NaN.
+  std::vector<Sector> ignore{};
   DeviceLabel label{};
   Guesses<RangeErrorGuess> errors{};
+
+  /// Returns whether readings in a direction are left out. @param angle  [rad] in the sensor frame.
+  [[nodiscard]] bool ignores(double angle) const;
 };
 
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along

@@ -8,6 +8,7 @@
 #include "orca/component/param.hpp"
 #include "orca/geometry/error_guess.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/robot_file/devices.hpp"
 
 namespace orca::hw {
 
@@ -44,6 +45,9 @@ class LaserPlace {
   [[nodiscard]] double height() const { return height_; }
   /// Returns the factor on its angles: -1 if it hangs upside down, else 1.
   [[nodiscard]] double sense() const { return sense_; }
+  /// Returns whether readings in a direction are left out, because the robot's file says that the laser sees the robot itself there.
+  /// @param angle  [rad] in the sensor frame of a level laser, as in its scans.
+  [[nodiscard]] bool ignores(double angle) const { return laser_.ignores(angle); }
   /// Returns how wrong its ranges are, as far as the robot's file guesses it.
   [[nodiscard]] const RangeErrorGuess& errors() const { return errors_; }
 
@@ -61,6 +65,7 @@ class LaserPlace {
   double height_ = 0.0;
   double sense_ = 1.0;
   RangeErrorGuess errors_;
+  robot_file::LaserScanner laser_;  // of the robot's file
 };
 
 }  // namespace orca::hw
