@@ -24,6 +24,15 @@ constexpr double kHeadOn = 0.05;     // [m] Somebody so little to its right coun
 constexpr double kOnTrack = 1e-6;    // [m] Nothing stands so near to a track.
 constexpr double kAsideShare = 0.5;  // Of its speed with which it steps aside.
 
+constexpr double kStep = 0.65;   // [m] Way from the step of one leg to that of the other.
+constexpr double kCrotch = 0.5;  // Height of its legs as a share of its height.
+
+// Returns how far a leg is ahead, as a share of its swing: a triangle wave that begins at 0.
+double swing(double way) {
+  const double phase = std::remainder(way / kStep, 2.0);
+  return std::fabs(phase) <= 0.5 ? 2.0 * phase : std::copysign(2.0, phase) - 2.0 * phase;
+}
+
 Vec2 left_of(Vec2 ahead) { return {-ahead.y, ahead.x}; }
 
 Pose2 standing(Vec2 position) { return {position.x, position.y, 0.0}; }
@@ -38,6 +47,9 @@ Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, 
     const std::size_t number = add(walker.name, Circle{{}, walker.radius}, walker.height, begin);
     movers_[number].walk = Walk{std::move(track), walker.stops, walker.speed};
     movers_[number].walk->yields = walker.yields;
+    movers_[number].walk->legs = walker.legs;
+    movers_[number].walk->ahead = movers_[number].walk->track.at({}).ahead;
+    if (movers_[number].has_legs()) caster_.move_solids(movers_[number].body, movers_[number].figure());
   }
 }
 
@@ -146,9 +158,32 @@ void Movers::arrive() {
     const double share = physics_.mover_progress(number);
     walk.walked += share > kWhole ? walk.advance
                                   : Duration(std::llround(share * static_cast<double>(walk.advance.count())));
+    const Vec2 before = mover.pose.position();
     mover.pose = physics_.mover_pose(number);
-    caster_.move_body(mover.body, mover.placed());
+    if (!mover.has_legs()) {
+      caster_.move_body(mover.body, mover.placed());
+      continue;
+    }
+    walk.way += norm(mover.pose.position() - before);
+    walk.ahead = walk.track.at(walk.walked).ahead;
+    caster_.move_solids(mover.body, mover.figure());
   }
+}
+
+// The legs swing as far as the cylinder has room for them, and in opposite directions.
+std::array<Circle, 2> Movers::Mover::legs() const {
+  const double radius = 0.5 * walk->legs;
+  const double room = std::get<Circle>(shape).radius - radius;
+  const double aside = Walker::kHip * std::get<Circle>(shape).radius;
+  const Vec2 left = aside * left_of(walk->ahead);
+  const Vec2 on = swing(walk->way) * std::sqrt(room * room - aside * aside) * walk->ahead;
+  return {Circle{pose.position() + left + on, radius}, Circle{pose.position() - left - on, radius}};
+}
+
+std::vector<Body> Movers::Mover::figure() const {
+  const double crotch = kCrotch * height;
+  const auto both = legs();
+  return {{both[0], 0.0, crotch}, {both[1], 0.0, crotch}, {placed(), crotch, height}};
 }
 
 std::optional<double> Movers::walking_speed(std::size_t number) const {
@@ -187,6 +222,8 @@ void Movers::draw(Snapshot& snapshot) const {
     if (!m.present) continue;
     const Shape shape = m.placed();
     if (const auto* circle = std::get_if<Circle>(&shape)) snapshot.circles.push_back(*circle);
+    if (m.has_legs())
+      for (const Circle& leg : m.legs()) snapshot.circles.push_back(leg);
     const std::vector<Segment> edges = edges_of(shape);
     snapshot.edges.insert(snapshot.edges.end(), edges.begin(), edges.end());
     const Bounds b = bounds_of(shape);
@@ -196,10 +233,12 @@ void Movers::draw(Snapshot& snapshot) const {
 }
 
 void Movers::add_to(Fnv1a& hash) const {
-  for (const Mover& m : movers_)
-    if (m.present)
-      for (const double value : {m.pose.x, m.pose.y, m.pose.yaw})
-        hash.add_u64(std::bit_cast<std::uint64_t>(value));
+  for (const Mover& m : movers_) {
+    if (!m.present) continue;
+    for (const double value : {m.pose.x, m.pose.y, m.pose.yaw})
+      hash.add_u64(std::bit_cast<std::uint64_t>(value));
+    if (m.has_legs()) hash.add_u64(std::bit_cast<std::uint64_t>(m.walk->way));
+  }
 }
 
 }  // namespace orca::sim::detail

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <string>
@@ -59,6 +60,9 @@ class Movers {
     double pace = 0.0;      // [m/s] At which it does.
     double yields = 0.0;    // Share of the room that it makes for others.
     Duration advance{0};    // By which it goes on along its track in the present tick, if nothing holds it.
+    double legs = 0.0;      // [m] Diameter; 0: none.
+    double way = 0.0;       // [m] It has gone, which tells how its legs stand.
+    Vec2 ahead{1.0, 0.0};   // Unit vector, the direction of its track.
   };
   struct Mover {
     std::string name;
@@ -69,6 +73,11 @@ class Movers {
     bool present = true;
     std::optional<Walk> walk{};
     [[nodiscard]] Shape placed() const { return sim::placed(shape, pose); }
+    [[nodiscard]] bool has_legs() const { return walk && walk->legs > 0.0; }
+    // Returns its two legs. @pre  has_legs()
+    [[nodiscard]] std::array<Circle, 2> legs() const;
+    // Returns what sensors see of it. @pre  has_legs()
+    [[nodiscard]] std::vector<Body> figure() const;
   };
 
   // Somebody whom a walker sees.

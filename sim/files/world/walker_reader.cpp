@@ -17,6 +17,7 @@ constexpr std::size_t kMaxTrackCorners = 100;
 constexpr double kShortest = 0.001;  // [m]
 constexpr double kSlowest = 0.01;    // [m/s]
 constexpr double kFastest = 20.0;
+constexpr double kWidestLegs = 2.0 * Walker::kHip;  // Diameter as a share of the radius.
 constexpr Duration kLongest = std::chrono::hours{1000};
 
 // Returns the reason why nobody can walk along these corners; empty if one can.
@@ -69,6 +70,11 @@ Walker read_walker(const xml::Attributes& element) {
   check_limits(element, walker);
   set(walker.stops, element.number_or("stops", walker.stops));
   set(walker.yields, element.number_or("yields", walker.yields));
+  set(walker.legs, element.number_or("legs", walker.legs));
+  if (walker.legs > kWidestLegs * walker.radius)
+    element.error_at(
+        "legs", world_codes::kBadWalker,
+        "two legs side by side have at most 0.8 times the walker's radius, or they would overlap");
   return walker;
 }
 

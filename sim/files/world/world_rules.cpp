@@ -79,7 +79,8 @@ constexpr std::array kWalker{required("name", kName),
                              optional("start", kTime),
                              optional("seed", kSeed),
                              optional("stops", kLengthOrZero),
-                             optional("yields", not_negative("", 1.0))};
+                             optional("yields", not_negative("", 1.0)),
+                             optional("legs", kLengthOrZero)};
 
 constexpr std::array kItem{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
                            required("radius", positive("m", 2.0)), required("height", positive("m", 2.0))};

@@ -262,3 +262,76 @@ TEST_CASE("errors of a walker are reported at their place", "[sim][walker][world
           "<walker name='a' track='0 0; 4 0'/><box name='desk' x='2' y='0.3' length='1' width='0.4'/>"),
       Catch::Contains("w.xml:2:1: error W019: \"a\" would walk through obstacle \"desk\""));
 }
+
+namespace {
+
+// Returns the legs of the walker: the circles of the snapshot after it.
+std::pair<Circle, Circle> legs(const World& world) {
+  const auto circles = world.snapshot().circles;
+  REQUIRE(circles.size() == 4);
+  return {circles[2], circles[3]};
+}
+
+// Returns the ranges that somebody sees who looks along y at the walker, from 1 m beside its track.
+double range_at(const World& world, double x, double height) {
+  return world.caster().cast({{x, 1.0}, {0.0, 1.0}, 5.0, height}).range;
+}
+
+Walker legged() {
+  Walker walker = anna();
+  walker.legs = 0.12;
+  return walker;
+}
+
+}  // namespace
+
+TEST_CASE("a walker with legs is two legs up to half of its height, and the cylinder above",
+          "[sim][walker]") {
+  World world(room_with(legged()), {.seed = 1, .realism = Realism::nominal});
+  CHECK(range_at(world, -2.0, 0.3) == Approx(1.0 - 0.1 - 0.06));  // The right leg, beside the left one.
+  CHECK(range_at(world, -2.0, 0.9) == Approx(1.0 - 0.25));
+  CHECK(range_at(world, -2.2, 0.9) == Approx(1.0 - 0.15));
+  CHECK(range_at(world, -2.2, 0.3) > 1.25);  // Beside the legs.
+  CHECK(range_at(world, -2.0, 1.7) > 1.25);
+}
+
+TEST_CASE("the legs swing against each other as the walker walks, within its cylinder, and rest with it",
+          "[sim][walker]") {
+  Walker walker = legged();
+  walker.pause = seconds{5};
+  World world(room_with(walker), {.seed = 1, .realism = Realism::nominal});
+  double most = 0.0;
+  double least = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    world.step();
+    const auto [left, right] = legs(world);
+    const Vec2 middle = place(world);
+    check_at(left.center + right.center, 2.0 * middle);
+    CHECK(norm(left.center - middle) + left.radius <= walker.radius + 1e-9);
+    CHECK(left.center.y - middle.y == Approx(0.4 * walker.radius));
+    const double ahead = left.center.x - middle.x;
+    most = std::max(most, ahead);
+    least = std::min(least, ahead);
+    if (std::fabs(ahead) < left.radius) continue;  // The right leg hides it.
+    CHECK(range_at(world, left.center.x, 0.3) == Approx(left.center.y - left.radius - 1.0).margin(1e-9));
+  }
+  const double room = std::sqrt(0.19 * 0.19 - 0.1 * 0.1);
+  CHECK(most == Approx(room).margin(0.01));
+  CHECK(least == Approx(-room).margin(0.01));
+  run(world, 2.1);
+  const auto rested = legs(world);
+  world.step();
+  CHECK(legs(world) == rested);
+}
+
+TEST_CASE("legs that would overlap are an error, and a world file says how wide they are", "[sim][walker]") {
+  CHECK(
+      errors_of_walker("<walker name='a' track='0 0; 1 0' radius='0.2 m' legs='0.17 m'/>").find("overlap") !=
+      std::string::npos);
+  orca::xml::Diagnostics diagnostics;
+  const auto world =
+      read_world_text("<world name='w' version='1'><walker name='a' track='0 0; 1 0' legs='12 cm'/></world>",
+                      "w.xml", diagnostics);
+  REQUIRE(world.has_value());
+  CHECK(world->walkers[0].legs == 0.12);
+}

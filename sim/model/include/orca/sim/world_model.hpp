@@ -19,7 +19,7 @@
 
 namespace orca::sim {
 
-/// A person as an upright cylinder that walks along a track of straight legs for ever.
+/// A person as an upright cylinder, for sensors on two legs if it has some, that walks along a track of straight legs for ever.
 ///
 /// Its place depends only on the time and the seed, unless it stops for robots or steps aside. It pushes robots that
 /// are in its way.
@@ -38,6 +38,11 @@ struct Walker {
   /// Share of the room that it makes, by stepping aside, for a robot or another walker ahead of it: 0 it walks straight on, 1 it
   /// makes all of the room. Robots and other walkers may make the rest.
   double yields = 0.0;
+  /// [m] Diameter of its legs; 0: it has none. Then sensors see the cylinder at all heights; otherwise below half of its height two
+  /// legs within the cylinder, which swing as it walks. Robots touch the cylinder all the same.
+  double legs = 0.0;
+  static constexpr double kHip =
+      0.4;  ///< Distance of each leg from the middle, to its side, as a share of the radius.
 };
 
 /// What a surface does to the light of a laser. Sonars, infrared sensors and bumpers do not tell them apart.
