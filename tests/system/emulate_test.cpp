@@ -220,6 +220,30 @@ TEST_CASE("each shipped robot reaches all its goals with its real drivers, the s
   }
 }
 
+TEST_CASE("the real driver of a laser leaves out the posts that the robot's file tells it to ignore",
+          "[system][hardware]") {
+  const auto drive = [](const std::string& robot) {
+    return run_deployer(Words{source_file("graphs/pioneer2dx_sick.xml"), "--profile", "emulate", "--until",
+                              "20 s", "--set", "robot=" + robot} +
+                            virtual_clock(),
+                        Seconds(60));
+  };
+  const std::string file = source_file("sim/fixtures/pioneer_2dx_deck.urdf");
+  const Run driven = drive(file);
+  INFO(driven.err);
+  CHECK(driven.arrivals().size() == 1);
+  CHECK_FALSE(driven.says("it sees itself"));
+  std::string text = read_text(file);
+  const std::size_t ignore = text.find("ignore=\"");
+  REQUIRE(ignore != std::string::npos);
+  text.erase(ignore, text.find("deg\"", ignore) + 4 - ignore);
+  const TempFolder folder;
+  const Run blocked = drive(folder.write("deck.urdf", text));
+  INFO(blocked.err);
+  CHECK(blocked.arrivals().empty());
+  CHECK(blocked.says("it sees itself"));
+}
+
 TEST_CASE("in real time each shipped robot reaches all its goals with its real drivers on emulated devices",
           "[.][slow]") {
   for (const Robot& robot : kRobots) {
