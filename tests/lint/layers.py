@@ -120,7 +120,7 @@ LAYERS = (
     Layer("host_picture", (f"{HOST}/picture",), ("orca/host/picture.hpp",), DEVICE, ("cairo", "fmt"), module=HOST),
     Layer("host", (HOST,), ("orca/host/",), ("host_picture", "host_containment", "plugin", "graph", "hw_api",
           "component_api", "patterns_endpoints", "idl", "base"), module=HOST),
-    Layer("host_recording", (f"{HOST}/run/recording",), ("orca/host/port_taps.hpp",), ("host", "graph",
+    Layer("host_recording", (f"{HOST}/run/recording",), ("orca/host/port_taps.hpp",), ("recording_objects", "recording", "host", "graph",
           "patterns_endpoints", "text", "idl", "base"), module=HOST),
     Layer("host_reporting", (f"{HOST}/run/reporting",), (), ("host_recording", "host", "host_containment", "plugin",
           "hw_api", "patterns_endpoints", "idl", "base"), module=HOST),

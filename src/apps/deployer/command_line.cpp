@@ -76,9 +76,13 @@ std::vector<OptionSpec> writing_options() {
       {"--values", "",
        "in the trace, each object that is delivered, so that two runs can be compared to the first differing "
        "number"},
-      {"--record", "FILE.csv=PORT,...",
-       "a table of all objects that a PushServer pushes, a SendProxy sends, or that arrive at another port, "
-       "for a spreadsheet or pandas; --list-ports lists the ports; each time with another file",
+      {"--record", "FILE",
+       "records the run: FILE.mcap everything, or FILE.mcap=PORT,... what passes these ports, as an MCAP "
+       "file for "
+       "Foxglove, PlotJuggler, rosbag readers and orcactl bag; FILE.csv=PORT,... a table of all objects that "
+       "a "
+       "PushServer pushes, a SendProxy sends, or that arrive at another port, for a spreadsheet or pandas; "
+       "--list-ports lists the ports; each time with another file",
        true},
       {"--picture", "FILE", "draws the run, in the end, if it was simulated: .svg or .png"},
       {"--scene", "world|robot|film",

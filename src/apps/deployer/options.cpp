@@ -59,18 +59,24 @@ Status add_change(Options& options, const std::string& value) {
   return ok();
 }
 
-// Reads FILE.csv=PORT,...
+// Reads FILE.csv=PORT,... or FILE.mcap[=PORT,...]
 Status add_recording(Options& options, const std::string& value) {
-  const auto equals = value.rfind('=');
+  const bool is_whole_bag = host::is_bag_file(value);
+  const auto equals = is_whole_bag ? std::string::npos : value.rfind('=');
   const std::string file = value.substr(0, equals);
-  if (equals == std::string::npos || !file.ends_with(".csv") || file == ".csv")
-    return expected("--record", "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush", value);
+  const bool is_table = file.ends_with(".csv") && file != ".csv" && equals != std::string::npos;
+  if (!is_table && (!host::is_bag_file(file) || file == ".mcap"))
+    return expected("--record",
+                    "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush, or FILE.mcap, or "
+                    "FILE.mcap=PORT,...",
+                    value);
   for (const host::RecordingOptions& other : options.run.recordings)
     if (other.file == file)
       return wrong("--record: " + in_quotes(file) +
                    " is given twice; name all its ports at once, with commas between");
-  std::vector<std::string> ports = apps::split(value.substr(equals + 1), ',');
-  if (ports.empty()) return expected("--record", "a port after the =", value);
+  std::vector<std::string> ports =
+      is_whole_bag ? std::vector<std::string>{} : apps::split(value.substr(equals + 1), ',');
+  if (ports.empty() && !is_whole_bag) return expected("--record", "a port after the =", value);
   options.run.recordings.push_back({file, std::move(ports)});
   return ok();
 }

@@ -159,21 +159,16 @@ Status ObjectWriter::add_twins(std::string_view row, Row& places, const ObjectRe
   return ok();
 }
 
-Status ObjectWriter::add_log(std::string_view level, const std::string& source, const std::string& text,
-                             TimePoint written) {
+ObjectRef log_record(log::Level level, const std::string& source, const std::string& text,
+                     TimePoint written) {
   Loan<idl::LogRecord> record = make_object<idl::LogRecord>();
-  constexpr std::array<std::pair<std::string_view, idl::LogLevel>, 4> kLevels{
-      {{"debug", idl::LEVEL_DEBUG},
-       {"info", idl::LEVEL_INFO},
-       {"warning", idl::LEVEL_WARNING},
-       {"error", idl::LEVEL_ERROR}}};
-  for (const auto& [name, value] : kLevels)
-    if (name == level) record->level(value);
+  record->level(
+      static_cast<idl::LogLevel>(std::min(static_cast<int>(level), static_cast<int>(idl::LEVEL_ERROR))));
   record->source(source);
   record->text(text);
   record->stamp(to_time_value(written));
   record->creation_time(to_time_value(written));
-  return add(kLogRow, std::move(record).seal().ref(), written);
+  return std::move(record).seal().ref();
 }
 
 Status ObjectWriter::close(const std::map<std::string, std::uint64_t>& lost, const Values& more) {

@@ -92,7 +92,8 @@ TEST_CASE("what viewers of ROS 2 know is written a second time as they know it, 
   Memory memory;
   ObjectWriter writer(to(memory));
   REQUIRE(writer.add("Dewey/base.OdometryPush", odometry_of(1, 0.5), at(0.1)).ok());
-  REQUIRE(writer.add_log("warning", "base", "the wheels slip", at(0.2)).ok());
+  REQUIRE(
+      writer.add(kLogRow, log_record(log::Level::warning, "base", "the wheels slip", at(0.2)), at(0.2)).ok());
   REQUIRE(writer.close({}, {}).ok());
   const Result<Reader> reader = Reader::of(memory.bytes);
   std::map<std::string, std::string> types;

@@ -14,6 +14,7 @@
 #include "orca/base/system/task_time.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/port_list.hpp"
+#include "orca/graph/print.hpp"
 #include "orca/host/conclusion.hpp"
 #include "orca/host/edge_choice.hpp"
 #include "orca/host/idleness.hpp"
@@ -30,6 +31,12 @@ namespace orca::host {
 namespace {
 
 constexpr Duration kRestLimit = 1s;
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
 
 std::string restless_text(const std::vector<std::string>& names, Duration instant) {
   char time[32];
@@ -70,7 +77,7 @@ class Run {
   void run() {
     const auto ports = options_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(graph_, catalogue_);
-    if (const Status opened = files_.open(options_, ports); !opened.ok())
+    if (const Status opened = files_.open(options_, ports, recorded_run()); !opened.ok())
       return refuse_output(opened.error());
     if (options_.looks_on) reporter().look_on(sightings_);
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
@@ -84,13 +91,19 @@ class Run {
     if (options_.keeps_motion) scene_ = watched_.scene();
   }
 
+  [[nodiscard]] RecordedRun recorded_run() const {
+    return {graph_.name, graph::print(graph_), {{"seed", std::to_string(options_.seed.value_or(1))}}};
+  }
+
   void refuse_output(const Error& error) {
-    const bool wrong = error.code == Code::invalid_argument;
+    const bool wrong = error.code == Code::invalid_argument || error.code == Code::already_exists;
     reporter().log_error(error.text());
     conclusion_.conclude(wrong ? RunOutcome::bad_options : RunOutcome::not_started, error);
   }
 
   void close_outputs() {
+    if (executive_.is_virtual())
+      files_.recorder().conclude({{"trace-hash", hash_text(files_.trace().hash())}});
     for (const Error& error : files_.close()) fail_output(error);
   }
 

@@ -158,7 +158,7 @@ class HostedPart::Inside {
   Status open_outputs() {
     const auto ports = outputs_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(whole_, place_.catalogue);
-    if (Status opened = files_.open(outputs_, ports); !opened.ok()) return opened;
+    if (Status opened = files_.open(outputs_, ports, {}); !opened.ok()) return opened;
     if (outputs_.looks_on) watched_.reporter().look_on(sightings_);
     if (!outputs_.recordings.empty()) watched_.reporter().record(files_.recorder());
     return ok();

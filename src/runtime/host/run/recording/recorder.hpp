@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "bag_file.hpp"
 #include "orca/base/executive.hpp"
+#include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/run_outputs.hpp"
 #include "orca/idl/object.hpp"
+#include "orca/idl/system.hpp"
 
 namespace orca::host {
 
-/// A writer of the objects that pass through chosen ports, into CSV files: what a PushServer pushes, what a SendProxy
-/// sends, and what arrives at any other port.
+/// A writer of the objects that pass through chosen ports, into CSV and MCAP files: what a PushServer pushes, what a SendProxy
+/// sends, and what arrives at any other port. An MCAP file also has the log and the alarms.
 ///
 /// In virtual time it writes at once, so that a file depends on the run alone. In real time a thread of its own
 /// writes, and no component waits for it: while kMostWaiting objects wait to be written, further ones are left
@@ -33,8 +38,9 @@ class Recorder {
 
   /// Opens the files. To be called once.
   /// @param ports  all ports of the graph; those that are recorded are among them.
-  /// @errors  as OutputFile::open().
-  Status open(const std::vector<RecordingOptions>& files, const std::vector<graph::ListedPort>& ports);
+  /// @errors  as OutputFile::open(), and as recording::open_file().
+  Status open(const std::vector<RecordingOptions>& files, const std::vector<graph::ListedPort>& ports,
+              const RecordedRun& run = {});
 
   /// Returns whether what leaves through a port of a PushServer is recorded.
   [[nodiscard]] bool records_pushes(std::string_view component, std::string_view port) const;
@@ -42,6 +48,11 @@ class Recorder {
   void pushed(std::string_view component, std::string_view port, const ObjectRef& object);
   void requested(std::string_view component, std::string_view port, const ObjectRef& object);
   void delivered(std::string_view component, std::string_view port, const ObjectRef& object);
+
+  /// Takes an alarm that was raised or cleared.
+  void alarmed(const idl::Alarm& alarm);
+  /// Sets what is known of the run in the end: "trace-hash".
+  void conclude(std::map<std::string, std::string> facts);
 
   /// Writes what is left and closes the files. It does not wait for a pipe whose reader is stuck; the rest is
   /// lost then.
@@ -53,6 +64,7 @@ class Recorder {
 
   // Shared with the thread that writes, which may be stuck when this recorder goes.
   const std::shared_ptr<Desk> desk_;
+  std::optional<log::Listener> log_;  // if a file has the log
 };
 
 }  // namespace orca::host

@@ -3,14 +3,15 @@
 
 namespace orca::host {
 
-Status RunFiles::open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports) {
+Status RunFiles::open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports,
+                      const RecordedRun& run) {
   if (!wanted.trace_file.empty()) {
     const auto detail = wanted.trace_values ? Trace::Detail::values : Trace::Detail::events;
     if (Status opened = trace_.open(wanted.trace_file, detail); !opened.ok()) return opened;
   }
   if (!wanted.picture.file.empty())
     if (Status opened = picture_.open(wanted.picture.file); !opened.ok()) return opened;
-  return wanted.recordings.empty() ? ok() : recorder_.open(wanted.recordings, ports);
+  return wanted.recordings.empty() ? ok() : recorder_.open(wanted.recordings, ports, run);
 }
 
 std::vector<Error> RunFiles::close() {

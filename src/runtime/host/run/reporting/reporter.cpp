@@ -173,6 +173,7 @@ void Reporter::note(idl::Alarm alarm) {
   alarm.seq(alarms_.size() + 1);
   alarms_.push_back(std::move(alarm));
   alarm_news_.add(alarms_.back(), "");
+  if (recorder_ != nullptr) recorder_->alarmed(alarms_.back());
   listener_.alarm(alarms_.back());
 }
 

@@ -2,17 +2,23 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/host/picture.hpp"
 
 namespace orca::host {
 
-/// A table that a run writes: what passes through some ports, as CSV.
+/// What a run records: what passes through some ports, as a table in a CSV file, or as an MCAP file, which has the log and the
+/// alarms as well.
 struct RecordingOptions {
   std::string file;
-  std::vector<std::string> ports;  ///< "component.port", by their names in the graph.
+  /// "component.port", by their names in the graph; empty, of an MCAP file: all through which objects leave their component.
+  std::vector<std::string> ports;
 };
+
+/// Returns whether a recording is an MCAP file, by its name.
+[[nodiscard]] inline bool is_bag_file(std::string_view file) { return file.ends_with(".mcap"); }
 
 /// What a run leaves behind and shows besides its log. A plain value.
 struct RunOutputs {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/idl/object.hpp"
@@ -51,9 +52,6 @@ class ObjectWriter {
   /// @param passed  when it passed, by the run's clock.
   /// @errors  as Writer.
   Status add(std::string_view row, const ObjectRef& object, TimePoint passed);
-  /// Adds a line of the log.
-  Status add_log(std::string_view level, const std::string& source, const std::string& text,
-                 TimePoint written);
 
   /// Writes what waits for its chunk.
   Status flush() { return writer_.flush(); }
@@ -82,6 +80,10 @@ class ObjectWriter {
   std::uint16_t frames_channel_ = 0;
   std::vector<std::byte> payload_;
 };
+
+/// Returns a line of the log as an object.
+[[nodiscard]] ObjectRef log_record(log::Level level, const std::string& source, const std::string& text,
+                                   TimePoint written);
 
 /// Returns the topic of a row: "/base/OdometryPush" of "base.OdometryPush".
 [[nodiscard]] std::string topic_of(std::string_view row);
