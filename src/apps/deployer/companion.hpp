@@ -4,39 +4,68 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
+#include "orca/host/run_outputs.hpp"
 
 namespace orca::deployer {
 
 /// A program beside a running system, such as orcaview: a client like those that people start. If it dies, nothing else
-/// notices; it ends with this object, and if this process is killed.
+/// notices; it is asked to end if this process is killed.
 ///
 /// Thread contract: the main thread, which lives as long as the process.
 class Companion {
  public:
-  /// Starts a program of Orca, and waits for the first line that it prints: it is ready then.
+  /// Starts a program of Orca.
   /// @param name   of the program, which stands beside this one.
-  /// @errors  unavailable if it does not start, or ends without a line; what it says goes to stderr.
-  [[nodiscard]] static Result<Companion> start(const std::string& name,
-                                               const std::vector<std::string>& words);
+  /// @param tells  whether first_line() is wanted; otherwise its stdout is this program's.
+  /// @errors  unavailable if it cannot be started.
+  [[nodiscard]] static Result<Companion> start(const std::string& name, const std::vector<std::string>& words,
+                                               bool tells);
 
   Companion(Companion&& other) noexcept
-      : process_(std::exchange(other.process_, 0)), first_line_(std::move(other.first_line_)) {}
+      : process_(std::exchange(other.process_, 0)), output_(std::move(other.output_)) {}
   Companion& operator=(Companion&&) = delete;
-  /// Asks it to end, and waits for that.
-  ~Companion();
+  ~Companion() { (void)end(); }
 
-  [[nodiscard]] const std::string& first_line() const { return first_line_; }
+  /// Waits for the first line that it prints; "" if it ends without one, or takes more than 10 s.
+  [[nodiscard]] std::string first_line() const;
+
+  /// Asks it to end, and waits for that; after 5 s it is killed.
+  /// @return whether it has ended with exit status 0.
+  bool end();
 
  private:
-  Companion(pid_t process, std::string first_line) : process_(process), first_line_(std::move(first_line)) {}
+  Companion(pid_t process, Descriptor output) : process_(process), output_(std::move(output)) {}
 
-  pid_t process_ = 0;  // 0: moved from
-  std::string first_line_;
+  pid_t process_ = 0;  // 0: moved from, or ended
+  Descriptor output_;  // what it prints
+};
+
+/// Starts orcaview for a system, and prints its address on stderr.
+/// @return nothing if that fails, after it was said: a system runs without its page, too.
+[[nodiscard]] std::optional<Companion> start_viewer(const std::string& system);
+
+/// The processes that record a system of several processes into MCAP files: one `orcactl record` for each file, which waits for
+/// the system and ends with it.
+///
+/// Thread contract: the main thread.
+class Recorders {
+ public:
+  /// Starts them.
+  /// @errors  already_exists if a file is there; as Companion::start().
+  Status start(const std::string& system, const std::vector<host::RecordingOptions>& recordings);
+  /// Waits until they have written everything.
+  /// @errors  data_loss if one of them says on stderr why it could not.
+  Status finish();
+
+ private:
+  std::vector<std::pair<Companion, std::string>> running_;  // with their files
 };
 
 }  // namespace orca::deployer

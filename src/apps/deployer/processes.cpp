@@ -53,6 +53,8 @@ host::RunOutputs reachable(const host::RunOutputs& outputs) {
   host::RunOutputs all = outputs;
   all.trace_file = reachable(all.trace_file);
   all.picture.file = reachable(all.picture.file);
+  std::erase_if(all.recordings,
+                [](const host::RecordingOptions& one) { return host::is_bag_file(one.file); });
   for (host::RecordingOptions& recording : all.recordings) recording.file = reachable(recording.file);
   return all;
 }
@@ -70,9 +72,11 @@ Status try_to_open(const host::RunOutputs& outputs) {
   std::deque<OutputFile> recordings;
   if (Status opened = try_to_open(trace, outputs.trace_file); !opened.ok()) return opened;
   if (Status opened = try_to_open(picture, outputs.picture.file); !opened.ok()) return opened;
-  for (const host::RecordingOptions& recording : outputs.recordings)
+  for (const host::RecordingOptions& recording : outputs.recordings) {
+    if (host::is_bag_file(recording.file)) continue;  // its recorder opens it
     if (Status opened = try_to_open(recordings.emplace_back("the recording"), recording.file); !opened.ok())
       return opened;
+  }
   return ok();
 }
 
@@ -119,22 +123,11 @@ std::vector<std::string> files_of(const Options& options, const host::StopSignal
 host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
   log::error(log_name, error.text());
   host::RunResult result;
-  const bool wrong = error.code == Code::invalid_argument;
+  const bool wrong = error.code == Code::invalid_argument || error.code == Code::already_exists;
   result.outcome = wrong ? host::RunOutcome::bad_options : host::RunOutcome::not_started;
   result.error = error;
   listener.ended(result);
   return result;
-}
-
-// A system runs without its page if that cannot be had.
-std::optional<Companion> start_viewer(const std::string& system) {
-  Result<Companion> viewer = Companion::start("orcaview", {system});
-  if (!viewer) {
-    log::warning("deployer", "--view: there is no page: " + viewer.error().text());
-    return std::nullopt;
-  }
-  std::fprintf(stderr, "look at it in a browser: %s\n", viewer->first_line().c_str());
-  return std::move(viewer).value();
 }
 
 }  // namespace
@@ -202,7 +195,15 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   if (const Status opened = try_to_open(options.run); !opened.ok())
     return refuse(opened.error(), options.run.log_name, listener);
   const std::optional<Companion> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
-  return supervisor::run_supervised(graph, supervised, stop, listener);
+  Recorders recorders;
+  if (const Status started = recorders.start(graph.name, options.run.recordings); !started.ok())
+    return refuse(started.error(), options.run.log_name, listener);
+  host::RunResult result = supervisor::run_supervised(graph, supervised, stop, listener);
+  if (const Status recorded = recorders.finish(); !recorded.ok()) {
+    log::error(options.run.log_name, recorded.error().text());
+    if (exit_code_of(result.outcome) == ExitCode::finished) result.outcome = host::RunOutcome::failed;
+  }
+  return result;
 }
 
 bool is_host_process(int argc, char** argv) { return argc > 1 && argv[1] == kHostProcess; }

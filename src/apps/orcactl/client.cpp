@@ -24,7 +24,7 @@ Failure unreachable(const Error& why) { return {why, ExitCode::no_deployer}; }
 
 }  // namespace
 
-std::variant<Client, Failure> Client::connect(const apps::Call& call) {
+std::variant<Descriptor, Failure> connect_to(const apps::Call& call) {
   std::string name = call.text("--system").value_or("");
   if (name.empty()) {
     const Result<std::vector<std::string>> running = supervisor::running_systems();
@@ -37,10 +37,16 @@ std::variant<Client, Failure> Client::connect(const apps::Call& call) {
     name = running->front();
   }
   Result<Descriptor> socket = supervisor::connect_to_system(name);
-  if (socket) return Client(std::move(socket).value());
+  if (socket) return std::move(socket).value();
   if (socket.error().code != Code::not_found) return unreachable(socket.error());
   const auto nearest = xml::nearest_name(name, supervisor::running_systems().value_or({}));
   return no_system(socket.error().message + xml::did_you_mean(nearest) + hint_at_orphans(name));
+}
+
+std::variant<Client, Failure> Client::connect(const apps::Call& call) {
+  std::variant<Descriptor, Failure> socket = connect_to(call);
+  if (auto* const failure = std::get_if<Failure>(&socket)) return std::move(*failure);
+  return Client(std::get<Descriptor>(std::move(socket)));
 }
 
 Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limit) {

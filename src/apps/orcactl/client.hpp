@@ -18,6 +18,9 @@ namespace orca::orcactl {
 
 inline constexpr Duration kForEver = 24h * 365;  ///< [s] As a limit: none.
 
+/// Connects to the system that a call names; if it names none, to the only one that runs.
+[[nodiscard]] std::variant<Descriptor, Failure> connect_to(const apps::Call& call);
+
 /// A connection to the supervisor of a running system.
 ///
 /// Thread contract: not synchronised.

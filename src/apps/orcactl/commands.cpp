@@ -31,6 +31,19 @@ constexpr std::string_view kLatencyDetails =
     "looked; one without times begins elsewhere. \"--to wheels\" is the port MotionCommandSend, and names "
     "may lack their Push or Send: --from base.odometry.";
 
+constexpr std::string_view kRecordDetails =
+    "It ends with the system, or at Ctrl-C. Without PORT it records all ports through which objects leave "
+    "their "
+    "component, the log and the alarms; the graph and the files that it names are in the recording as well. "
+    "It is a "
+    "process of its own: a slow disk costs no component anything. What a port sends faster than it can be "
+    "written, "
+    "beyond 64 MiB, is left out, and counted by port. Whoever kills it loses the last quarter of a second. "
+    "Objects "
+    "are written as they travel, and scans, odometry, poses, paths, grids, images and batteries once more as "
+    "ROS 2 "
+    "knows them, so Foxglove, PlotJuggler and readers of rosbag2 show them. A file is never overwritten.";
+
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
     "deployer's command line, and compared with what runs now: what was changed with set and swap counts. "
@@ -80,6 +93,12 @@ std::vector<Command> port_commands() {
            "port, when it arrives. Looking makes no component work: one that nobody uses pushes nothing; but "
            "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
            "that come faster than they can be printed are left out, and counted on stderr."},
+      {.name = "record",
+       .arguments = {{"FILE.mcap", Names::file}, {"PORT", Names::port, true, true}},
+       .options = {{"--for", "DURATION", "end after this time"},
+                   {"--wait", "DURATION", "for a system that does not run yet"}},
+       .text = "record everything, or what passes these ports, into an MCAP file",
+       .details = kRecordDetails},
       {.name = "hz",
        .arguments = {kPort},
        .options = {kFor},

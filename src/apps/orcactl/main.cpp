@@ -13,6 +13,7 @@
 #include "exit_code.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "recording.hpp"
 #include "tapping.hpp"
 
 namespace {
@@ -22,9 +23,9 @@ namespace apps = orca::apps;
 
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
-  static const std::map<std::string_view, Way> ways{{"echo", tap},    {"hz", tap},
-                                                    {"latency", tap}, {"send", offer},
-                                                    {"query", offer}, {"names", print_names}};
+  static const std::map<std::string_view, Way> ways{
+      {"echo", tap},          {"hz", tap},       {"latency", tap}, {"send", offer}, {"query", offer},
+      {"names", print_names}, {"record", record}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

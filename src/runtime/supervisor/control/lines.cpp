@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/host/port_taps.hpp"
 #include "orca/supervisor/channel.hpp"
 
 namespace orca::supervisor {
@@ -59,10 +60,10 @@ Result<std::map<std::string, Ports>> find(const Wish& wish, const SystemNames& n
     if (!port) return port.error();
     const Result<const graph::ComponentNode*> component = names.component((*port)->ref.component);
     if (!component) return component.error();
-    if (const Result<Member*> ready = names.ready_member_of(**component); ready) {
+    if (const Result<Member*> built = names.built_member_of(**component); built) {
       found[(*component)->process].push_back(*port);
     } else if (wish.ports.size() == 1) {
-      return ready.error();
+      return built.error();
     }
   }
   return found;
@@ -93,11 +94,21 @@ void open_lines(const std::vector<std::string>& words, const SystemNames& names,
   const Result<std::map<std::string, Ports>> found = find(*wish, names);
   if (!found) return reply.refuse(found.error());
   for (const auto& [process, ports] : *found) {
-    const Result<Member*> member = names.ready_member(process);
-    if (!member) continue;  // it has ended while another one was asked
+    // It may have ended while another one was asked.
+    const Result<const graph::ComponentNode*> component = names.component(ports.front()->ref.component);
+    const Result<Member*> member =
+        component ? names.built_member_of(**component) : Result<Member*>(component.error());
+    if (!member) continue;
     if (const Status opened = open_line(**member, ports, *wish, conductor, reply); !opened.ok())
       return reply.refuse(opened.error());
   }
+}
+
+void list_sources(const SystemNames& names, TimePoint start, Reply& reply) {
+  reply.add(Record{{"start", start.time_since_epoch().count()}});
+  for (const graph::ListedPort& port : names.ports())
+    if (host::is_source(port.contract) && names.component(port.ref.component))
+      reply.add(Record{{"port", port.ref.text()}});
 }
 
 }  // namespace orca::supervisor

@@ -7,15 +7,20 @@
 #include "control/system_names.hpp"
 #include "members/conductor.hpp"
 #include "members/reply.hpp"
+#include "orca/base/time.hpp"
 
 namespace orca::supervisor {
 
 /// Joins a client to the host processes of the ports that it names; the supervisor itself keeps no end. Ports of a process
-/// that takes no orders at present are left out, unless only one is named.
+/// that does not have them at present are left out, unless only one is named.
 /// @param words  PORT... [--tap] [--objects] [--bound BYTES]: with the objects that pass, or their times only; what may wait
 ///               for the client in each process.
 /// @thread  the supervisor's thread, on a fiber that may wait.
 void open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
                 Reply& reply);
+
+/// Lists the ports of this machine through which objects leave their component, for a recorder. The first record has the start
+/// of the run [ns of its clock], from which on the log counts.
+void list_sources(const SystemNames& names, TimePoint start, Reply& reply);
 
 }  // namespace orca::supervisor

@@ -137,6 +137,11 @@ Result<Member*> SystemNames::ready_member_of(const graph::ComponentNode& compone
   return ready(member_of(component));
 }
 
+Result<Member*> SystemNames::built_member_of(const graph::ComponentNode& component) const {
+  Member& member = member_of(component);
+  return member.phase() == Member::Phase::coming_up && member.is_built() ? &member : ready(member);
+}
+
 Result<Member*> SystemNames::ready_member(const std::string& process) const { return ready(member(process)); }
 
 Result<Member*> SystemNames::ready_member_of(const graph::HardwareNode& hardware) const {

@@ -32,6 +32,8 @@ class SystemNames {
 
   /// Finds a component by its name.
   [[nodiscard]] Result<const graph::ComponentNode*> component(const std::string& name) const;
+  /// Returns all ports, on whatever machine.
+  [[nodiscard]] const std::vector<graph::ListedPort>& ports() const { return ports_; }
   /// Finds a port by its name, "component.port", on whatever machine.
   /// @errors  not_found.
   [[nodiscard]] Result<const graph::ListedPort*> port(const std::string& path) const;
@@ -49,6 +51,9 @@ class SystemNames {
   /// Returns the same if the process takes orders at present.
   /// @errors  unavailable.
   [[nodiscard]] Result<Member*> ready_member_of(const graph::ComponentNode& component) const;
+  /// Returns the process of a component if it has its ports at present, even before it works.
+  /// @errors  unavailable.
+  [[nodiscard]] Result<Member*> built_member_of(const graph::ComponentNode& component) const;
   /// Returns a process if it takes orders at present.
   /// @pre  it is one of this machine.
   /// @errors  unavailable.

@@ -166,6 +166,8 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"move", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::move); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
+      {"sources",
+       [](ControlDesk& d, const Ask&, const ReplyPtr& r) { list_sources(d.names_, d.ledger_.start(), *r); }},
       {"line", [](ControlDesk& d, const Ask& ask,
                   const ReplyPtr& r) { open_lines(ask.words, d.names_, d.conductor_, *r); }},
   };

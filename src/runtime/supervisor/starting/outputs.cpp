@@ -46,11 +46,13 @@ Status check_outputs(const graph::Graph& graph, const host::RunOutputs& outputs)
         std::string("--trace writes down in one order all that happens, and several processes have no order "
                     "in common") +
             kOtherwise);
-  for (const host::RecordingOptions& recording : outputs.recordings)
+  for (const host::RecordingOptions& recording : outputs.recordings) {
+    if (host::is_bag_file(recording.file)) continue;  // a process of its own writes it
     if (const auto processes = processes_of_ports(graph, recording); processes.size() > 1)
       return fail(Code::invalid_argument, "--record " + recording.file +
                                               ": one process writes it, and the ports are in several: " +
                                               listed_names(processes) + "; give each a file of its own");
+  }
   if (const auto processes = processes_of_hardware(graph);
       !outputs.picture.file.empty() && processes.size() > 1)
     return fail(Code::invalid_argument, "--picture: one process draws it, and the hardware is in several: " +
