@@ -6,6 +6,7 @@
 #include <string>
 
 #include "access.hpp"
+#include "ros_messages.hpp"
 #include "wish.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -17,5 +18,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)orca::view::query_value(text, "token");
   if (orca::view::is_own_host(text, 8080) && text.size() > 14) std::abort();
   if (orca::view::is_own_origin(text, 8080) && !text.empty() && !text.starts_with("http://")) std::abort();
+  for (const char* const type : {"PoseStamped", "PoseWithCovarianceStamped", "Twist", "TwistStamped"})
+    for (const char* const encoding : {"cdr", "json"}) {
+      const auto message =
+          orca::view::read_ros_message(std::string("geometry_msgs/msg/") + type, encoding, text);
+      if (message && message->xml.empty()) std::abort();
+    }
   return 0;
 }

@@ -203,7 +203,7 @@ LAYERS = (
           "supervisor_starting", "supervisor_hosted", "supervisor_agreed", "supervisor_processes", "supervisor_channel",
           "host_run", "host", "host_containment", "host_picture", "graph", "plugin", "text", "xml", "hw_link", *DEVICE),
           ("fmt",)),
-    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "text", "xml", *DEVICE),
+    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "ros", "text", "xml", *DEVICE),
           ("boost", "nlohmann")),
 )
 graphlib.TopologicalSorter({layer.name: layer.may for layer in LAYERS}).prepare()  # raises CycleError for a circle

@@ -14,6 +14,9 @@ namespace orca::view {
 /// What somebody may do who has opened the page.
 enum class Role { reader, operator_ };
 
+/// The answer to a reader who gives orders.
+inline constexpr const char* kOnlyLooks = "this address may only look; for orders open the one for operators";
+
 /// The tokens of a run of orcaview: whoever knows one may look, or look and steer.
 class Tokens {
  public:

@@ -16,8 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kOnlyLooks = "this page may only look; for orders open the address for operators";
-
 // A graph that a page has edited is a file for the supervisor.
 Result<std::string> keep_graph(const std::string& system, const std::string& text) {
   const Result<OwnFolder> folder = OwnFolder::make();

@@ -12,6 +12,9 @@
 #include <optional>
 #include <utility>
 
+#include "foxglove_client.hpp"
+#include "page.hpp"
+
 namespace orca::view {
 namespace {
 
@@ -100,8 +103,8 @@ awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
     if (why.empty() && beast::websocket::is_upgrade(request)) {
       const std::optional<Role> role = tokens_.role_of(query_value(target, "token"));
       stream.expires_never();
-      const auto page = std::make_shared<Page>(std::move(stream), *role, desk_);
-      co_return co_await page->serve(std::move(request));
+      const std::shared_ptr<Session> session = session_for(request, std::move(stream), *role);
+      co_return co_await session->serve(std::move(request));
     }
     std::optional<WebFile> file = why.empty() ? files_.find(target) : std::nullopt;
     http::response<http::string_body> response =
@@ -111,6 +114,16 @@ awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
     co_await http::async_write(stream, response, asio::redirect_error(use_awaitable, error));
     if (error || !response.keep_alive()) co_return;
   }
+}
+
+// Viewers that speak several protocols get the first that they share with this server.
+std::shared_ptr<Session> ViewServer::session_for(const Session::Request& request, beast::tcp_stream stream,
+                                                 Role role) {
+  const std::string offered(view_of(request[http::field::sec_websocket_protocol]));
+  for (const char* const protocol : FoxgloveClient::kProtocols)
+    if (http::token_list(offered).exists(protocol))
+      return std::make_shared<FoxgloveClient>(std::move(stream), role, desk_, protocol);
+  return std::make_shared<Page>(std::move(stream), role, desk_);
 }
 
 // Returns why a request is refused; empty: it is not.

@@ -2,15 +2,16 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
-#include "page.hpp"
+#include "session.hpp"
 
-// after page.hpp, which includes what Boost.Asio lacks
+// after session.hpp, which includes what Boost.Asio lacks
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "access.hpp"
@@ -41,6 +42,8 @@ class ViewServer {
   boost::asio::awaitable<void> accept_all();
   boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket);
   boost::asio::awaitable<void> serve_requests(boost::asio::ip::tcp::socket socket);
+  [[nodiscard]] std::shared_ptr<Session> session_for(const Session::Request& request,
+                                                     boost::beast::tcp_stream stream, Role role);
   [[nodiscard]] std::string refusal(const Session::Request& request) const;
 
   boost::asio::ip::tcp::acceptor acceptor_;

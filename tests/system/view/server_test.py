@@ -18,63 +18,14 @@ import tempfile
 import time
 import unittest
 
+from view_case import BUILD, TREE, ViewCase
 from websocket import TEXT, WebSocket
 
-TREE = pathlib.Path(__file__).resolve().parents[3]
-BUILD = pathlib.Path(sys.argv.pop())
 GRAPH = str(TREE / "graphs" / "scout_goto_processes.xml")
-NAME = "scout_goto_processes"
 POSE = "localizer.RobotPosePush"
 
 
-def await_that(condition, what, limit=20.0):
-    end = time.monotonic() + limit
-    while not condition():
-        if time.monotonic() > end:
-            raise AssertionError(f"{what}: not within {limit} s")
-        time.sleep(0.05)
-
-
-class View(unittest.TestCase):
-    """A system and an orcaview for all cases: they must outlive each of them."""
-
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="orca_view_")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = pathlib.Path(folder.name)
-        cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
-        os.chmod(folder.name, 0o700)
-        cls.system = cls.start_system()
-        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", NAME, "--port", "0"], env=cls.environment,
-                                    stdout=subprocess.PIPE, text=True)
-        cls.addClassCleanup(cls.end, cls.view)
-        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
-        cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
-        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
-
-    @classmethod
-    def start_system(cls):
-        system = subprocess.Popen([BUILD / "bin" / "deployer", GRAPH, "--no-progress", "--log", "error", "--set",
-                                   "command.rounds=0"], env=cls.environment, stdout=subprocess.DEVNULL,
-                                  stderr=subprocess.DEVNULL)
-        cls.addClassCleanup(cls.end, system)
-        await_that(lambda: cls.orcactl("ps").stdout.count(" WORK ") >= 6, "all components work")
-        return system
-
-    @staticmethod
-    def end(process):
-        if process.poll() is None:
-            process.send_signal(signal.SIGTERM)
-            process.wait(30)
-        if process.stdout:
-            process.stdout.close()
-
-    @classmethod
-    def orcactl(cls, *words):
-        return subprocess.run([BUILD / "bin" / "orcactl", *words], env=cls.environment, capture_output=True, text=True,
-                              timeout=60)
-
+class View(ViewCase):
     def page(self, token=None):
         page = WebSocket(self.port, token or self.operator)
         self.addCleanup(page.socket.close)
@@ -106,7 +57,7 @@ class View(unittest.TestCase):
     def test_a_page_is_greeted_with_the_system_and_its_role(self):
         with WebSocket(self.port, self.reader) as page:
             hello = page.receive()
-        self.assertEqual((hello["system"], hello["role"], hello["present"]), (NAME, "reader", True))
+        self.assertEqual((hello["system"], hello["role"], hello["present"]), (self.NAME, "reader", True))
         self.assertLess(abs(hello["time"] - time.time()), 5.0)
 
     def test_answers_are_those_of_orcactl(self):
@@ -119,7 +70,7 @@ class View(unittest.TestCase):
         for name in ("name", "process", "type", "build_id"):
             self.assertEqual([row[name] for row in answer["records"]], [row[name] for row in shown])
         page.send(op="ask", id=3, command="graph")
-        self.assertEqual(json.loads(page.answer(3)["text"])["name"], NAME)
+        self.assertEqual(json.loads(page.answer(3)["text"])["name"], self.NAME)
         page.send(op="ask", id=4, command="swap", words=["nobody", "x.so"])
         self.assertIn("nobody", page.answer(4)["error"])
 
@@ -202,7 +153,7 @@ class View(unittest.TestCase):
             self.assertIn("may only look", answer["error"])
 
     def test_the_addresses_are_in_a_file_of_the_user_alone(self):
-        path = self.folder / "orca" / f"{NAME}.view"
+        path = self.folder / "orca" / f"{self.NAME}.view"
         self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o600)
         self.assertEqual(path.read_text().split(), self.addresses)
 
@@ -298,7 +249,7 @@ class View(unittest.TestCase):
         self.assertEqual(page.answer(3)["op"], "looking")
 
     def test_the_death_of_the_page_is_nobodys_loss(self):
-        other = subprocess.Popen([BUILD / "bin" / "orcaview", NAME], env=self.environment, stdout=subprocess.PIPE, text=True)
+        other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME], env=self.environment, stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, other)
         port = int(re.search(r":(\d+)/", other.stdout.readline())[1])
         token = other.stdout.readline().split("token=")[1].strip()
@@ -336,4 +287,5 @@ class Deployer(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    sys.argv.pop()
     unittest.main()

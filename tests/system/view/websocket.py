@@ -10,7 +10,7 @@ TEXT, PONG, PING = 1, 10, 9
 
 
 class WebSocket:
-    """A connection; `status` is the first line of the answer. Header fields are replaced by those given."""
+    """A connection; `head` is the answer, `status` its first line. Header fields are replaced by those given."""
 
     def __init__(self, port, token, limit=10.0, **fields):
         self.socket = socket.create_connection(("127.0.0.1", port))
@@ -29,7 +29,8 @@ class WebSocket:
         while b"\r\n\r\n" not in self.rest:
             self._fill()
         answer, self.rest = self.rest.split(b"\r\n\r\n", 1)
-        self.status = answer.decode().splitlines()[0]
+        self.head = answer.decode()
+        self.status = self.head.splitlines()[0]
 
     def __enter__(self):
         return self

@@ -196,7 +196,7 @@ Status PortLines::open(OpenLine order) {
   }
   const MutexLock lock(mutex_);
   if (lines_.size() == kMost)
-    return fail(Code::unavailable, "too many clients look at this process already: " + std::to_string(kMost));
+    return fail(Code::unavailable, "too many lines to the ports of this process: " + std::to_string(kMost));
   lines_.emplace_back(part_, std::move(order), std::move(tap));
   if (runs_) return ok();
   if (thread_.joinable()) thread_.join();  // it has nothing more to do

@@ -20,7 +20,7 @@ namespace orca::supervisor {
 /// Thread contract: open() from one thread at a time. Destroyed before the part.
 class PortLines {
  public:
-  static constexpr std::size_t kMost = 16;  ///< Lines at a time.
+  static constexpr std::size_t kMost = 64;  ///< Lines at a time: a page has one for each port that it shows.
 
   explicit PortLines(host::HostedPart& part);
   ~PortLines();

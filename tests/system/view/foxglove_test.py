@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""orcaview as a server of the Foxglove WebSocket protocol: by hand, and by the protocol's own client for Node.
+
+    tests/system/view/foxglove_test.py BUILD_FOLDER
+"""
+import json
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from view_case import TREE, ViewCase
+from websocket import WebSocket
+
+OLD, NEW = "foxglove.websocket.v1", "foxglove.sdk.v1"
+PACKAGES = ("@foxglove/ws-protocol@0.8.0", "@foxglove/rosmsg", "@foxglove/rosmsg2-serialization", "ws")
+
+
+class Foxglove(ViewCase):
+    NAME = "pioneer_laser_goto"
+    OPTIONS = ()
+    COMPONENTS = 5
+
+    def viewer(self, token=None, protocol=NEW):
+        viewer = WebSocket(self.port, token or self.operator, **{"Sec-WebSocket-Protocol": protocol})
+        self.addCleanup(viewer.socket.close)
+        self.assertIn("101", viewer.status)
+        return viewer
+
+    def advertised(self, viewer):
+        while True:
+            message = viewer.receive()
+            if isinstance(message, dict) and message["op"] == "advertise":
+                return {channel["topic"]: channel for channel in message["channels"]}
+
+    def message(self, viewer, op):
+        while True:
+            message = viewer.receive()
+            if isinstance(message, dict) and message["op"] == op:
+                return message
+
+    def first(self, viewer, subscription):
+        """Returns time [s] and payload of the next message."""
+        while True:
+            message = viewer.receive()
+            if isinstance(message, bytes) and struct.unpack_from("<BI", message) == (1, subscription):
+                return struct.unpack_from("<Q", message, 5)[0] / 1e9, message[13:]
+
+    def test_both_versions_are_greeted(self):
+        for offered, chosen in ((OLD, OLD), (NEW, NEW), (f"{OLD}, {NEW}", NEW)):
+            viewer = self.viewer(protocol=offered)
+            self.assertIn(f"Sec-WebSocket-Protocol: {chosen}".lower(), viewer.head.lower())
+            info = viewer.receive()
+            self.assertEqual(info["op"], "serverInfo")
+            self.assertIn("clientPublish", info["capabilities"])
+
+    def test_ports_are_topics_with_the_types_that_ros_has(self):
+        topics = {topic: channel["schemaName"] for topic, channel in self.advertised(self.viewer()).items()}
+        for topic, schema in (("/base/OdometryPush", "nav_msgs/msg/Odometry"),
+                              ("/laser/LaserRangeReadingsPush", "sensor_msgs/msg/LaserScan"),
+                              ("/localizer/RobotPosePush", "geometry_msgs/msg/PoseWithCovarianceStamped"),
+                              ("/avoid/motion", "orca/msg/MotionCommand"), ("/tf", "tf2_msgs/msg/TFMessage"),
+                              ("/rosout", "rcl_interfaces/msg/Log")):
+            self.assertEqual(topics.get(topic), schema, topics)
+
+    def test_a_scan_comes_as_ros_has_it(self):
+        viewer = self.viewer()
+        channel = self.advertised(viewer)["/laser/LaserRangeReadingsPush"]
+        viewer.send(op="subscribe", subscriptions=[{"id": 7, "channelId": channel["id"]}])
+        stamp, scan = self.first(viewer, 7)
+        self.assertLess(abs(stamp - time.time()), 10.0)
+        self.assertEqual(scan[:4], b"\0\1\0\0")
+        length = struct.unpack_from("<I", scan, 12)[0]
+        self.assertEqual(scan[16:16 + length - 1], b"laser")
+        at = 4 + (12 + length + 3) // 4 * 4
+        low, high, step = struct.unpack_from("<fff", scan, at)
+        count = struct.unpack_from("<I", scan, at + 28)[0]
+        self.assertAlmostEqual((high - low) / step + 1, count, delta=0.1)
+        ranges = struct.unpack_from(f"<{count}f", scan, at + 32)
+        self.assertTrue(any(0.1 < one < 8.2 for one in ranges))
+        viewer.send(op="unsubscribe", subscriptionIds=[7])
+
+    def test_a_reader_publishes_nothing_and_sets_nothing(self):
+        viewer = self.viewer(self.reader)
+        self.advertised(viewer)
+        viewer.send(op="setParameters", parameters=[{"name": "goto.max_speed", "value": 0.1}])
+        self.assertIn("may only look", self.message(viewer, "status")["message"])
+        viewer.send(op="advertise", channels=[{"id": 1, "topic": "/goal_pose", "encoding": "cdr",
+                                               "schemaName": "geometry_msgs/msg/PoseStamped"}])
+        viewer.send_frame(2, struct.pack("<BI", 1, 1) + bytes(100))
+        self.assertIn("may only look", self.message(viewer, "status")["message"])
+
+    def test_what_is_wrong_is_said_and_nothing_ends(self):
+        viewer = self.viewer()
+        self.advertised(viewer)
+        for text, part in ((b"nonsense", "JSON object"), (b'{"op":"dance"}', "dance"), (b'{"op":"subscribe"}', "missing"),
+                           (b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":9999}]}', "no channel 9999"),
+                           (b'{"op":"subscribe","subscriptions":7}', "wrong type")):
+            viewer.send_frame(1, text)
+            self.assertIn(part, self.message(viewer, "status")["message"])
+        viewer.send(op="advertise", channels=[{"id": 1, "topic": "/x", "encoding": "cdr", "schemaName": "std_msgs/msg/String"},
+                                              {"id": 2, "topic": "/y", "encoding": "cdr",
+                                               "schemaName": "geometry_msgs/msg/PoseStamped"}])
+        for frame, part in ((b"\x07", "does not know"), (struct.pack("<BI", 1, 5), "not advertised"),
+                            (struct.pack("<BI", 1, 1) + b"x", "String"),
+                            (struct.pack("<BI", 1, 2) + b"\0\1\0\0\xff\xff\xff\xff" * 3, "the bytes are no"),
+                            (struct.pack("<BI", 1, 2), "the bytes are no")):
+            viewer.send_frame(2, frame)
+            self.assertIn(part, self.message(viewer, "status")["message"])
+
+    def test_the_protocols_own_client_decodes_all_and_sends_a_goal(self):
+        folder = tempfile.TemporaryDirectory(prefix="orca_foxglove_")
+        self.addCleanup(folder.cleanup)
+        if not shutil.which("npm"):
+            self.skipTest("npm is not installed")
+        got = subprocess.run(["npm", "install", "--no-audit", "--no-fund", *PACKAGES], cwd=folder.name, capture_output=True,
+                             text=True, timeout=120, check=False)
+        if got.returncode:
+            self.skipTest("npm cannot fetch the client: " + got.stderr.strip().splitlines()[-1])
+        shutil.copy(TREE / "tests" / "system" / "view" / "foxglove_client.cjs", folder.name)
+        done = subprocess.run(["node", "foxglove_client.cjs", f"ws://127.0.0.1:{self.port}/?token={self.operator}"],
+                              cwd=folder.name, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        seen = json.loads(done.stdout)
+        self.assertEqual(seen["server"]["metadata"], {"ROS_DISTRO": "jazzy"})
+        scan = seen["messages"]["/laser/LaserRangeReadingsPush"]
+        self.assertGreater(scan["count"], 5)
+        self.assertGreater(len(scan["last"]["ranges"]), 100)
+        odometry = seen["messages"]["/base/OdometryPush"]
+        self.assertGreater(odometry["count"], 10)
+        self.assertEqual(odometry["last"]["child_frame_id"], "base_link")
+        frames = {transform["child_frame_id"] for transform in seen["messages"]["/tf"]["last"]["transforms"]}
+        self.assertTrue(frames & {"odom", "base_link", "laser"}, frames)
+        self.assertEqual(seen["parameters"][0]["name"], "goto.max_speed")
+        self.assertIn({"name": "goto.max_speed", "value": 0.25}, seen["parameters"])
+        published = {one["name"]: one["publisherIds"] for one in seen["graph"]["publishedTopics"]}
+        taken = {one["name"]: one["subscriberIds"] for one in seen["graph"]["subscribedTopics"]}
+        self.assertEqual(published["/base/OdometryPush"], ["base"])
+        self.assertIn("avoid", taken["/laser/LaserRangeReadingsPush"])
+        self.assertEqual([line for line in seen["status"] if "goal" in line.lower() or "port" in line], [])
+        goal = seen["messages"]["/goto/GoalPush"]["last"]["pose"]["position"]
+        self.assertEqual((goal["x"], goal["y"]), (3, 6))
+
+
+if __name__ == "__main__":
+    sys.argv.pop()
+    unittest.main()

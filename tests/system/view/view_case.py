@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A system and an orcaview for all cases of a test class."""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TREE = pathlib.Path(__file__).resolve().parents[3]
+BUILD = pathlib.Path(sys.argv[-1]).resolve()
+
+
+def await_that(condition, what, limit=20.0):
+    end = time.monotonic() + limit
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"{what}: not within {limit} s")
+        time.sleep(0.05)
+
+
+class ViewCase(unittest.TestCase):
+    """They outlive each case. A class that needs another graph says so."""
+
+    NAME = "scout_goto_processes"
+    OPTIONS = ("--set", "command.rounds=0")
+    COMPONENTS = 6
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="orca_view_")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+        cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
+        cls.system = cls.start_system()
+        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.NAME, "--port", "0"], env=cls.environment,
+                                    stdout=subprocess.PIPE, text=True)
+        cls.addClassCleanup(cls.end, cls.view)
+        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
+        cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
+        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
+
+    @classmethod
+    def start_system(cls):
+        graph = TREE / "graphs" / f"{cls.NAME}.xml"
+        system = subprocess.Popen([BUILD / "bin" / "deployer", graph, "--no-progress", "--log", "error", *cls.OPTIONS],
+                                  env=cls.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL)
+        cls.addClassCleanup(cls.end, system)
+        await_that(lambda: cls.orcactl("ps").stdout.count(" WORK ") >= cls.COMPONENTS, "all components work")
+        return system
+
+    @staticmethod
+    def end(process):
+        if process.poll() is None:
+            process.send_signal(signal.SIGTERM)
+            process.wait(30)
+        if process.stdout:
+            process.stdout.close()
+
+    @classmethod
+    def orcactl(cls, *words):
+        return subprocess.run([BUILD / "bin" / "orcactl", *words], env=cls.environment, capture_output=True, text=True,
+                              timeout=60)
