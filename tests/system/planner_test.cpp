@@ -98,6 +98,20 @@ TEST_CASE("it drives through doors that are 10 cm wider than the robot without a
   check_twenty_seeds(folder.write("doors.xml", kNarrowDoors));
 }
 
+TEST_CASE("Dwa that a plan leads reaches a goal that it does not reach alone", "[system][planner]") {
+  const auto drive = [](const char* graph, const Words& more) {
+    return run_deployer(Words{source_file(graph), "--seed", "22", "--until", "60 s", "--set",
+                              "world=" + source_file("sim/worlds/barn_like.xml") + "#22"} +
+                        virtual_clock() + more);
+  };
+  const Run alone = drive("tests/system/barn/barn_goto.xml", {"--set", "avoid=orca.Dwa"});
+  const Run led = drive("tests/system/barn/barn_move_base.xml", {});
+  INFO(alone.out << led.out << led.err);
+  CHECK(alone.arrivals().empty());
+  CHECK(led.arrivals().size() == 1);
+  CHECK(led.contacts().empty());
+}
+
 TEST_CASE("a run with the planner has one trace hash, with fiber and baton", "[system][planner]") {
   const auto hash_on = [](const char* executor) {
     return run_deployer({source_file("graphs/pioneer_planner.xml"), "--until", "150 s", "--clock", "virtual",
