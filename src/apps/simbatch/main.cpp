@@ -163,8 +163,12 @@ ExitCode report_again(const Options& options) {
 std::string make_runs(const Options& options, const batch::Experiment& experiment, batch::Store& store) {
   batch::MissingRuns missing(experiment, store, options.shard);
   Progress progress(experiment, store, missing.count());
+  // A tuner only chooses: the comparison of what it has chosen makes runs twice.
+  const bool chooses = options.action == Options::Action::tune;
   const Result<batch::BatchEnd> end = batch::run_batch(
-      experiment, {missing.not_repeated(), [&] { return missing.next(); }}, options.batch, progress);
+      experiment,
+      {chooses ? std::vector<std::size_t>{} : missing.not_repeated(), [&] { return missing.next(); }},
+      options.batch, progress);
   progress.end();
   if (!end) return end.error().text();
   switch (*end) {
@@ -221,7 +225,7 @@ ExitCode did_not_finish(const std::string& fault) {
 }
 
 // Tries values of what each variant may change, in worlds that the experiment does not compare in, and writes the best.
-ExitCode tune(Options options) {
+ExitCode tune(const Options& options) {
   xml::Diagnostics diagnostics;
   const std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
   const Result<batch::Experiment> drawn =
@@ -232,7 +236,6 @@ ExitCode tune(Options options) {
   if (diagnostics.has_errors()) return ExitCode::bad_input;
   if (!drawn) return refuse(drawn.error());
   const std::filesystem::path folder = options.out.empty() ? experiment->name + ".tuned" : options.out;
-  options.batch.alone.clear();  // no file holds the experiment of the draws
   Result<std::unique_ptr<batch::Store>> store = prepare(options, *drawn, folder, {});
   if (!store) return refuse(store.error());
   if (const std::string fault = make_runs(options, *drawn, **store); !fault.empty())
