@@ -198,6 +198,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   Recorders recorders;
   if (const Status started = recorders.start(graph.name, options.run.recordings); !started.ok())
     return refuse(started.error(), options.run.log_name, listener);
+  supervised.recorders = recorders.count();
   host::RunResult result = supervisor::run_supervised(graph, supervised, stop, listener);
   if (const Status recorded = recorders.finish(); !recorded.ok()) {
     log::error(options.run.log_name, recorded.error().text());

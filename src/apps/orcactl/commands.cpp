@@ -44,6 +44,21 @@ constexpr std::string_view kRecordDetails =
     "ROS 2 "
     "knows them, so Foxglove, PlotJuggler and readers of rosbag2 show them. A file is never overwritten.";
 
+constexpr std::string_view kBagDetails =
+    "info FILE: how long it is, and what is in it, with what was lost. check FILE: reads all of it, with "
+    "every "
+    "checksum, and says what is wrong at which byte; exit status 1 if anything is. recover FILE NEW: writes "
+    "what is "
+    "whole into a new file with an index, after the recorder was killed or the disk was full. csv FILE "
+    "[PORT...]: a "
+    "table on stdout, as deployer --record FILE.csv writes it. carmen FILE [PORT...]: odometry and scans as "
+    "a log for "
+    "programs that make maps. diff FILE OTHER [PORT...]: the first object that differs, with its field; exit "
+    "status 1 "
+    "if there is one; times count, so it is for runs in virtual time. Files of other writers can be shown, "
+    "checked "
+    "and recovered, too.";
+
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
     "deployer's command line, and compared with what runs now: what was changed with set and swap counts. "
@@ -99,6 +114,12 @@ std::vector<Command> port_commands() {
                    {"--wait", "DURATION", "for a system that does not run yet"}},
        .text = "record everything, or what passes these ports, into an MCAP file",
        .details = kRecordDetails},
+      {.name = "bag",
+       .arguments = {{"info|check|recover|csv|carmen|diff"},
+                     {"FILE.mcap", Names::file},
+                     {"MORE", Names::port, true, true}},
+       .text = "show, check, repair, convert or compare a recording; no system needs to run",
+       .details = kBagDetails},
       {.name = "hz",
        .arguments = {kPort},
        .options = {kFor},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asking.hpp"
+#include "bag.hpp"
 #include "commands.hpp"
 #include "common/manual.hpp"
 #include "common/output.hpp"
@@ -24,8 +25,8 @@ namespace apps = orca::apps;
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
   static const std::map<std::string_view, Way> ways{
-      {"echo", tap},          {"hz", tap},       {"latency", tap}, {"send", offer}, {"query", offer},
-      {"names", print_names}, {"record", record}};
+      {"echo", tap},          {"hz", tap},        {"latency", tap},   {"send", offer}, {"query", offer},
+      {"names", print_names}, {"record", record}, {"bag", handle_bag}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

@@ -87,12 +87,12 @@ Status open_line(Member& member, const Ports& ports, const Wish& wish, Conductor
 
 }  // namespace
 
-void open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
+bool open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
                 Reply& reply) {
   const Result<Wish> wish = read(words);
-  if (!wish) return reply.refuse(wish.error());
+  if (!wish) return reply.refuse(wish.error()), false;
   const Result<std::map<std::string, Ports>> found = find(*wish, names);
-  if (!found) return reply.refuse(found.error());
+  if (!found) return reply.refuse(found.error()), false;
   for (const auto& [process, ports] : *found) {
     // It may have ended while another one was asked.
     const Result<const graph::ComponentNode*> component = names.component(ports.front()->ref.component);
@@ -100,8 +100,9 @@ void open_lines(const std::vector<std::string>& words, const SystemNames& names,
         component ? names.built_member_of(**component) : Result<Member*>(component.error());
     if (!member) continue;
     if (const Status opened = open_line(**member, ports, *wish, conductor, reply); !opened.ok())
-      return reply.refuse(opened.error());
+      return reply.refuse(opened.error()), false;
   }
+  return wish->bound > 0 && !found->empty();
 }
 
 void list_sources(const SystemNames& names, TimePoint start, Reply& reply) {

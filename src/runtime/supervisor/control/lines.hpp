@@ -15,8 +15,9 @@ namespace orca::supervisor {
 /// that does not have them at present are left out, unless only one is named.
 /// @param words  PORT... [--tap] [--objects] [--bound BYTES]: with the objects that pass, or their times only; what may wait
 ///               for the client in each process.
+/// @return whether there are lines now with a bound of their own.
 /// @thread  the supervisor's thread, on a fiber that may wait.
-void open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
+bool open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
                 Reply& reply);
 
 /// Lists the ports of this machine through which objects leave their component, for a recorder. The first record has the start

@@ -13,6 +13,12 @@ namespace orca::supervisor {
 
 using Phase = Member::Phase;
 
+namespace {
+
+constexpr Duration kRecorderLimit = 3s;  // for the lines of all recorders
+
+}  // namespace
+
 void Arrivals::start(const Members& members) {
   const bool is_first = !std::exchange(has_begun_, true);
   for (const Member* const member : members)
@@ -52,11 +58,19 @@ void Arrivals::bring_up(Starter::Begun& begun, bool is_first) {
   built(company.present());
   if (!company.ask_all([](const Member&) { return OpenHardware{}; })) return;
   if (!configure_all(company, components, is_first)) return;
+  if (is_first) wait_for_recorders(company);
   for (Member* const member : company.present()) {
     member->tell(OpenGates{});
     member->enter(Phase::up);
   }
   came_up(company.present(), is_first);
+}
+
+// A run does not fail for want of a recording; what is missing in it is said when the run is over.
+void Arrivals::wait_for_recorders(const Company& company) const {
+  const TimePoint limit = steady_now() + kRecorderLimit;
+  (void)company.wait(
+      [&] { return place_.control.count_recorders() >= place_.recorders || steady_now() >= limit; });
 }
 
 // Only the start is common to all machines. Returns false if nothing more will happen.

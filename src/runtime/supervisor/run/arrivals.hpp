@@ -37,6 +37,7 @@ class Arrivals {
     Trading& trading;
     const graph::Supervision& rules;
     const std::string& log_name;
+    std::size_t recorders;  ///< That are to hear of everything from the beginning.
     /// Takes a process that could not even be started, later than at the start of the run.
     std::function<void(Member&, const Error&)> could_not_start;
   };
@@ -54,6 +55,7 @@ class Arrivals {
  private:
   void bring_up(Starter::Begun& begun, bool is_first);
   bool configure_all(const Company& company, const StartOrder& components, bool is_first);
+  void wait_for_recorders(const Company& company) const;
   void watch(const Members& members);
   void built(const Members& members);
   void came_up(const Members& members, bool is_first);

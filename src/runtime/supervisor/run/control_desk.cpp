@@ -168,8 +168,10 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
       {"sources",
        [](ControlDesk& d, const Ask&, const ReplyPtr& r) { list_sources(d.names_, d.ledger_.start(), *r); }},
-      {"line", [](ControlDesk& d, const Ask& ask,
-                  const ReplyPtr& r) { open_lines(ask.words, d.names_, d.conductor_, *r); }},
+      {"line",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) {
+         if (open_lines(ask.words, d.names_, d.conductor_, *r)) ++d.recorders_;
+       }},
   };
   return all;
 }

@@ -73,6 +73,8 @@ class ControlDesk {
   void lose(const Member& member) { applying_.lose(member.name()); }
   /// Notes that a process has ended and may begin anew: what it moves stands then, until an operator releases it.
   void distrust(const Member& member) { motors_.distrust(member); }
+  /// Returns how often somebody was given lines with bounds of their own, as a recorder is.
+  [[nodiscard]] std::size_t count_recorders() const { return recorders_; }
   /// Notes that processes work.
   void came_up(const std::vector<Member*>& members);
 
@@ -104,6 +106,7 @@ class ControlDesk {
   SystemHold hold_{motors_};
   LogBook log_{[this] { return TimePoint(steady_now() - ledger_.start()); }};
   Moment socket_seen_{};
+  std::size_t recorders_ = 0;
   std::optional<ControlServer> server_;  // the last member: its clients are gone first
 };
 

@@ -390,10 +390,10 @@ class SupervisedRun {
   Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;
   host::Conclusion conclusion_{here_, reports_, options_.log_name};
-  Arrivals arrivals_{{conductor_, starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
-                      graph_.supervision, options_.log_name, [this](Member& member, const Error& error) {
-                        losses_.could_not_start(member, error);
-                      }}};
+  Arrivals arrivals_{
+      {conductor_, starter_, beats_, ledger_, control_, conclusion_, neighbours_, trading_,
+       graph_.supervision, options_.log_name, options_.recorders,
+       [this](Member& member, const Error& error) { losses_.could_not_start(member, error); }}};
   OnDemand on_demand_{roster_.all(), starter_, ledger_, [this](Member& member) { let_go(member); }};
   Renewal renewal_{conductor_,
                    {roster_, policy_, starter_,
