@@ -95,6 +95,7 @@ LAYERS = (
           module=GRAPH),
     Layer("plugin_inspection", (f"{PLUGIN}/inspection",), (), DEVICE, ("fmt",), module=PLUGIN),
     Layer("plugin", (PLUGIN,), ("orca/plugin/",), ("plugin_inspection", *DEVICE), ("fmt",), module=PLUGIN),
+    Layer("log_replay", ("src/hw/log",), (), ("recording_objects", "recording", *DEVICE)),
     Layer("device", ("src/hw",), (), ("hw_link", "geometry_objects", *DEVICE), ("fmt",), siblings=False),
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/hardware.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/recording/objects/object_reader.hpp"
+#include "time_shift.hpp"
+
+namespace {
+
+using namespace orca;
+using namespace orca::hw;
+using recording::ObjectReader;
+using recording::RecordedObject;
+
+constexpr Duration kMaxCommandAge = 200ms;
+constexpr Duration kUsualPeriod = 100ms;  // of what was recorded once only
+
+/// A sensor whose readings are those of a port in a recording.
+class RecordedSensor final : public SensorEndpoint {
+ public:
+  using SensorEndpoint::SensorEndpoint;
+  void publish(ObjectLoan reading) { publish_loan(std::move(reading)); }
+};
+
+/// The sensors of a robot as they were recorded: each reading comes again when it came then, counted from the beginning of the
+/// recording, with its stamps moved by as much. Commands to the base are taken and change nothing. Poses of the robot (RobotPose)
+/// are served by TruthLocalizer; the description of the robot is the first one in the recording.
+///
+/// Components of today see what those of then saw, so in virtual time they do the same each time.
+class LogReplay final : public HardwareContainer {
+ public:
+  explicit LogReplay(HardwareHost& host) : HardwareContainer(host) {}
+
+  std::vector<HardwareFault> prepare() override {
+    if (recording_->empty()) return {};  // a graph that is looked at without one
+    Result<ObjectReader> opened = ObjectReader::open(*recording_);
+    if (!opened) return {{.param = "recording", .text = opened.error().message}};
+    reader_.emplace(*std::move(opened));
+    std::vector<HardwareFault> faults;
+    for (const std::string& port : ports()) declare(port, faults);
+    if (!faults.empty()) return faults;
+    if (const Status read = load(); !read.ok())
+      faults.push_back({.param = "recording", .text = read.error().message});
+    motion_ = std::make_unique<MotionHW>(limits(), kMaxCommandAge);
+    set_motion(*motion_);
+    return faults;
+  }
+
+  [[nodiscard]] idl::Robot description() const override { return robot_; }
+
+ protected:
+  Status open() override {
+    shift_ = host().now() - begin_;
+    return ok();
+  }
+
+  Status poll() override {
+    while (next_ < readings_.size() && readings_[next_].passed + shift_ <= host().now())
+      publish(readings_[next_++]);
+    if (next_ == readings_.size() && !std::exchange(is_over_, true))
+      host().write_log(log::Level::info, "the recording is over");
+    return ok();
+  }
+
+  [[nodiscard]] TimePoint next_poll() const override {
+    return next_ < readings_.size() ? readings_[next_].passed + shift_ : kForever;
+  }
+
+  Status drive(const DriveSetpoint& /*setpoint*/) override { return ok(); }
+
+ private:
+  struct Reading {
+    RecordedSensor* sensor;
+    ObjectRef object;
+    TimePoint passed;
+  };
+
+  [[nodiscard]] std::vector<std::string> ports() const {
+    std::vector<std::string> all;
+    std::string word;
+    for (const char c : *ports_ + " ") {
+      if (c != ' ') {
+        word += c;
+      } else if (!word.empty()) {
+        all.push_back(std::exchange(word, {}));
+      }
+    }
+    return all;
+  }
+
+  void declare(const std::string& port, std::vector<HardwareFault>& faults) {
+    const auto row = reader_->rows().find(port);
+    if (row == reader_->rows().end()) {
+      std::vector<std::string> known;
+      for (const auto& [name, found] : reader_->rows()) known.push_back(name);
+      faults.push_back(
+          {.param = "ports",
+           .text = "the recording has nothing of " + in_quotes(port) + "; it has: " + listed(known)});
+      return;
+    }
+    const auto& [type_name, count] = *row->second.types.begin();
+    const ObjectType& type = *find_object_type(type_name);
+    const Source source = &type == &object_type<idl::RobotPose>() ? Source::truth : Source::sensor;
+    const bool is_first =
+        std::ranges::none_of(sensors_, [&](const auto& entry) { return &entry.second->type() == &type; });
+    const std::string device = is_first ? "" : port.substr(0, port.find('.'));
+    sensors_[port] = std::make_unique<RecordedSensor>(type, period_of(count), source, device);
+    add_sensor(*sensors_[port]);
+  }
+
+  // Returns the mean time between two of them, in whole milliseconds.
+  [[nodiscard]] Duration period_of(std::uint64_t count) const {
+    const recording::Statistics& numbers = reader_->file().statistics();
+    if (count < 2 || numbers.end <= numbers.start) return kUsualPeriod;
+    const auto mean = (numbers.end - numbers.start) / (count - 1);
+    return std::max<Duration>(
+        1ms, std::chrono::round<std::chrono::milliseconds>(Duration(static_cast<Duration::rep>(mean))));
+  }
+
+  Status load() {
+    begin_ = reader_->is_virtual()
+                 ? TimePoint{}
+                 : TimePoint(Duration(static_cast<Duration::rep>(reader_->file().statistics().start)));
+    bool has_robot = false;
+    return reader_->objects({}, [&](const RecordedObject& one) {
+      if (const auto sensor = sensors_.find(std::string(one.row)); sensor != sensors_.end())
+        readings_.push_back({sensor->second.get(), one.object, one.passed});
+      if (const auto robot = object_cast<idl::Robot>(one.object); robot && !std::exchange(has_robot, true))
+        robot_ = *robot;
+      return true;
+    });
+  }
+
+  [[nodiscard]] DriveLimits limits() const {
+    DriveLimits limits{.max_speed = *max_speed_, .max_turn_rate = *max_turn_rate_};
+    if (robot_.drives().empty()) return limits;
+    const idl::Drive& drive = robot_.drives().front();
+    return {drive.max_speed(),      drive.max_steer_speed(), drive.steer_gain(),
+            drive.big_turn_angle(), drive.big_turn_speed(),  drive.type()};
+  }
+
+  void publish(const Reading& reading) {
+    if (state() != HardwareState::active) return;  // nobody wants it, and nobody did then
+    ObjectLoan object = copy_value(reading.object);
+    log_replay::shift_times(object, shift_);
+    reading.sensor->publish(std::move(object));
+  }
+
+  Param<std::string> recording_{
+      *this,
+      "recording",
+      "",
+      {.fixed = true, .text = "The recording, an MCAP file of deployer --record or orcactl record"}};
+  Param<std::string> ports_{*this,
+                            "ports",
+                            "",
+                            {.fixed = true,
+                             .text = "Ports of the recording whose objects come again, with blanks between: "
+                                     "base.OdometryPush laser.LaserRangeReadingsPush"}};
+  Param<double> max_speed_{*this,
+                           "max_speed",
+                           1.0,
+                           {.unit = "m/s",
+                            .min = 0.0,
+                            .fixed = true,
+                            .text = "Limit of the base, if the recording has no description of the robot"}};
+  Param<double> max_turn_rate_{
+      *this, "max_turn_rate", 1.0, {.unit = "rad/s", .min = 0.0, .fixed = true, .text = "Likewise"}};
+  std::optional<ObjectReader> reader_;
+  std::map<std::string, std::unique_ptr<RecordedSensor>> sensors_;  // by port
+  std::unique_ptr<MotionHW> motion_;
+  std::vector<Reading> readings_;  // in the order in which they passed
+  idl::Robot robot_;
+  TimePoint begin_{};  // of the recording
+  Duration shift_{0};  // from its times to those of this run
+  std::size_t next_ = 0;
+  bool is_over_ = false;
+};
+
+}  // namespace
+
+ORCA_HARDWARE(LogReplay, "orca.hw.Log")
