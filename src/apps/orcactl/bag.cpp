@@ -74,6 +74,7 @@ std::vector<Record> topics_of(const recording::Reader& file, const recording::Va
 Record summary_of(const recording::Reader& file, const recording::Values& facts) {
   const recording::Statistics& numbers = file.statistics();
   return {{"messages", numbers.messages},
+          {"begin_s", seconds(0, numbers.start), 6},
           {"duration_s", seconds(numbers.start, numbers.end), 3},
           {"megabytes", static_cast<double>(file.size()) * 1e-6, 3},
           {"chunks", numbers.chunks},

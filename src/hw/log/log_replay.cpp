@@ -34,7 +34,7 @@ class RecordedSensor final : public SensorEndpoint {
 
 /// The sensors of a robot as they were recorded: each reading comes again when it came then, counted from the beginning of the
 /// recording, with its stamps moved by as much. Commands to the base are taken and change nothing. Poses of the robot (RobotPose)
-/// are served by TruthLocalizer; the description of the robot is the first one in the recording.
+/// are served by TruthLocalizer; the description of the robot is the first one in the recording, with lasers as their scans say.
 ///
 /// Components of today see what those of then saw, so in virtual time they do the same each time.
 class LogReplay final : public HardwareContainer {
@@ -51,6 +51,7 @@ class LogReplay final : public HardwareContainer {
     if (!faults.empty()) return faults;
     if (const Status read = load(); !read.ok())
       faults.push_back({.param = "recording", .text = read.error().message});
+    describe_lasers();
     motion_ = std::make_unique<MotionHW>(limits(), kMaxCommandAge);
     set_motion(*motion_);
     return faults;
@@ -139,6 +140,34 @@ class LogReplay final : public HardwareContainer {
         robot_ = *robot;
       return true;
     });
+  }
+
+  // A laser that the description leaves out, because it was another device's, is what its scans say of it.
+  void describe_lasers() {
+    if (!robot_.laser_sensors().empty()) return;
+    for (const auto& [port, sensor] : sensors_) {
+      const auto first = std::ranges::find(readings_, sensor.get(), &Reading::sensor);
+      if (first == readings_.end()) continue;
+      if (const auto scan = object_cast<idl::LaserRangeReadings>(first->object))
+        robot_.laser_sensors().push_back(laser_of(*scan, *sensor, port));
+    }
+  }
+
+  static idl::LaserSensor laser_of(const idl::LaserRangeReadings& scan, const SensorEndpoint& sensor,
+                                   const std::string& port) {
+    idl::LaserSensor laser;
+    laser.name(sensor.device().empty() ? "laser" : sensor.device());
+    laser.port(port);
+    laser.type(std::string(sensor.type().name));
+    laser.update_interval(to_seconds(sensor.period()));
+    laser.mount().position(scan.pose().position());
+    laser.mount().rotation(scan.pose().rotation());
+    laser.number(static_cast<std::uint32_t>(scan.ranges().size()));
+    laser.angle_start(scan.angle_start());
+    laser.angle_increment(scan.angle_increment());
+    laser.min_range(scan.min_range());
+    laser.max_range(scan.max_range());
+    return laser;
   }
 
   [[nodiscard]] DriveLimits limits() const {

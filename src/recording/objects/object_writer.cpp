@@ -57,6 +57,7 @@ std::set<std::string> files_in(const std::string& graph) {
     if (end == std::string::npos) break;
     const std::string path = graph.substr(at + 1, end - at - 1);
     std::error_code error;
+    if (path.ends_with(".mcap")) continue;  // what a replay plays
     if (fs::is_regular_file(path, error) && fs::file_size(path, error) <= kLargestAttachment)
       files.insert(path);
   }

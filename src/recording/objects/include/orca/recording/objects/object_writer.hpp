@@ -43,7 +43,7 @@ class ObjectWriter {
   /// Says what the recording is of. The first call.
   /// @errors  as Writer.
   Status begin(const Origin& origin);
-  /// Puts the text of the graph, and the files that its parameters name, into the recording.
+  /// Puts the text of the graph, and the files that its parameters name, into the recording; but no other recordings.
   /// @param graph  as graph::print() writes it.
   Status attach_graph(const std::string& graph);
 

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Recordings: what they hold, that they change nothing, what they lose, and that they can be played again.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+using Catch::EndsWith;
+using Catch::StartsWith;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string kScout = source_file("graphs/scout_goto.xml");
+const std::string kProcesses = source_file("graphs/scout_goto_processes.xml");
+const std::string kReplay = source_file("graphs/replay.xml");
+
+Run bag(const Words& words) { return run_orcactl(Words{"bag"} + words); }
+
+// Returns the cell of a topic in `bag info --json`; "" if there is no such topic.
+std::string cell_of(const std::string& info, const std::string& topic, const std::string& name) {
+  for (const std::string& line : split_lines(info)) {
+    if (line.find("\"" + topic + "\"") == std::string::npos) continue;
+    const std::size_t at = line.find("\"" + name + "\":");
+    if (at == std::string::npos) return "";
+    const std::size_t begin = line.find_first_not_of(" \"", at + name.size() + 3);
+    return line.substr(begin, line.find_first_of("\",}", begin) - begin);
+  }
+  return "";
+}
+
+std::string info_of(const std::string& file) {
+  const Run run = run_orcactl({"--json", "bag", "info", file});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return run.out;
+}
+
+int count_in(const std::string& info, const std::string& topic) {
+  const std::string count = cell_of(info, topic, "messages");
+  return count.empty() ? 0 : std::stoi(count);
+}
+
+// Replays a recording into GridPlanner, and records that. Returns the trace hash.
+std::string replay(const std::string& recording, const std::string& to) {
+  const Run run = run_deployer(
+      Words{kReplay, "--set", "recording=" + recording, "--until", "20s", "--record", to} + virtual_clock(),
+      Seconds(60));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return run.trace_hash().value_or("none");
+}
+
+}  // namespace
+
+TEST_CASE("recording everything of a virtual run changes nothing, and two recordings are the same file",
+          "[system][recording]") {
+  const TempFolder folder;
+  const std::string first = folder.file("first.mcap");
+  const std::string second = folder.file("second.mcap");
+  const Words run = Words{kScout, "--until", "20s"} + virtual_clock();
+  const Run plain = run_deployer(run);
+  const Run recorded = run_deployer(run + Words{"--record", first});
+  CHECK(recorded.trace_hash() == plain.trace_hash());
+  CHECK(run_deployer(run + Words{"--record", second}).exit_code() == 0);
+  CHECK(read_text(first) == read_text(second));
+  CHECK_THAT(bag({"check", first}).out, StartsWith("in order: "));
+  const std::string info = info_of(first);
+  CHECK_THAT(info, Contains(*plain.trace_hash()));
+  CHECK(count_in(info, "/base/OdometryPush") == 400);
+  CHECK(count_in(info, "/ros/base/OdometryPush") == 400);
+}
+
+TEST_CASE("a recording is never written over another file, and nothing starts then",
+          "[system][recording][fault]") {
+  const TempFolder folder;
+  const std::string file = folder.write("run.mcap", "precious");
+  for (const Words& how : {Words{"--in-process"}, Words{}, virtual_clock()}) {
+    const Run run = run_deployer(Words{kScout, "--until", "2s", "--record", file} + how);
+    INFO(run.err);
+    CHECK(run.exit_code() == 2);
+    CHECK(run.says(file + ": there is something of this name already"));
+  }
+  CHECK(read_text(file) == "precious");
+  CHECK(run_deployer({kScout, "--record", "run.mcap="}).exit_code() == 2);
+  CHECK(run_deployer({kScout, "--check", "--record", folder.file("x.mcap") + "=base.Nothing"}).exit_code() ==
+        2);
+}
+
+TEST_CASE("a system of several processes is recorded from its first object to its last, with nothing lost",
+          "[system][recording]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  const Run run = run_deployer({kProcesses, "--until", "4s", "--record", file});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  CHECK_FALSE(run.says("LOST"));
+  const Run checked = bag({"check", file});
+  INFO(checked.out << checked.err);
+  CHECK(checked.exit_code() == 0);
+  CHECK_THAT(checked.out, !Contains("remark"));  // no number is missing between its messages
+  const Run table = bag({"csv", file, "command.goto", "base.OdometryPush"});
+  const std::vector<std::string> lines = split_lines(table.out);
+  REQUIRE(lines.size() > 60);
+  CHECK_THAT(table.out, Contains("command.goto,"));
+  const std::string info = info_of(file);
+  CHECK(count_in(info, "/base/OdometryPush") >= 75);
+  CHECK(count_in(info, "/log") >= 1);
+  CHECK_THAT(info, Contains("scout_goto_processes"));
+}
+
+TEST_CASE("a recorder that is killed loses at most 0.25 s, and the rest is recovered",
+          "[system][recording][quiet]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  const std::string recovered = folder.file("recovered.mcap");
+  Subprocess system(deployer({kProcesses, "--until", "60s"}));
+  Subprocess recorder(
+      orcactl({"--system", "scout_goto_processes", "record", file, "base.OdometryPush", "--wait", "20s"}));
+  const auto limit = std::chrono::steady_clock::now() + 30s;
+  std::error_code absent;
+  const auto size = [&] {
+    return std::filesystem::exists(file) ? std::filesystem::file_size(file, absent) : 0;
+  };
+  while (size() < 30'000 && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(20ms);
+  const double killed =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+  recorder.send(SIGKILL);
+  REQUIRE(recorder.wait(Seconds(5)));
+  system.send(SIGTERM);
+  CHECK(finish(system, Seconds(10)).exit_code() == 0);
+  CHECK(bag({"check", file}).exit_code() == 1);
+  REQUIRE(bag({"recover", file, recovered}).exit_code() == 0);
+  CHECK(bag({"check", recovered}).exit_code() == 0);
+  // Columns: stamp (from the beginning of the recording), port, creation_time, ... Odometry comes 20 times a second, so the
+  // last one that had passed before is up to 0.05 s older than the kill.
+  const std::vector<std::string> rows = split_lines(bag({"csv", recovered, "base.OdometryPush"}).out);
+  REQUIRE(rows.size() > 20);
+  const std::string info = info_of(recovered);
+  const double last = std::stod(cell_of(info, "scout_goto_processes", "begin_s")) +
+                      std::stod(cell_of(info, "scout_goto_processes", "duration_s"));
+  INFO("lost: " << killed - last << " s");
+  CHECK(killed - last < 0.25 + 0.05);
+}
+
+TEST_CASE("sensors of real drivers that were recorded drive GridPlanner to the same commands each time",
+          "[system][recording][replay]") {
+  const TempFolder folder;
+  const std::string recording = folder.file("drivers.mcap");
+  const Run run = run_deployer(Words{source_file("graphs/pioneer2dx_sick.xml"), "--profile", "emulate",
+                                     "--until", "20s", "--record", recording} +
+                                   virtual_clock(),
+                               Seconds(60));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  const std::string once = folder.file("once.mcap");
+  const std::string again = folder.file("again.mcap");
+  const std::string hash = replay(recording, once);
+  CHECK(hash == replay(recording, again));
+  const Run compared = bag({"diff", once, again, "planner.MotionCmdPush", "fuser.base"});
+  INFO(compared.err);
+  CHECK(compared.exit_code() == 0);
+  CHECK(count_in(info_of(once), "/planner/MotionCmdPush") > 100);
+  // What the planner saw is what the drivers had read.
+  CHECK(count_in(info_of(once), "/laser/LaserRangeReadingsPush") > 100);
+}
+
+TEST_CASE(
+    "a replay of the planner's own sensors gives the planner's own commands, and diff finds what is not the "
+    "same",
+    "[system][recording][replay]") {
+  const TempFolder folder;
+  const std::string recording = folder.file("run.mcap");
+  const Words planner{source_file("graphs/pioneer_planner.xml"), "--until", "20s", "--record"};
+  REQUIRE(run_deployer(planner + Words{recording} + virtual_clock(), Seconds(60)).exit_code() == 0);
+  const std::string again = folder.file("again.mcap");
+  (void)replay(recording, again);
+  CHECK(bag({"diff", recording, again, "planner.MotionCmdPush"}).exit_code() == 0);
+  CHECK(bag({"diff", recording, again, "laser.LaserRangeReadingsPush"}).exit_code() == 0);
+  const std::string other = folder.file("other.mcap");
+  REQUIRE(run_deployer(planner + Words{other, "--set", "speed=0.4 m/s"} + virtual_clock(), Seconds(60))
+              .exit_code() == 0);
+  const Run compared = bag({"diff", recording, other, "planner.MotionCmdPush"});
+  CHECK(compared.exit_code() == 1);
+  CHECK_THAT(compared.err,
+             Contains("the first difference, after ") && Contains("planner.MotionCmdPush number "));
+}
+
+TEST_CASE("a recording without the ports of a replay is refused by name",
+          "[system][recording][replay][fault]") {
+  const TempFolder folder;
+  const std::string recording = folder.file("run.mcap");
+  REQUIRE(run_deployer(Words{kScout, "--until", "1s", "--record", recording} + virtual_clock()).exit_code() ==
+          0);
+  const Run run = run_deployer({kReplay, "--check", "--set", "recording=" + recording});
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("the recording has nothing of \"laser.LaserRangeReadingsPush\"; it has: "));
+  CHECK(run_deployer({kReplay, "--check", "--set", "recording=/nonexistent.mcap"}).exit_code() == 2);
+}
+
+TEST_CASE("50 MB/s are recorded, and what is lost is counted", "[system][recording][quiet]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  const Run run = run_deployer(
+      Words{system_graph("cameras.xml"), "--until", "5s", "--record", file} + with_test_plugins(),
+      Seconds(30));
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  const std::string info = info_of(file);
+  const int recorded = count_in(info, "/camera/image");
+  const int lost = std::stoi(cell_of(info, "/camera/image", "lost"));
+  const Run checked = bag({"check", file});
+  CHECK(checked.exit_code() == 0);
+  CHECK(recorded + lost >= 100);
+  // Numbers are missing between the pictures if, and only if, some are counted as lost.
+  CHECK((checked.out.find("remark: /camera/image") != std::string::npos) == (lost > 0));
+}
+
+TEST_CASE("recordings open in the readers of others, which decode every message",
+          "[system][recording][tool]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  REQUIRE(run_deployer(Words{source_file("graphs/pioneer_planner.xml"), "--until", "5s", "--record", file} +
+                       virtual_clock())
+              .exit_code() == 0);
+  Subprocess reader({"/usr/bin/env", "python3", source_file("tests/system/read_bag.py"), file});
+  const Run run = finish(reader, Seconds(60));
+  if (run.exit_code() == 77) {
+    std::cout << "SKIPPED: " << run.out << "\n";
+    return;
+  }
+  INFO(run.out << run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, EndsWith(" graph.xml office.xml pioneer_2dx.urdf\n"));
+}
+
+TEST_CASE("bag explains what is wrong with its arguments and with files that are none",
+          "[system][recording]") {
+  const TempFolder folder;
+  const std::string text = folder.write("notes.mcap", "not a recording");
+  const Run check = bag({"check", text});
+  CHECK(check.exit_code() == 2);
+  CHECK_THAT(check.err, Contains(text + ": this is no MCAP file: it does not begin like one"));
+  CHECK_THAT(bag({"inof", text}).err, Contains("did you mean \"info\"?"));
+  CHECK(bag({"recover", text}).exit_code() == 2);
+  CHECK_THAT(bag({"recover", text, text}).err, Contains("recordings overwrite nothing"));
+}
