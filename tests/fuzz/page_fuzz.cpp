@@ -6,7 +6,7 @@
 #include <string>
 
 #include "access.hpp"
-#include "ros_messages.hpp"
+#include "foxglove/ros_messages.hpp"
 #include "wish.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

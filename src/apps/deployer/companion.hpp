@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +61,7 @@ class Recorders {
   /// Starts them.
   /// @errors  already_exists if a file is there; as Companion::start().
   Status start(const std::string& system, const std::vector<host::RecordingOptions>& recordings);
+  [[nodiscard]] std::size_t count() const { return running_.size(); }
   /// Waits until they have written everything.
   /// @errors  data_loss if one of them says on stderr why it could not.
   Status finish();

@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "foxglove_client.hpp"
+#include "foxglove/client.hpp"
 #include "page.hpp"
 
 namespace orca::view {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ros_messages.hpp"
+#include "foxglove/ros_messages.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "foxglove_channels.hpp"
+#include "foxglove/channels.hpp"
 
 using namespace orca::view;
 using Catch::Contains;

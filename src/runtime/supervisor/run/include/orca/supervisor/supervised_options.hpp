@@ -34,7 +34,8 @@ struct SupervisedOptions {
   std::vector<std::string> graph_files;  ///< That the graph was read from, the main one first.
   /// Code of components that is built anew takes the place of the old one, and a graph that is saved is carried out.
   bool watches = false;
-  std::size_t recorders = 0;  ///< Programs with bounded lines without which nothing begins to work, for a moment at least.
+  std::size_t recorders =
+      0;  ///< Programs with bounded lines without which nothing begins to work, for a moment at least.
   bool holds = false;  ///< What moves is held from the start, until an operator releases it.
 };
 

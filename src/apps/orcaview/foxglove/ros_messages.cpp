@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "ros_messages.hpp"
+#include "foxglove/ros_messages.hpp"
 
 #include <cmath>
 #include <cstdint>

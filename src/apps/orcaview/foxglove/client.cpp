@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "foxglove_client.hpp"
+#include "foxglove/client.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "answers.hpp"
+#include "foxglove/ros_messages.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
-#include "ros_messages.hpp"
 #include "tapping.hpp"
 
 namespace orca::view {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "foxglove_channels.hpp"
+#include "foxglove/channels.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "foxglove_channels.hpp"
+#include "foxglove/channels.hpp"
 #include "orca/ros/twin.hpp"
 
 namespace orca::view {
