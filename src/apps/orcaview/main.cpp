@@ -113,6 +113,14 @@ std::string address_of(const ViewServer& server, const Tokens& tokens, Role role
   return "http://127.0.0.1:" + std::to_string(server.port()) + "/#token=" + tokens.of(role);
 }
 
+/// The event loop. What waits in it - connections, above all - uses the desk and the server, so it goes before they do.
+class Loop final : public boost::asio::io_context {
+ public:
+  Loop() : io_context(1) {}
+  /// Drops all that waits.
+  void clear() { shutdown(); }
+};
+
 ExitCode run(const apps::Call& call) {
   const std::variant<std::string, ExitCode> system = system_of(call);
   if (const auto* const code = std::get_if<ExitCode>(&system)) return *code;
@@ -125,7 +133,7 @@ ExitCode run(const apps::Call& call) {
   const Result<Tokens> tokens = Tokens::draw();
   if (!tokens) return report(tokens.error(), ExitCode::refused);
 
-  boost::asio::io_context loop(1);
+  Loop loop;
   Desk desk(loop.get_executor(), name);
   ViewServer server(loop, desk, *tokens, files);
   constexpr std::uint16_t kDefaultPort = 8080;
@@ -144,6 +152,7 @@ ExitCode run(const apps::Call& call) {
   boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
   stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
   loop.run();
+  loop.clear();
   return ExitCode::ended;
 }
 

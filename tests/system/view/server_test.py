@@ -248,6 +248,20 @@ class View(ViewCase):
         page.send(op="look", id=3, port=POSE)
         self.assertEqual(page.answer(3)["op"], "looking")
 
+    def test_it_ends_well_while_pages_are_open(self):
+        other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME], env=self.environment, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, other)
+        port = int(re.search(r":(\d+)/", other.stdout.readline())[1])
+        token = other.stdout.readline().split("token=")[1].strip()
+        pages = [WebSocket(port, token) for _ in range(5)]
+        for page in pages:
+            self.addCleanup(page.socket.close)
+            page.send(op="look", id=1, port=POSE)
+            page.answer(1)
+        with socket.create_connection(("127.0.0.1", port)):
+            other.send_signal(signal.SIGTERM)
+            self.assertEqual(other.wait(10), 0)
+
     def test_the_death_of_the_page_is_nobodys_loss(self):
         other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME], env=self.environment, stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, other)

@@ -57,7 +57,7 @@ class ViewCase(unittest.TestCase):
     def end(process):
         if process.poll() is None:
             process.send_signal(signal.SIGTERM)
-            process.wait(30)
+            assert process.wait(30) == 0, f"{process.args[0]} has ended with {process.returncode}"
         if process.stdout:
             process.stdout.close()
 
