@@ -4,7 +4,8 @@
 
     tests/system/barn/tables.py LEVEL POSE [--tuned DIR] [--build DIR] [--out DIR] [--jobs N] [--to FILE.md] [--numbers "1-20 25"]
 
-With --tuned it runs those variants only for which DIR holds settings, NAME.xml, as `simbatch tune sim/experiments/barn.xml` writes them.
+With --tuned it runs those variants only for which DIR holds settings, NAME.xml, as `simbatch tune sim/experiments/barn.xml` writes them. Where
+the declared values were the best there are none, and the row is that of the table without --tuned.
 LEVEL is ideal, nominal, harsh or recorded; POSE is odometry (drifts, as that of a robot without a map) or truth (the simulator's).
 The runs are kept in OUT/LEVEL_POSE.batch; called again it goes on where it was stopped. All columns are the referee's
 (docs/comparing.md). Exit status: 0 if all runs were made; 77 if the worlds are missing; otherwise that of simbatch.
@@ -36,7 +37,7 @@ def take_settings(root, folder):
     """Gives variants the settings that the folder holds, and leaves out the others."""
     for variant in root.findall("variant"):
         file = folder.resolve() / f"{variant.get('name')}.xml"
-        if file.exists():
+        if file.exists() and ElementTree.parse(file).getroot().find("set") is not None:
             variant.set("settings", str(file))
         else:
             root.remove(variant)
