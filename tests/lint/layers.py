@@ -164,7 +164,7 @@ LAYERS = (
           "host_containment", "plugin", "graph", "idl", "base"), module=SUPERVISOR),
     Layer("supervisor_members", (f"{SUPERVISOR}/members",), (), ("supervisor_agreed", "supervisor_processes",
           "supervisor_channel", "host_judging", "host", "host_containment", "graph", "idl", "base"), module=SUPERVISOR),
-    Layer("supervisor_control", (f"{SUPERVISOR}/control",), (), ("supervisor_members", "supervisor_agreed", "host_recording",
+    Layer("supervisor_control", (f"{SUPERVISOR}/control",), (), ("supervisor_members", "supervisor_agreed",
           "supervisor_processes", "supervisor_channel", "host_part", "host", "host_containment", "plugin", "graph", "xml",
           "idl", "base"), module=SUPERVISOR),
     Layer("supervisor_machines", (f"{SUPERVISOR}/machines",), (), ("supervisor_control", "supervisor_members",

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cdr_writer.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -47,12 +48,12 @@ struct Rotation {
 };
 
 void put_quaternion(CdrWriter& out, const Rotation& rotation) {
-  const double cr = std::cos(0.5 * rotation.roll);
-  const double sr = std::sin(0.5 * rotation.roll);
-  const double cp = std::cos(0.5 * rotation.pitch);
-  const double sp = std::sin(0.5 * rotation.pitch);
-  const double cy = std::cos(0.5 * rotation.yaw);
-  const double sy = std::sin(0.5 * rotation.yaw);
+  const double cr = portable::cos(0.5 * rotation.roll);
+  const double sr = portable::sin(0.5 * rotation.roll);
+  const double cp = portable::cos(0.5 * rotation.pitch);
+  const double sp = portable::sin(0.5 * rotation.pitch);
+  const double cy = portable::cos(0.5 * rotation.yaw);
+  const double sy = portable::sin(0.5 * rotation.yaw);
   out.put(sr * cp * cy - cr * sp * sy);
   out.put(cr * sp * cy + sr * cp * sy);
   out.put(cr * cp * sy - sr * sp * cy);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
-#include "orca/host/port_taps.hpp"
+#include "orca/host/run_outputs.hpp"
 #include "orca/supervisor/channel.hpp"
 
 namespace orca::supervisor {

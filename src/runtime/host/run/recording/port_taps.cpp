@@ -11,11 +11,6 @@ Flow flow_of(const PortContract& port) {
   return port.pattern == Pattern::send && port.role == Role::proxy ? Flow::requested : Flow::delivered;
 }
 
-bool is_source(const PortContract& port) {
-  if (port.pattern == Pattern::query) return true;  // questions at one end, replies at the other
-  return flow_of(port) != Flow::delivered;
-}
-
 PortTap::PortTap(std::vector<Place> places, const Bounds& bounds)
     : places_(std::move(places)), bounds_(bounds), lost_(places_.size()) {
   waiting_.reserve(Bounds{}.objects);

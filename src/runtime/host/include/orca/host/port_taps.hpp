@@ -22,8 +22,6 @@ enum class Flow { pushed, requested, delivered };
 
 /// Returns the moment at which objects are seen at a port.
 [[nodiscard]] Flow flow_of(const PortContract& port);
-/// Returns whether a recording of everything has the port: with these, each object is in it once.
-[[nodiscard]] bool is_source(const PortContract& port);
 
 /// What has passed some ports since the last look. Whoever passes an object never waits: one that finds no room is lost,
 /// and counted.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/base/contract.hpp"
 #include "orca/host/picture.hpp"
 
 namespace orca::host {
@@ -16,6 +17,12 @@ struct RecordingOptions {
   /// "component.port", by their names in the graph; empty, of an MCAP file: all through which objects leave their component.
   std::vector<std::string> ports;
 };
+
+/// Returns whether a recording of everything has the port: with these, each object is in it once. Those are PushServers,
+/// SendProxies, and both ends of Query: questions at the one, replies at the other.
+[[nodiscard]] inline bool is_source(const PortContract& port) {
+  return port.pattern == Pattern::query || (port.pattern == Pattern::push) == (port.role == Role::server);
+}
 
 /// Returns whether a recording is an MCAP file, by its name.
 [[nodiscard]] inline bool is_bag_file(std::string_view file) { return file.ends_with(".mcap"); }
