@@ -69,11 +69,11 @@ export function notify(text, kind = "note") {
   const notices = byId("notices");
   notices.append(shown);
   while (notices.childElementCount > 4) notices.firstElementChild?.remove();
-  setTimeout(() => shown.remove(), kind === "refused" ? 15000 : 5000);
+  setTimeout(() => shown.remove(), kind === "refused" ? 15000 : 4000);
 }
 
 /** @param {number | null | undefined} value @param {number} [digits] @returns {string} the number with so many digits after the point */
 export function figure(value, digits = 2) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
-  return value.toFixed(digits).replace("-", "−");
+  return value.toFixed(digits).replace(/^-(?=[0.]*$)/, "").replace("-", "−");
 }

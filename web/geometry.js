@@ -133,6 +133,6 @@ export class Camera {
     const height = Math.max(2, box.max.y - box.min.y);
     this.x = (box.min.x + box.max.x) / 2;
     this.y = (box.min.y + box.max.y) / 2;
-    this.scale = Math.min(160, 0.88 * Math.min(this.width / width, this.height / height));
+    this.scale = Math.min(160, 0.84 * Math.min(this.width / width, this.height / height));
   }
 }

@@ -12,7 +12,7 @@ import { componentOf, isSource, shortPort } from "./system_model.js";
  * @typedef {import("./system_model.js").Wire} Wire
  * @typedef {{name: string, group: string, width: number, height: number, inputs: string[], outputs: string[]}} Box
  * @typedef {{name: string, parent: string, kind: "process" | "machine"}} Group
- * @typedef {{boxes: Box[], groups: Group[], links: {from: string, to: string, weight: number}[]}} Plan  links of components
+ * @typedef {{boxes: Box[], groups: Group[], links: Link[]}} Plan  links of components
  * @typedef {{x: number, y: number}} Point
  * @typedef {Record<string, Point>} Places  middle of each box
  */
@@ -24,6 +24,9 @@ const EDGE = 10;
 const GAP = 18;
 const ROOM = 14;
 const TITLE = 22;
+const SPACE = 24;  // between two boxes
+const MANNER = { rankdir: "LR", acyclicer: "greedy", nodesep: SPACE, ranksep: 64, edgesep: 6 };
+const MANY = 30;  // components that dagre does not arrange at once
 const PUSH_WEIGHT = 3;  // so that what sensors push leads to the right, and what is ordered in return may lead back
 
 /**
@@ -91,28 +94,178 @@ function boxOf(component, ports) {
   };
 }
 
+/** @typedef {{from: string, to: string, weight: number}} Link */
+/** @typedef {{name: string, width: number, height: number}} Tile */
+
+/** @typedef {{places: Places, width: number, height: number}} Arranged */
+
 /**
- * Arranges boxes so that most connections lead to the right.
+ * Arranges tiles so that most links lead to the right; those without a link stand below in rows.
+ * @param {any} dagre  the library
+ * @param {Tile[]} tiles
+ * @param {Link[]} links
+ * @returns {Arranged}
+ */
+function arrangeTiles(dagre, tiles, links) {
+  const linked = new Set(links.flatMap(({ from, to }) => [from, to]));
+  const above = arrangeLinked(dagre, tiles.filter(({ name }) => linked.has(name)), links);
+  const below = arrangeLoose(tiles.filter(({ name }) => !linked.has(name)));
+  const shift = above.height > 0 && below.height > 0 ? above.height + SPACE : above.height;
+  const width = Math.max(above.width, below.width);
+  /** @type {Places} */
+  const places = {};
+  for (const [name, { x, y }] of Object.entries(above.places)) places[name] = { x: x + (width - above.width) / 2, y };
+  for (const [name, { x, y }] of Object.entries(below.places)) places[name] = { x: x + (width - below.width) / 2, y: y + shift };
+  return { places, width, height: shift + below.height };
+}
+
+/**
+ * @param {any} dagre
+ * @param {Tile[]} tiles
+ * @param {Link[]} links
+ * @returns {Arranged}
+ */
+function arrangeLinked(dagre, tiles, links) {
+  if (tiles.length === 0) return { places: {}, width: 0, height: 0 };
+  const graph = new dagre.graphlib.Graph();
+  graph.setGraph(MANNER);
+  graph.setDefaultEdgeLabel(() => ({}));
+  for (const { name, width, height } of tiles) graph.setNode(name, { width, height });
+  for (const { from, to, weight } of links) graph.setEdge(from, to, { weight });
+  dagre.layout(graph);
+  const places = Object.fromEntries(tiles.map(({ name }) => [name, { x: graph.node(name).x, y: graph.node(name).y }]));
+  return { places, width: graph.graph().width, height: graph.graph().height };
+}
+
+/**
+ * @param {Tile[]} tiles
+ * @returns {Arranged}
+ */
+function arrangeLoose(tiles) {
+  const columns = Math.max(1, Math.round(Math.sqrt(tiles.length)));
+  const column = Math.max(0, ...tiles.map((tile) => tile.width));
+  /** @type {Places} */
+  const places = {};
+  let top = 0;
+  for (let first = 0; first < tiles.length; first += columns) {
+    const row = tiles.slice(first, first + columns);
+    const height = Math.max(...row.map((tile) => tile.height));
+    row.forEach(({ name }, i) => (places[name] = { x: i * (column + SPACE) + column / 2, y: top + height / 2 }));
+    top += height + SPACE;
+  }
+  return { places, width: Math.min(columns, tiles.length) * (column + SPACE) - (tiles.length > 0 ? SPACE : 0), height: Math.max(0, top - SPACE) };
+}
+
+/**
+ * Arranges a graph.
  * @param {any} dagre  the library
  * @param {Plan} plan
  * @returns {Places}
  */
 export function arrange(dagre, plan) {
+  if (plan.boxes.length > MANY) return arrangeByGroups(dagre, plan);
+  try {
+    return arrangeTogether(dagre, plan);
+  } catch {
+    return arrangeByGroups(dagre, plan);  // dagre fails on some graphs with groups
+  }
+}
+
+/**
+ * Arranges all boxes at once, so that connections between groups find a way, too.
+ * @param {any} dagre
+ * @param {Plan} plan
+ * @returns {Places}
+ */
+function arrangeTogether(dagre, plan) {
   const graph = new dagre.graphlib.Graph({ compound: true });
-  graph.setGraph({ rankdir: "LR", acyclicer: "greedy", nodesep: 24, ranksep: 64, edgesep: 6 });
+  graph.setGraph(MANNER);
   graph.setDefaultEdgeLabel(() => ({}));
   for (const group of plan.groups) graph.setNode(`${group.kind} ${group.name}`, {});
   for (const group of plan.groups) if (group.parent !== "") graph.setParent(`${group.kind} ${group.name}`, group.parent);
-  for (const box of plan.boxes) {
-    graph.setNode(`component ${box.name}`, { width: box.width, height: box.height });
-    graph.setParent(`component ${box.name}`, box.group);
+  for (const { name, width, height, group } of plan.boxes) {
+    graph.setNode(`component ${name}`, { width, height });
+    graph.setParent(`component ${name}`, group);
   }
   for (const { from, to, weight } of plan.links) graph.setEdge(`component ${from}`, `component ${to}`, { weight });
   dagre.layout(graph);
-  return Object.fromEntries(plan.boxes.map((box) => {
-    const { x, y } = graph.node(`component ${box.name}`);
-    return [box.name, { x, y }];
+  return Object.fromEntries(plan.boxes.map(({ name }) => {
+    const { x, y } = graph.node(`component ${name}`);
+    return [name, { x, y }];
   }));
+}
+
+/**
+ * Arranges the boxes of each group, then the groups like boxes. All at once would let dagre think for minutes about 200 components.
+ * @param {any} dagre
+ * @param {Plan} plan
+ * @returns {Places}
+ */
+function arrangeByGroups(dagre, plan) {
+  /** @type {Map<string, string>} the tile that a component or group is a part of; each step goes one level up */
+  const outer = new Map();
+  for (const box of plan.boxes) outer.set(`component ${box.name}`, box.group);
+  for (const group of plan.groups) outer.set(`${group.kind} ${group.name}`, group.parent);
+  /** @type {Tile[]} */
+  let tiles = plan.boxes.map(({ name, width, height }) => ({ name: `component ${name}`, width, height }));
+  let links = plan.links.map(({ from, to, weight }) => ({ from: `component ${from}`, to: `component ${to}`, weight }));
+  /** @type {Places} */
+  const offsets = {};
+  for (const kind of ["process", "machine", ""]) {
+    const names = kind === "" ? [""] : plan.groups.filter((group) => group.kind === kind).map((group) => `${kind} ${group.name}`);
+    const made = names.map((name) => arrangeInside(dagre, name, tiles.filter((tile) => outer.get(tile.name) === name), links, offsets));
+    tiles = [...tiles.filter((tile) => !names.includes(outer.get(tile.name) ?? "")), ...made];
+    links = lifted(links, (name) => (names.includes(outer.get(name) ?? "?") ? outer.get(name) ?? "" : name));
+  }
+  return Object.fromEntries(plan.boxes.map(({ name }) => [name, placeOf(`component ${name}`, outer, offsets)]));
+}
+
+/**
+ * @param {any} dagre
+ * @param {string} name  of the group; "" is the whole sheet
+ * @param {Tile[]} tiles  in it
+ * @param {Link[]} links
+ * @param {Places} offsets  gets the places of the tiles, from the middle of the group
+ * @returns {Tile} the group
+ */
+function arrangeInside(dagre, name, tiles, links, offsets) {
+  const known = new Set(tiles.map((tile) => tile.name));
+  const { places, width, height } = arrangeTiles(dagre, tiles, links.filter(({ from, to }) => known.has(from) && known.has(to)));
+  for (const [tile, { x, y }] of Object.entries(places)) offsets[tile] = { x: x - width / 2, y: y - height / 2 + TITLE / 2 };
+  return { name, width: width + 2 * ROOM, height: height + 2 * ROOM + TITLE };
+}
+
+/**
+ * @param {Link[]} links
+ * @param {(name: string) => string} up  from a tile to the one that it is a part of
+ * @returns {Link[]} links of these, without those within one
+ */
+function lifted(links, up) {
+  /** @type {Map<string, Link>} */
+  const found = new Map();
+  for (const link of links) {
+    const [from, to] = [up(link.from), up(link.to)];
+    if (from === to) continue;
+    const known = found.get(`${from}>${to}`) ?? { from, to, weight: 0 };
+    known.weight += link.weight;
+    found.set(`${from}>${to}`, known);
+  }
+  return [...found.values()];
+}
+
+/**
+ * @param {string} name
+ * @param {Map<string, string>} outer
+ * @param {Places} offsets
+ * @returns {Point}
+ */
+function placeOf(name, outer, offsets) {
+  let [x, y] = [0, 0];
+  for (let at = name; at in offsets; at = outer.get(at) ?? "") {
+    x += offsets[at].x;
+    y += offsets[at].y;
+  }
+  return { x, y };
 }
 
 /**

@@ -25,6 +25,8 @@ const TRAIL_STEP = 0.02;
 const TRAIL_LENGTH = 5000;
 const ECHO_CELL = 0.05;
 const ECHOES = 4000;
+const SILENT = 700;  // [ms] without an object after which its server is asked
+const ASK_AGAIN = 350;
 const AROUND = 3;  // [m] of a robot that belong to the picture
 
 /**
@@ -84,6 +86,15 @@ export class Robot {
     if (last !== undefined && Math.hypot(last.x - pose.x, last.y - pose.y) < TRAIL_STEP) return;
     this.trail.push({ x: pose.x, y: pose.y });
     if (this.trail.length > TRAIL_LENGTH) this.trail.splice(0, TRAIL_LENGTH / 10);
+  }
+
+  /**
+   * Forgets the way to a goal that was reached or given up. Whoever has no goal left may push no empty way any more.
+   * @param {string} name
+   */
+  endWay(name) {
+    this.ordered = null;
+    if (this.way?.name === name) this.way = null;
   }
 }
 
@@ -231,7 +242,7 @@ const PUSHED = {
     layer: "path",
     rate: 10,
     take: (world, robot, o) => {
-      robot.ordered = null;
+      robot.endWay(o.name);
       world.dispatchEvent(new CustomEvent("said", { detail: `Arrived at ${o.name}.` }));
     },
   },
@@ -239,7 +250,7 @@ const PUSHED = {
     layer: "path",
     rate: 10,
     take: (world, robot, o) => {
-      robot.ordered = null;
+      robot.endWay(o.name);
       world.dispatchEvent(new CustomEvent("said", { detail: `Gave up ${o.name}: ${o.reason}` }));
     },
   },
@@ -264,6 +275,8 @@ export class WorldModel extends EventTarget {
     /** @type {Grid | null} */
     this.grid = null;
     this.echoes = new EchoMemory();
+    /** @type {Point[]} places where a localizer thinks that a robot may be; no object type carries them yet */
+    this.particles = [];
     /** @type {{x: number, y: number, other: string}[]} */
     this.contacts = [];
     /** Whether something has come since the last frame. */
@@ -275,7 +288,12 @@ export class WorldModel extends EventTarget {
     this.looks = new Map();
     /** @type {Map<Robot, string>} the port that says where a robot is */
     this.localizers = new Map();
+    /** @type {Map<string, number>} when the last object came, by port [ms] */
+    this.heard = new Map();
+    /** @type {Set<string>} ports whose answer has not come yet */
+    this.waiting = new Set();
     system.addEventListener("graph", () => this.follow());
+    setInterval(() => this.askSilent(), ASK_AGAIN);
   }
 
   /** @returns {Point[]} corners of what is known: the map, the robots and their surroundings, what was echoed */
@@ -337,13 +355,24 @@ export class WorldModel extends EventTarget {
     return isBase ? COMMANDED : null;
   }
 
+  /**
+   * @param {Port} port
+   * @returns {boolean} whether nobody uses these readings, although somebody uses such readings from elsewhere: a base passes on what
+   *   a laser's own server pushes as well
+   */
+  isSpare(port) {
+    const isReading = port.type.endsWith("RangeReadings") && port.connected_to.length === 0;
+    const isUsed = (/** @type {Port} */ other) => other.type === port.type && other.pattern === "Push" && other.role === "Server" && other.connected_to.length > 0;
+    return isReading && this.system.portsThat((other) => isUsed(other) && this.robotOf(other.port) === this.robotOf(port.port)).length > 0;
+  }
+
   /** Looks at the ports that there are to look at, and at no others. */
   follow() {
     this.chooseLocalizers();
     const wanted = new Map();
     for (const port of this.isWatching ? this.system.ports.values() : []) {
       const source = this.sourceOf(port);
-      if (source !== null && !this.hidden.has(source.layer)) wanted.set(port.port, source);
+      if (source !== null && !this.hidden.has(source.layer) && !this.isSpare(port)) wanted.set(port.port, source);
     }
     for (const [port, end] of this.looks) {
       if (wanted.has(port)) continue;
@@ -360,18 +389,45 @@ export class WorldModel extends EventTarget {
    * @param {Source} source
    */
   lookAt(port, source) {
-    const robot = this.robotOf(port);
-    const take = (/** @type {any} */ object) => {
-      source.take(this, robot, object, port);
-      this.stale = true;
-    };
-    this.looks.set(port, this.connection.look(port, source.rate, take));
+    this.looks.set(port, this.connection.look(port, source.rate, (object) => this.take(port, source, object)));
+  }
+
+  /**
+   * @param {string} port
+   * @param {Source} source
+   * @param {any} object
+   */
+  take(port, source, object) {
+    this.heard.set(port, performance.now());
+    source.take(this, this.robotOf(port), object, port);
+    this.stale = true;
+  }
+
+  /** Asks for readings that nobody subscribes to, and that are not pushed therefore: a robot without a goal is still somewhere. */
+  askSilent() {
+    if (!this.isWatching || this.connection.hello === null) return;
+    const now = performance.now();
+    for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server" && p.type === "AskReading")) {
+      const pushed = port.port.replace(/Query$/, "Push");
+      const source = this.looks.has(pushed) ? PUSHED[port.reply ?? ""] : undefined;
+      if (source === undefined || now - (this.heard.get(pushed) ?? 0) < SILENT || this.waiting.has(pushed)) continue;
+      this.waiting.add(pushed);
+      this.connection.query(port.port, "<AskReading/>").then(({ ok, object }) => {
+        this.waiting.delete(pushed);
+        if (!ok || object === null || !this.looks.has(pushed)) return;
+        source.take(this, this.robotOf(pushed), object, pushed);
+        this.stale = true;
+      });
+    }
   }
 
   /** @param {string} port */
   forget(port) {
     const robot = this.robotOf(port);
     for (const map of [robot.sonars, robot.scans, robot.others]) map.delete(port);
+    const { type } = this.system.ports.get(port) ?? { type: "" };
+    if (type === "Path") robot.way = null;
+    if (type === "GoalPoint") robot.goal = null;
     robot.wishes.delete(componentOf(port));
   }
 

@@ -18,6 +18,7 @@ import * as draw from "./world_draw.js";
 
 const EASE = 0.05;  // [s] in which the drawn robot comes two thirds nearer to where it is
 const FIT_AGAIN = 1500;  // [ms]
+const LABEL = 70;  // pixels of a name beside its place
 const LEAST_PULL = 12;  // pixels below which a pull has no direction
 /** @type {Record<Tool, string>} */
 const HINTS = {
@@ -226,6 +227,7 @@ export class WorldView {
     if (world.grid !== null && shows("map")) draw.drawGrid(pen, world.grid);
     const step = draw.drawRaster(pen, camera, palette);
     if (shows("echoes")) draw.drawDots(pen, world.echoes.cells.values(), Math.max(0.05, 2 * pixel), palette.echo);
+    draw.drawDots(pen, world.particles, Math.max(0.03, 2 * pixel), palette.particle);
     for (const robot of world.robots.values()) {
       if (shows("sonar")) draw.drawSonars(pen, robot, pixel, palette);
       if (shows("laser")) draw.drawScans(pen, robot, pixel, palette);
@@ -235,6 +237,7 @@ export class WorldView {
     this.paintGoals(labels);
     this.paintPull(labels);
     draw.writeLabels(pen, camera, labels, dots, palette);
+    this.canvas.dataset.view = `${camera.x} ${camera.y} ${camera.scale}`;  // for whoever measures in the picture, as tests do
     draw.drawScale(pen, camera, step, dots, palette);
     if (document.activeElement === this.canvas && this.tool === "drive") this.paintCross();
   }
@@ -300,7 +303,7 @@ export class WorldView {
   }
 
   showsAll() {
-    return this.known.map((p) => this.camera.toScreen(p)).every(({ x, y }) => x >= 0 && y >= 0 && x <= this.camera.width && y <= this.camera.height);
+    return this.known.map((p) => this.camera.toScreen(p)).every(({ x, y }) => x >= 0 && y >= 0 && x <= this.camera.width - LABEL && y <= this.camera.height);
   }
 
   /**

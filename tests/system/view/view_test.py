@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page in a browser: a person sees the robot, changes connections and code while it drives, and sends it somewhere.
+
+    tests/system/view/view_test.py FOLDER_OF_PROGRAMS [--pictures FOLDER]
+"""
+import math
+import pathlib
+import re
+import shutil
+
+from browser import wait_for
+from page_case import ARGUMENTS, PageCase, main
+from selenium.webdriver import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+KITCHEN = (4.2, 9.8)
+WAY_TO_KITCHEN = ((3.6, 6.0), (3.6, 7.6))
+KITCHEN_FROM = 7.6  # [m] y of its door
+
+# Where a line of the graph can be clicked: a point of it that nothing else covers.
+POINT_OF_WIRE = """
+const [from, to] = arguments;
+for (const hit of document.querySelectorAll("#graph .hit")) {
+  if (hit.textContent !== `${from} → ${to}`) continue;
+  const matrix = hit.getScreenCTM();
+  for (let share = 0.05; share < 1; share += 0.05) {
+    const p = hit.getPointAtLength(share * hit.getTotalLength()).matrixTransform(matrix);
+    if (document.elementFromPoint(p.x, p.y) === hit) return [p.x, p.y];
+  }
+}
+return null;
+"""
+MIDDLE_OF = """
+const box = document.querySelector(arguments[0]).getBoundingClientRect();
+return [box.x + box.width / 2, box.y + box.height / 2];
+"""
+
+
+class Page(PageCase):
+    def wires(self):
+        return {(row["from"], row["to"]) for row in self.system.orcactl("graph")["connections"]}
+
+    def point_of_wire(self, ends):
+        return self.browser.execute_script(POINT_OF_WIRE, *ends)
+
+    def middle_of(self, selector):
+        return self.browser.execute_script(MIDDLE_OF, selector)
+
+    def pull(self, begin, end, **more):
+        """Pulls the mouse from port to port."""
+        a, b = (self.middle_of(f'#graph [data-port="{port}"] path') for port in (begin, end))
+        self.mouse(a, ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), b, **more)
+        return b
+
+    def test_1_the_moving_robot_is_seen(self):
+        wait_for("the robot drives", self.drives)
+        before = self.place()
+        wait_for("the robot is seen at another place", lambda: self.distance(before) > 0.3)
+        self.assertEqual(self.text("#robot-name"), "Dewey")
+        self.assertIn("live", self.text("#link"))
+        self.assertLess(self.distance(self.pose()), 0.5, "the page shows the robot where it is")
+        colours = self.browser.execute_script("""
+            const map = document.getElementById("map");
+            const { data } = map.getContext("2d").getImageData(0, 0, map.width, map.height);
+            return new Set(new Uint32Array(data.buffer)).size;""")
+        self.assertGreater(colours, 20, "cones, robot and way are drawn")
+        self.picture("drive")
+
+    def test_2_a_connection_is_removed_and_made_again(self):
+        ends = ("goto.GoalPush", "avoid.goal")
+        self.click("#tab-system")
+        point = wait_for("the line of the connection", lambda: self.point_of_wire(ends))
+        self.assertIn(ends, self.wires())
+        self.mouse(point)
+        self.click("#disconnect")
+        wait_for("the deployer has removed it", lambda: ends not in self.wires())
+        wait_for("its line is gone", lambda: self.point_of_wire(ends) is None)
+        self.click("#inspector .close")
+        self.pull(*ends)
+        wait_for("the deployer has made it", lambda: ends in self.wires())
+        wait_for("its line is back", lambda: self.point_of_wire(ends))
+        self.picture("system")
+
+    def test_3_what_does_not_fit_is_said_and_not_done(self):
+        before = self.wires()
+        end = self.pull("base.OdometryPush", "avoid.goal", up=False)
+        self.assertEqual(self.text("#graph-hint"), "Odometry is no GoalPoint")
+        self.mouse(end, down=False)
+        refused = wait_for("the checker's word", lambda: self.text("#notices .refused"))
+        self.assertIn("G021", refused)
+        self.assertEqual(self.wires(), before)
+
+    def test_4_code_is_exchanged_by_mouse_while_it_drives(self):
+        copy = pathlib.Path(self.system.folder.name) / "sonar_avoid.so"
+        shutil.copy(pathlib.Path(ARGUMENTS.programs).parent / "plugins" / "sonar_avoid.so", copy)
+        self.mouse(self.middle_of('#graph [data-component="avoid"] .name'))
+        self.click("#inspector .row button:nth-child(2)")
+        file = wait_for("the question for the file", lambda: self.browser.find_elements("css selector", "#swap-file"))[0]
+        file.clear()
+        file.send_keys(str(copy))
+        before = self.pose()
+        self.click("#dialog button.primary")
+        verdict = wait_for("the verdict", lambda: re.search("runs the code|refused|error", self.text("#dialog .verdict")), 60)
+        self.assertEqual(verdict[0], "runs the code", self.text("#dialog .verdict"))
+        self.assertGreater(math.dist(before, self.pose()), 0.2, "it drove meanwhile")
+        self.picture("swap")
+        self.assertEqual(next(row["plugin"] for row in self.system.orcactl("ps") if row["name"] == "avoid"), str(copy))
+        self.click("#dialog .end button:last-child")
+
+    def test_5_parameters_are_set_at_once(self):
+        self.click("#tab-component")
+        self.click('#component-list [data-name="goto"]')
+        for name, value in (("goto.max_speed", "0.45"), ("goto.slow_down", "70 %/s")):
+            field = wait_for(f"the field of {name}", lambda name=name: self.browser.find_elements("css selector", f'[aria-label="{name}"]'))[0]
+            field.clear()
+            field.send_keys(value)
+        self.assertEqual(self.text("#component .primary"), "Set 2 values at once")
+        field.send_keys(Keys.ENTER)
+        wait_for("why not", lambda: "slow_down" in self.text("#notices .refused"))
+        self.assertEqual(self.system.orcactl("get", "goto.max_speed")[0]["value"], "0.5", "one is wrong, so none is set")
+        field.clear()
+        field.send_keys("0.7", Keys.ENTER)
+        wait_for("the new values", lambda: self.system.orcactl("get", "goto.max_speed")[0]["value"] == "0.45")
+        self.assertEqual(self.system.orcactl("get", "goto.slow_down")[0]["value"], "0.7")
+        self.click('#component [aria-label="Look at goto.localizer"]')
+        wait_for("the object that passes", lambda: "RobotPose" in self.text("#component .object .small"))
+        self.picture("component")
+
+    def test_6_a_sensor_is_followed_to_the_wheels_and_a_field_is_plotted(self):
+        self.click('#component [aria-label="Plot translational_velocity"]')
+        self.click("#tab-time")
+        self.click("#trace")
+        ways = wait_for("a way from the odometry to the wheels", lambda: re.search("base.OdometryPush → avoid.motion → fuser.base", self.text("#ways")), 10)
+        self.assertTrue(ways)
+        wait_for("the plot", lambda: self.browser.find_elements("css selector", "#plots canvas"))
+        self.assertIn("localizer translational_velocity", self.text("#plots .legend"))
+        self.picture("time")
+        self.click("#trace")
+
+    def test_7_a_click_sends_it_to_another_room(self):
+        self.click("#tab-world")
+        self.click("#give-up")
+        wait_for("the goal is given up", lambda: "no goal" in self.text("#plain"))
+        self.click("#fit")
+        self.click("#tool-drive")
+        if self.place()[1] < KITCHEN_FROM:
+            for place in WAY_TO_KITCHEN:
+                self.shift_click(place)
+        x, y = self.pixel(KITCHEN)
+        self.mouse((x, y), (x, y - 40))
+        wait_for("it is on the way", lambda: "on the way to place" in self.text("#plain"))
+        self.picture("goal")
+        wait_for("it has arrived in the kitchen", lambda: self.distance(KITCHEN) < 0.4, 60)
+        wait_for("it stands and waits", lambda: self.text("#plain").startswith("Stands. It has no goal"))
+        self.assertLess(abs(self.number("#figure-heading") - 90), 12, "it looks where the mouse was pulled to")
+
+    def shift_click(self, place):
+        ActionChains(self.browser).key_down(Keys.SHIFT).perform()
+        self.mouse(self.pixel(place))
+        ActionChains(self.browser).key_up(Keys.SHIFT).perform()
+
+
+if __name__ == "__main__":
+    main()
