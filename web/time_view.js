@@ -45,7 +45,7 @@ export class TimeView {
     this.missions = [];
     /** @type {() => void} */
     this.endLog = () => {};
-    /** When the run's clock showed 0, by that of the browser [s]: the latest line of the log knows best. */
+    /** When the run's clock showed 0, by that of the browser [s]: no later than whatever has just happened says. */
     this.zero = Infinity;
     this.causes = new Causes();
     /** @type {(() => void)[]} */
@@ -91,6 +91,7 @@ export class TimeView {
     if (!this.isShown || this.connection.hello === null) return;
     const { ok, records } = await this.connection.ask("missions");
     if (ok) this.missions = records.map(missionOf);
+    this.zero = Math.min(this.zero, Date.now() / 1000 - Math.max(0, ...this.missions.map(({ time, until }) => until ?? time)));
     this.paint();
     this.list();
     this.showCauses();

@@ -80,6 +80,60 @@ export function drawGrid(pen, grid) {
 }
 
 /**
+ * Draws the walls of a simulated world, and the names of its places.
+ * @param {Pen} pen
+ * @param {import("./world_model.js").Plan} plan
+ * @param {number} pixel
+ * @param {Palette} palette
+ * @param {Label[]} labels
+ */
+export function drawPlan(pen, plan, pixel, palette, labels) {
+  pen.lineWidth = 2 * pixel;
+  pen.strokeStyle = palette.wall;
+  pen.stroke(plan.walls);
+  for (const { name, x, y } of plan.places) labels.push({ x, y, text: name, colour: palette.muted });
+}
+
+/**
+ * Draws what stands or walks about in a simulated world.
+ * @param {Pen} pen
+ * @param {import("./world_model.js").Scene} scene
+ * @param {number} pixel
+ * @param {Palette} palette
+ * @param {Label[]} labels
+ */
+export function drawScene(pen, scene, pixel, palette, labels) {
+  pen.lineWidth = 2 * pixel;
+  for (const obstacle of scene.obstacles) {
+    traceShape(pen, obstacle, obstacle.outline, obstacle.radius);
+    pen.fillStyle = palette.grid;
+    pen.fill();
+    pen.strokeStyle = palette.wall;
+    pen.stroke();
+    if (obstacle.movable) labels.push({ x: obstacle.x + 8 * pixel, y: obstacle.y, text: obstacle.name, colour: palette.muted });
+  }
+  pen.strokeStyle = palette.wish;
+  for (const { name, x, y, radius } of scene.people) {
+    traceShape(pen, { x, y, yaw: 0 }, [], radius);
+    pen.stroke();
+    labels.push({ x: x + radius + 4 * pixel, y, text: name, colour: palette.wish });
+  }
+}
+
+/**
+ * @param {Pen} pen
+ * @param {Pose} pose
+ * @param {import("./world_model.js").Edge[]} outline  around the pose; empty: a circle
+ * @param {number} radius
+ */
+function traceShape(pen, pose, outline, radius) {
+  pen.beginPath();
+  if (outline.length === 0) pen.arc(pose.x, pose.y, radius, 0, TURN);
+  outline.map(({ a }) => transform(pose, a)).forEach((p, i) => (i === 0 ? pen.moveTo(p.x, p.y) : pen.lineTo(p.x, p.y)));
+  pen.closePath();
+}
+
+/**
  * @param {Pen} pen
  * @param {Iterable<Point>} points
  * @param {number} size  [m]
@@ -200,9 +254,16 @@ function traceBody(pen, pose, outline) {
  */
 export function drawRobot(pen, robot, pixel, palette) {
   for (const pose of robot.others.values()) drawGhost(pen, pose, robot.outline, pixel, palette.muted);
-  const pose = robot.shown;
+  const { shown: pose, truth } = robot;
+  if (truth !== null && pose !== null && Math.hypot(truth.x - pose.x, truth.y - pose.y) > 0.1) {
+    traceShape(pen, truth, truth.outline, truth.radius);
+    pen.lineWidth = 1.5 * pixel;
+    pen.strokeStyle = palette.wall;
+    pen.stroke();
+  }
   if (pose === null) return;
-  traceBody(pen, pose, robot.outline);
+  if (truth !== null && truth.outline.length > 0) traceShape(pen, pose, truth.outline, truth.radius);
+  else traceBody(pen, pose, robot.outline);
   pen.fillStyle = palette.robot;
   pen.fill();
   pen.lineWidth = Math.max(2 * pixel, 0.015);

@@ -19,6 +19,12 @@ import { componentOf, shortPort } from "./system_model.js";
  * @typedef {{name: string, x: number, y: number, radius: number, yaw: number | null, via: boolean}} Goal
  * @typedef {{name: string, points: Point[]}} Way
  * @typedef {{corner: Pose, resolution: number, columns: number, rows: number, image: CanvasImageSource}} Grid
+ * @typedef {{walls: Path2D, corners: Point[], places: {name: string, x: number, y: number}[]}} Plan  of a simulated world
+ * @typedef {{a: Point, b: Point}} Edge
+ * @typedef {{name: string, x: number, y: number, yaw: number, radius: number, outline: Edge[], silent: string[]}} TrueRobot
+ * @typedef {{name: string, x: number, y: number, yaw: number, radius: number, outline: Edge[], movable: boolean}} Obstacle
+ * @typedef {{name: string, x: number, y: number, radius: number}} Person
+ * @typedef {{robots: TrueRobot[], people: Person[], obstacles: Obstacle[]}} Scene  what moves in a simulated world
  */
 
 const TRAIL_STEP = 0.02;
@@ -45,6 +51,8 @@ export class Robot {
     this.name = prefix.replace(/\/$/, "");
     /** Circle that holds the body, and the rectangle if it is one [m]. */
     this.outline = { radius: 0.2, length: 0, width: 0, known: false };
+    /** @type {TrueRobot | null} the robot as its simulator knows it */
+    this.truth = null;
     /** @type {Pose | null} */
     this.pose = null;
     /** @type {Pose | null} Where it is drawn: it follows the pose within a twentieth of a second, so that the picture does not jump. */
@@ -254,6 +262,7 @@ const PUSHED = {
       world.dispatchEvent(new CustomEvent("said", { detail: `Gave up ${o.name}: ${o.reason}` }));
     },
   },
+  WorldScene: { layer: "world", rate: 20, take: (world, _robot, o) => world.takeScene(o) },
   Contact: { layer: "robot", rate: 10, take: (world, _robot, o) => world.contacts.push({ x: o.x, y: o.y, other: o.other }) },
 };
 
@@ -274,6 +283,11 @@ export class WorldModel extends EventTarget {
     this.robots = new Map();
     /** @type {Grid | null} */
     this.grid = null;
+    /** @type {Plan | null} */
+    this.plan = null;
+    /** @type {Scene | null} */
+    this.scene = null;
+    this.lastEvent = 0;
     this.echoes = new EchoMemory();
     /** @type {Point[]} places where a localizer thinks that a robot may be; no object type carries them yet */
     this.particles = [];
@@ -299,7 +313,7 @@ export class WorldModel extends EventTarget {
   /** @returns {Point[]} corners of what is known: the map, the robots and their surroundings, what was echoed */
   extent() {
     /** @type {Point[]} */
-    const points = [...this.echoes.cells.values()];
+    const points = [...this.echoes.cells.values(), ...(this.plan?.corners ?? [])];
     for (const { pose, way } of this.robots.values()) {
       if (pose !== null) points.push({ x: pose.x - AROUND, y: pose.y - AROUND }, { x: pose.x + AROUND, y: pose.y + AROUND });
       points.push(...(way?.points ?? []));
@@ -428,6 +442,7 @@ export class WorldModel extends EventTarget {
     const { type } = this.system.ports.get(port) ?? { type: "" };
     if (type === "Path") robot.way = null;
     if (type === "GoalPoint") robot.goal = null;
+    if (type === "WorldScene") this.scene = null;
     robot.wishes.delete(componentOf(port));
   }
 
@@ -436,6 +451,7 @@ export class WorldModel extends EventTarget {
     for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server")) {
       if (port.reply === "Robot" && !this.robotOf(port.port).outline.known) this.askOutline(port.port);
       if (port.reply === "OccupancyGrid" && this.grid === null) this.askGrid(port.port);
+      if (port.reply === "WorldPlan" && this.plan === null) this.askPlan(port.port);
     }
   }
 
@@ -456,6 +472,35 @@ export class WorldModel extends EventTarget {
     const answer = await this.connection.query(port, "<Ask/>");
     if (answer.ok && answer.object !== null) this.grid = gridOf(answer.object);
     this.stale = true;
+  }
+
+  /** @param {string} port */
+  async askPlan(port) {
+    const answer = await this.connection.query(port, "<Ask/>");
+    if (!answer.ok || answer.object === null) return;
+    const walls = new Path2D();
+    for (const { a, b } of answer.object.walls) {
+      walls.moveTo(a.x, a.y);
+      walls.lineTo(b.x, b.y);
+    }
+    const corners = answer.object.walls.flatMap((/** @type {Edge} */ { a, b }) => [a, b]);
+    this.plan = { walls, corners, places: answer.object.places };
+    this.stale = true;
+  }
+
+  /**
+   * Takes the truth about a simulated world. Its events are said once.
+   * @param {any} o  WorldScene
+   */
+  takeScene(o) {
+    this.scene = o;
+    for (const robot of this.robots.values()) robot.truth = o.robots.find((/** @type {TrueRobot} */ each) => each.name === robot.name) ?? null;
+    for (const { text, x, y, stamp } of o.events) {
+      if (stamp.ns <= this.lastEvent) continue;
+      this.lastEvent = stamp.ns;
+      if (Number.isFinite(x) && / touches /.test(text)) this.contacts.push({ x, y, other: text });
+      this.dispatchEvent(new CustomEvent("happened", { detail: text }));
+    }
   }
 
   /** Of several localizers the one is believed that most components follow. */

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
-import { byId, el, figure, notify, setText } from "./dom.js";
-import { Driver } from "./drive.js";
+import { byId, setText } from "./dom.js";
 import { between, Camera } from "./geometry.js";
+import { changeOf } from "./world_change.js";
 import * as draw from "./world_draw.js";
+import { WorldPanel } from "./world_panel.js";
 
 /**
  * The picture of the world, and what a person does in it.
@@ -13,7 +14,7 @@ import * as draw from "./world_draw.js";
  * @typedef {import("./world_model.js").WorldModel} WorldModel
  * @typedef {import("./system_model.js").SystemModel} SystemModel
  * @typedef {import("./connection.js").Connection} Connection
- * @typedef {"look" | "drive" | "pose" | "measure"} Tool
+ * @typedef {"look" | "drive" | "pose" | "change" | "measure"} Tool
  */
 
 const EASE = 0.05;  // [s] in which the drawn robot comes two thirds nearer to where it is
@@ -25,10 +26,11 @@ const HINTS = {
   look: "",
   drive: "Press where the robot is to go, pull to where it is to look, release. Shift: a point on the way. Enter: the middle of the picture.",
   pose: "Press where the robot stands, pull to where it looks, release.",
+  change: "Press free floor to put a box there. Pull a thing, or the robot, to another place. Shift: take a thing away.",
   measure: "Press and pull to measure.",
 };
 /** @type {Record<string, Tool>} */
-const TOOL_KEYS = { v: "look", d: "drive", p: "pose", m: "measure" };
+const TOOL_KEYS = { v: "look", d: "drive", p: "pose", w: "change", m: "measure" };
 
 export class WorldView {
   /**
@@ -38,7 +40,6 @@ export class WorldView {
    */
   constructor(connection, system, world) {
     this.connection = connection;
-    this.system = system;
     this.world = world;
     this.canvas = /** @type {HTMLCanvasElement} */ (byId("map"));
     this.pen = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d", { alpha: false }));
@@ -62,17 +63,10 @@ export class WorldView {
     this.measured = null;
     /** @type {Point[]} points on the way to a goal that is not given yet */
     this.via = [];
-    /** @type {Map<string, Driver>} */
-    this.drivers = new Map();
-    /** Prefix of the robot that orders are for. */
-    this.chosen = "";
+    this.panel = new WorldPanel(connection, system, world);
     this.listen();
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.repaint());
-    world.addEventListener("changed", () => this.showRobots());
-    world.addEventListener("said", (event) => this.say(/** @type {CustomEvent} */ (event).detail));
-    system.addEventListener("figures", () => this.showOrders());
-    system.addEventListener("graph", () => this.showOrders());
     const frame = (/** @type {number} */ now) => {
       this.frame(now);
       requestAnimationFrame(frame);
@@ -105,85 +99,6 @@ export class WorldView {
     this.world.stale = true;
   }
 
-  /** @returns {Robot | undefined} the robot that orders are for */
-  get robot() {
-    return this.world.robots.get(this.chosen) ?? this.world.robots.values().next().value;
-  }
-
-  /** @returns {Driver} */
-  get driver() {
-    const prefix = this.robot?.prefix ?? "";
-    const known = this.drivers.get(prefix);
-    if (known !== undefined) return known;
-    const driver = new Driver(this.connection, this.system, prefix);
-    this.drivers.set(prefix, driver);
-    return driver;
-  }
-
-  showRobots() {
-    const choice = /** @type {HTMLSelectElement} */ (byId("robot-choice"));
-    const robots = [...this.world.robots.values()].filter((robot) => robot.prefix !== "" || this.world.robots.size === 1);
-    choice.replaceChildren(...robots.map((robot) => el("option", { value: robot.prefix, selected: robot === this.robot }, robot.name)));
-    choice.hidden = robots.length < 2;
-    setText(byId("robot-name"), robots.length < 2 ? this.robot?.name || "Robot" : "");
-  }
-
-  /** Offers the orders that this system takes, and no others. */
-  showOrders() {
-    const driver = this.driver;
-    driver.readGoals();
-    const steers = this.connection.steers;
-    byId("tool-drive").hidden = !steers || !driver.takesGoals;
-    byId("tool-pose").hidden = !steers || driver.posePort === undefined;
-    byId("give-up").hidden = !steers || !driver.takesGoals;
-    const goals = steers && driver.command !== undefined ? driver.goals : [];
-    byId("goals").hidden = goals.length === 0;
-    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (document.querySelectorAll("#layers input[data-types]"))) {
-      const types = (box.dataset.types ?? "").split(" ");
-      const label = /** @type {HTMLElement} */ (box.parentElement);
-      label.hidden = this.system.portsThat((port) => types.includes(port.type) || types.includes(port.reply ?? "")).length === 0;
-    }
-    const list = byId("goal-list");
-    if (list.childElementCount === goals.length) return;
-    list.replaceChildren(
-      ...goals.map((goal) => el("button", { title: goal.text, click: () => this.order(driver.commandGoal(goal.text), `Sent to ${goal.name}.`) }, goal.name)),
-    );
-    this.world.stale = true;
-  }
-
-  /** Says in plain words what the robot does. */
-  describe() {
-    const robot = this.robot;
-    if (robot === undefined || robot.pose === null) return "Nothing is known of a robot yet.";
-    if (this.system.motorsHeld) return "The motors are held. Nothing moves before they are released.";
-    const moves = Math.hypot(robot.motion.forward, robot.motion.left) > 0.01;
-    const turns = Math.abs(robot.motion.turnRate) > 0.03;
-    const doing = moves ? (robot.motion.forward < 0 ? "Backs up" : "Drives") : turns ? "Turns" : "Stands";
-    if (robot.way === null) return `${doing}. It has no goal.`;
-    const points = [robot.pose, ...robot.way.points.slice(1)];
-    const left = points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.x - points[i].x, p.y - points[i].y), 0);
-    return `${doing}, on the way to ${robot.way.name || "a place"}: ${left.toFixed(1)} m to go.`;
-  }
-
-  showFigures() {
-    const robot = this.robot;
-    setText(byId("plain"), this.describe());
-    if (robot === undefined || robot.pose === null) return;
-    const { pose, motion, command } = robot;
-    setText(byId("figure-place"), `${figure(pose.x)}, ${figure(pose.y)} m${robot.frame === "world" ? "" : " (odometry)"}`);
-    setText(byId("figure-heading"), `${figure((pose.yaw * 180) / Math.PI, 0)}°`);
-    setText(byId("figure-speed"), `${figure(motion.forward)} m/s`);
-    setText(byId("figure-turn"), `${figure((motion.turnRate * 180) / Math.PI, 0)}°/s`);
-    const wanted = command === null ? "–" : command.stops ? "stop" : command.silent ? "no wish" : `${figure(command.speed)} m/s`;
-    setText(byId("figure-command"), wanted);
-  }
-
-  /** @param {string} text */
-  say(text) {
-    notify(text);
-    this.driver.arrived();
-  }
-
   // ------------------------------------------------------------------------------------------------ a frame
 
   /** @param {number} now  [ms] */
@@ -194,11 +109,11 @@ export class WorldView {
     this.ease(seconds);
     if (!this.world.stale) return;
     this.world.stale = false;
-    if (!this.isTouched && now - this.lastFit > FIT_AGAIN && this.robot?.shown && !this.showsAll()) this.fit(now);
-    if (this.follows && this.robot?.shown) Object.assign(this.camera, { x: this.robot.shown.x, y: this.robot.shown.y });
+    if (!this.isTouched && now - this.lastFit > FIT_AGAIN && this.panel.robot?.shown && !this.showsAll()) this.fit(now);
+    if (this.follows && this.panel.robot?.shown) Object.assign(this.camera, { x: this.panel.robot.shown.x, y: this.panel.robot.shown.y });
     this.paint();
     this.frames += 1;
-    if (this.frames % 6 === 0) this.showFigures();
+    if (this.frames % 6 === 0) this.panel.showFigures();
   }
 
   /** @param {number} seconds  since the last frame */
@@ -226,6 +141,8 @@ export class WorldView {
     draw.setMetres(pen, camera, dots);
     if (world.grid !== null && shows("map")) draw.drawGrid(pen, world.grid);
     const step = draw.drawRaster(pen, camera, palette);
+    if (world.plan !== null && shows("world")) draw.drawPlan(pen, world.plan, pixel, palette, labels);
+    if (world.scene !== null && shows("world")) draw.drawScene(pen, world.scene, pixel, palette, labels);
     if (shows("echoes")) draw.drawDots(pen, world.echoes.cells.values(), Math.max(0.05, 2 * pixel), palette.echo);
     draw.drawDots(pen, world.particles, Math.max(0.03, 2 * pixel), palette.particle);
     for (const robot of world.robots.values()) {
@@ -266,9 +183,9 @@ export class WorldView {
    */
   paintGoals(labels) {
     const pixel = 1 / this.camera.scale;
-    const { goals } = this.driver;
+    const { goals } = this.panel.driver;
     draw.drawDots(this.pen, goals.map((goal) => goal.end), 8 * pixel, this.palette.muted);
-    for (const { name, end } of goals) if (name !== this.robot?.way?.name) labels.push({ x: end.x + 9 * pixel, y: end.y, text: name, colour: this.palette.muted });
+    for (const { name, end } of goals) if (name !== this.panel.robot?.way?.name) labels.push({ x: end.x + 9 * pixel, y: end.y, text: name, colour: this.palette.muted });
   }
 
   /** @param {draw.Label[]} labels */
@@ -299,7 +216,7 @@ export class WorldView {
   }
 
   get known() {
-    return [...this.driver.goals.map((goal) => goal.end), ...this.world.extent()];
+    return [...this.panel.driver.goals.map((goal) => goal.end), ...this.world.extent()];
   }
 
   showsAll() {
@@ -336,11 +253,6 @@ export class WorldView {
     byId("fit").addEventListener("click", () => this.fit(performance.now()));
     byId("closer").addEventListener("click", () => this.zoom(1.5));
     byId("farther").addEventListener("click", () => this.zoom(1 / 1.5));
-    byId("give-up").addEventListener("click", () => this.order(this.driver.giveUp(), "The goal is given up."));
-    byId("robot-choice").addEventListener("change", (event) => {
-      this.chosen = /** @type {HTMLSelectElement} */ (event.target).value;
-      this.showOrders();
-    });
     for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (document.querySelectorAll("#layers input"))) {
       box.checked = !this.world.hidden.has(box.value);
       box.addEventListener("change", () => this.world.show(box.value, box.checked));
@@ -424,7 +336,8 @@ export class WorldView {
     const yaw = length < LEAST_PULL ? null : Math.atan2(pull.to.y - pull.from.y, pull.to.x - pull.from.x);
     if (this.tool === "measure") this.measured = pull;
     else if (this.tool === "pose") this.putRobot(pull.from, yaw);
-    else if (event.shiftKey && this.driver.takesWays) this.via.push(pull.from);
+    else if (this.tool === "change") this.changeWorld(pull, event.shiftKey);
+    else if (event.shiftKey && this.panel.driver.takesWays) this.via.push(pull.from);
     else this.driveTo(pull.from, yaw);
   }
 
@@ -470,11 +383,11 @@ export class WorldView {
    * @param {number | null} yaw
    */
   driveTo(place, yaw) {
-    const robot = this.robot;
+    const robot = this.panel.robot;
     const points = [...this.via, place];
     this.via = [];
     if (robot !== undefined) robot.ordered = { ...place, yaw: yaw ?? Math.atan2(place.y - (robot.pose?.y ?? 0), place.x - (robot.pose?.x ?? 0)) };
-    this.order(this.driver.driveTo(points, yaw), "").then((ok) => {
+    this.panel.order(this.panel.driver.driveTo(points, yaw), "").then((ok) => {
       if (!ok && robot !== undefined) robot.ordered = null;
     });
   }
@@ -484,19 +397,16 @@ export class WorldView {
    * @param {number | null} yaw
    */
   putRobot(place, yaw) {
-    this.order(this.driver.setPose({ ...place, yaw: yaw ?? this.robot?.pose?.yaw ?? 0 }), "The robot knows where it is.");
+    this.panel.order(this.panel.driver.setPose({ ...place, yaw: yaw ?? this.panel.robot?.pose?.yaw ?? 0 }), "The robot knows where it is.");
   }
 
   /**
-   * Shows what becomes of an order.
-   * @param {Promise<import("./connection.js").Answer>} answer
-   * @param {string} done
-   * @returns {Promise<boolean>}
+   * @param {{from: Point, to: Point}} pull
+   * @param {boolean} takes
    */
-  async order(answer, done) {
-    const { ok, error } = await answer;
-    if (!ok) notify(error, "refused");
-    else if (done !== "") notify(done, "done");
-    return ok;
+  changeWorld({ from, to }, takes) {
+    const port = this.panel.changePort?.port;
+    const xml = this.world.scene === null ? null : changeOf(this.world.scene, from, to, takes);
+    if (port !== undefined && xml !== null) this.panel.order(this.connection.send(port, xml), "");
   }
 }

@@ -4,6 +4,7 @@ import test from "node:test";
 
 import { clientsXml, goalText, goalXml, motionXml, namedGoal, poseXml } from "../../../web/drive.js";
 import { between, Camera, compose, ellipse, PoseHistory, transform, wrap } from "../../../web/geometry.js";
+import { changeOf } from "../../../web/world_change.js";
 import { conesOf, EchoMemory, Robot, scanOf } from "../../../web/world_model.js";
 
 const near = (a, b, within = 1e-9) => assert.ok(Math.abs(a - b) <= within, `${a} is not ${b}`);
@@ -116,4 +117,26 @@ test("the end of a named goal is found, with via points, doors and directions be
   assert.deepEqual(namedGoal("gate: door 2 4.5 90 0.95")?.end, { x: 2, y: 4.5 });
   assert.equal(namedGoal("hall > kitchen"), null);
   assert.equal(namedGoal("room: hall > kitchen"), null);
+});
+
+const scene = {
+  robots: [{ name: "Dewey", x: 0, y: 0, yaw: 1, radius: 0.2, outline: [], silent: [] }],
+  people: [],
+  obstacles: [{ name: "box1", x: 3, y: 0, yaw: 0, radius: 0, outline: [{ a: { x: 0.3, y: 0.2 }, b: { x: -0.3, y: 0.2 } }], movable: true }, { name: "block", x: 6, y: 0, yaw: 0, radius: 0.2, outline: [], movable: false }],
+};
+
+test("a hand on free floor puts a box, with a name of its own", () => {
+  assert.equal(changeOf(scene, { x: 1.5, y: 2 }, { x: 1.5, y: 3 }, false),
+    '<WorldChange kind="PUT_OBSTACLE" name="box2" x="1.500" y="2.000" yaw="1.571" length="0.600" width="0.400"/>');
+});
+
+test("a hand moves what it takes hold of, by as much as it is pulled", () => {
+  assert.equal(changeOf(scene, { x: 3.2, y: 0.1 }, { x: 4.2, y: 1.1 }, false), '<WorldChange kind="MOVE_OBSTACLE" name="box1" x="4.000" y="1.000" yaw="0.000"/>');
+  assert.equal(changeOf(scene, { x: 0.1, y: 0 }, { x: 0.1, y: -2 }, false), '<WorldChange kind="CARRY_ROBOT" name="Dewey" x="0.000" y="-2.000" yaw="1.000"/>');
+});
+
+test("with Shift a hand takes an obstacle away, but no robot and nothing that stands fast", () => {
+  assert.equal(changeOf(scene, { x: 3, y: 0 }, { x: 3, y: 0 }, true), '<WorldChange kind="TAKE_OBSTACLE" name="box1"/>');
+  assert.equal(changeOf(scene, { x: 0, y: 0 }, { x: 0, y: 0 }, true), null);
+  assert.equal(changeOf(scene, { x: 6, y: 0 }, { x: 6, y: 0 }, true), null);
 });
