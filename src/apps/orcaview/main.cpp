@@ -31,7 +31,8 @@ constexpr std::string_view kDetails =
     "\n"
     "Open the first address that it prints in a browser. Whoever knows it may steer the robot; with the "
     "second\n"
-    "one, people may only look. Both hold until orcaview ends. They are also in the file GRAPH.view beside "
+    "one, people may only look. Both hold until orcaview ends. They are also in the file GRAPH.PORT.view "
+    "beside "
     "the\n"
     "system's socket, which only you can read. If orcaview ends, nothing else notices.\n";
 
@@ -86,10 +87,10 @@ std::string web_folder(const apps::Call& call) {
 // The addresses, in a file that only this user can read.
 class AddressFile {
  public:
-  static Result<AddressFile> write(const std::string& system, const std::string& text) {
+  static Result<AddressFile> write(const std::string& name, const std::string& text) {
     const Result<OwnFolder> folder = OwnFolder::make();
     if (!folder) return folder.error();
-    const std::string path = folder->path() + "/" + system + ".view";
+    const std::string path = folder->path() + "/" + name;
     constexpr mode_t kOwnersOnly = 0600;
     ::unlink(path.c_str());
     const Descriptor file(
@@ -143,7 +144,8 @@ ExitCode run(const apps::Call& call) {
   if (!listens.ok()) return report(listens.error(), ExitCode::refused);
   const std::string addresses =
       address_of(server, *tokens, Role::operator_) + "\n" + address_of(server, *tokens, Role::reader) + "\n";
-  const Result<AddressFile> file = AddressFile::write(name, addresses);
+  const Result<AddressFile> file =
+      AddressFile::write(name + "." + std::to_string(server.port()) + ".view", addresses);
   if (!file) return report(file.error(), ExitCode::refused);
   std::printf("%s", addresses.c_str());
   std::fflush(stdout);

@@ -153,7 +153,7 @@ class View(ViewCase):
             self.assertIn("may only look", answer["error"])
 
     def test_the_addresses_are_in_a_file_of_the_user_alone(self):
-        path = self.folder / "orca" / f"{self.NAME}.view"
+        path = self.folder / "orca" / f"{self.NAME}.{self.port}.view"
         self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o600)
         self.assertEqual(path.read_text().split(), self.addresses)
 
