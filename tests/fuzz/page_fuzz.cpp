@@ -16,8 +16,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (wish ? wish->id != id : wish.error().message.empty()) std::abort();
   if (wish && !(wish->rate >= 0.0 && wish->rate <= 1000.0)) std::abort();
   (void)orca::view::query_value(text, "token");
-  if (orca::view::is_own_host(text, 8080) && text.size() > 14) std::abort();
-  if (orca::view::is_own_origin(text, 8080) && !text.empty() && !text.starts_with("http://")) std::abort();
+  if (orca::view::is_own_host(text) && !text.starts_with("127.0.0.1") && !text.starts_with("localhost") &&
+      !text.starts_with("[::1]"))
+    std::abort();
+  if (orca::view::is_own_origin(text, "localhost") && !text.empty() && text != "http://localhost")
+    std::abort();
   for (const char* const type : {"PoseStamped", "PoseWithCovarianceStamped", "Twist", "TwistStamped"})
     for (const char* const encoding : {"cdr", "json"}) {
       const auto message =

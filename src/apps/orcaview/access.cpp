@@ -54,15 +54,17 @@ std::optional<Role> Tokens::role_of(std::string_view token) const {
   return std::nullopt;
 }
 
-bool is_own_host(std::string_view host, std::uint16_t port) {
-  const std::string suffix = ":" + std::to_string(port);
-  return std::ranges::any_of(kOwnNames,
-                             [&](std::string_view name) { return host == std::string(name) + suffix; });
+bool is_own_host(std::string_view host) {
+  return std::ranges::any_of(kOwnNames, [&](std::string_view name) {
+    if (!host.starts_with(name)) return false;
+    const std::string_view port = host.substr(name.size());
+    return port.empty() || (port.size() > 1 && port[0] == ':' &&
+                            port.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  });
 }
 
-bool is_own_origin(std::string_view origin, std::uint16_t port) {
-  constexpr std::string_view kScheme = "http://";
-  return origin.empty() || (origin.starts_with(kScheme) && is_own_host(origin.substr(kScheme.size()), port));
+bool is_own_origin(std::string_view origin, std::string_view host) {
+  return origin.empty() || origin == "http://" + std::string(host);
 }
 
 std::string query_value(std::string_view target, std::string_view name) {

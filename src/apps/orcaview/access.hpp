@@ -37,14 +37,14 @@ class Tokens {
   std::string operator_;
 };
 
-/// Returns whether a request names this server as its host. A page of somebody else that lets its own name point here (DNS
-/// rebinding) does not.
+/// Returns whether a request names this machine as its host, at whatever port: ssh -L may have another one than this server. A
+/// page of somebody else that lets its own name point here (DNS rebinding) names that.
 /// @param host  header Host.
-[[nodiscard]] bool is_own_host(std::string_view host, std::uint16_t port);
+[[nodiscard]] bool is_own_host(std::string_view host);
 
 /// Returns whether a request comes from a page of this server, or from no page at all.
 /// @param origin  header Origin; empty: there is none, so that it is no browser.
-[[nodiscard]] bool is_own_origin(std::string_view origin, std::uint16_t port);
+[[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host);
 
 /// Returns the value of a name in the query of a request's target, such as token in "/ws?token=1f"; empty: there is none.
 [[nodiscard]] std::string query_value(std::string_view target, std::string_view name);

@@ -128,9 +128,9 @@ std::shared_ptr<Session> ViewServer::session_for(const Session::Request& request
 
 // Returns why a request is refused; empty: it is not.
 std::string ViewServer::refusal(const Session::Request& request) const {
-  if (!is_own_host(view_of(request[http::field::host]), port_))
-    return "this server is 127.0.0.1:" + std::to_string(port_) + " or localhost, by no other name";
-  if (!is_own_origin(view_of(request[http::field::origin]), port_))
+  const std::string_view host = view_of(request[http::field::host]);
+  if (!is_own_host(host)) return "this server is 127.0.0.1 or localhost, by no other name";
+  if (!is_own_origin(view_of(request[http::field::origin]), host))
     return "pages of other servers have no access";
   if (request.method() != http::verb::get) return "this server knows GET only";
   if (!beast::websocket::is_upgrade(request)) return "";

@@ -137,7 +137,7 @@ class View(ViewCase):
                        {"Host": f"evil.org:{self.port}", "Origin": f"http://evil.org:{self.port}"}):
             with WebSocket(self.port, self.operator, **fields) as page:
                 self.assertIn("403", page.status, fields)
-        with WebSocket(self.port, self.operator, Origin=f"http://localhost:{self.port}") as page:
+        with WebSocket(self.port, self.operator, Origin=f"http://127.0.0.1:{self.port}") as page:
             self.assertIn("101", page.status)
 
     def test_a_reader_changes_nothing(self):
