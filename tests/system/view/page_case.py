@@ -1,49 +1,67 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests of the page have in common: a system, a browser that shows its page, and what a person does there."""
-import argparse
+"""What tests of the page have in common: a system, a browser that shows its page, and what a person does there.
+
+    TEST.py [--pictures FOLDER] BUILD_FOLDER      with a folder each case leaves a picture of the page there
+"""
+import json
 import math
 import pathlib
 import re
+import subprocess
+import sys
 import tempfile
+import time
 import unittest
 
 import browser as chromium
+from view_case import BUILD, ViewCase
 
 chromium.need_browser()
 from selenium.webdriver import ActionChains  # noqa: E402
 from selenium.webdriver.common.by import By  # noqa: E402
 
-
-def arguments():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("programs", help="folder of deployer, orcactl and orcaview")
-    parser.add_argument("--pictures", help="folder that gets a picture of the page in each case")
-    return parser.parse_args()
+PICTURES = sys.argv[sys.argv.index("--pictures") + 1] if "--pictures" in sys.argv else None
 
 
-ARGUMENTS = arguments()
+def wait_for(what, condition, seconds=20):
+    """Returns the first value of the condition that is not false; fails with `what` if there is none in time."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.05)
+    raise AssertionError(f"{what}: not within {seconds} s")
 
 
-class PageCase(unittest.TestCase):
+class PageCase(ViewCase):
     """One system and one browser serve all cases of a class, in the order of their names."""
-
-    GRAPH = "scout_goto_processes.xml"
-    WORDS = ("--set", "command.rounds=0")
 
     @classmethod
     def setUpClass(cls):
-        cls.system = chromium.System(ARGUMENTS.programs, cls.GRAPH, *cls.WORDS)
-        cls.addClassCleanup(cls.system.end)
-        cls.profile = tempfile.TemporaryDirectory(prefix="orca_chromium_")
-        cls.addClassCleanup(cls.profile.cleanup)
-        cls.browser = chromium.start_browser(profile=cls.profile.name)
+        super().setUpClass()
+        profile = tempfile.TemporaryDirectory(prefix="orca_chromium_")
+        cls.addClassCleanup(profile.cleanup)
+        width, height = (1120, 700) if PICTURES else (1280, 800)
+        cls.browser = chromium.start_browser(width, height, profile.name)
         cls.addClassCleanup(cls.browser.quit)
-        cls.browser.get(cls.system.address)
+        cls.browser.get(cls.addresses[0])
 
     def tearDown(self):
-        self.assertEqual((self.system.deployer.poll(), self.system.view.poll()), (None, None), f"deployer and orcaview run\n{self.system.words()[-2000:]}")
+        self.assertEqual((self.system.poll(), self.view.poll()), (None, None), "deployer and orcaview run")
         errors = [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(errors, [], "the browser reports no error")
+
+    def rows_of(self, *words):
+        """Returns what orcactl prints as JSON."""
+        done = self.orcactl(*words, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def follow(self, port):
+        """Starts orcactl echo; its lines are objects with their text form."""
+        return subprocess.Popen([BUILD / "bin" / "orcactl", "echo", port, "--json"], env=self.environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.DEVNULL, text=True)
 
     # ------------------------------------------------------------------------------------------------ what is seen
 
@@ -70,12 +88,12 @@ class PageCase(unittest.TestCase):
 
     def pose(self):
         """Returns where the robot is, by its localizer."""
-        xml = self.system.orcactl("query", "localizer.RobotPoseQuery", "<AskReading/>")["xml"]
+        xml = self.rows_of("query", "localizer.RobotPoseQuery", "<AskReading/>")["xml"]
         return tuple(float(re.search(rf' {axis}="([^"]+)"', xml)[1]) for axis in "xy")
 
     def picture(self, name):
-        if ARGUMENTS.pictures:
-            self.browser.save_screenshot(str(pathlib.Path(ARGUMENTS.pictures) / f"page_{name}.png"))
+        if PICTURES:
+            self.browser.save_screenshot(str(pathlib.Path(PICTURES) / f"page_{name}.png"))
 
     # ------------------------------------------------------------------------------------------------ what is done
 
@@ -85,7 +103,7 @@ class PageCase(unittest.TestCase):
             if found:
                 found[0].click()
             return bool(found)
-        chromium.wait_for(f"{selector} to click", try_it)
+        wait_for(f"{selector} to click", try_it)
 
     def mouse(self, *steps, down=True, up=True):
         """Moves the mouse through pixels of the window: down at the first one, up at the last one."""
@@ -108,4 +126,4 @@ class PageCase(unittest.TestCase):
 
 
 def main():
-    unittest.main(argv=["view_test"], verbosity=2, failfast=True)
+    unittest.main(argv=sys.argv[:1], verbosity=2, failfast=True)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How quick the page is: STOP, the first picture, frames per second under load, a large graph, and how much code a browser loads.
 
-    tests/system/view/view_speed_test.py FOLDER_OF_PROGRAMS
+    tests/system/view/view_speed_test.py BUILD_FOLDER
 """
 import gzip
 import http.server
@@ -13,8 +13,8 @@ import re
 import threading
 import time
 
-from browser import TREE, wait_for
-from page_case import PageCase, main
+from page_case import PageCase, main, wait_for
+from view_case import TREE
 
 REST = 0.2  # [s] from the press on STOP to the standstill
 STANDS = 5e-4  # [m]
@@ -74,7 +74,7 @@ class Speed(PageCase):
 
     def odometry_around(self, act):
         """Returns the lines of orcactl echo from half a second before until more than a second after."""
-        odometry = self.system.follow("base.OdometryPush")
+        odometry = self.follow("base.OdometryPush")
         lines = []
         reader = threading.Thread(target=lambda: lines.extend(odometry.stdout))
         reader.start()

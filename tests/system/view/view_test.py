@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The page in a browser: a person sees the robot, changes connections and code while it drives, and sends it somewhere.
 
-    tests/system/view/view_test.py FOLDER_OF_PROGRAMS [--pictures FOLDER]
+    tests/system/view/view_test.py [--pictures FOLDER] BUILD_FOLDER
 """
 import math
-import pathlib
 import re
 import shutil
 
-from browser import wait_for
-from page_case import ARGUMENTS, PageCase, main
+from page_case import PageCase, main, wait_for
 from selenium.webdriver import ActionChains
 from selenium.webdriver.common.keys import Keys
+from view_case import BUILD
 
 KITCHEN = (4.2, 9.8)
 WAY_TO_KITCHEN = ((3.6, 6.0), (3.6, 7.6))
@@ -39,7 +38,7 @@ return [box.x + box.width / 2, box.y + box.height / 2];
 
 class Page(PageCase):
     def wires(self):
-        return {(row["from"], row["to"]) for row in self.system.orcactl("graph")["connections"]}
+        return {(row["from"], row["to"]) for row in self.rows_of("graph")["connections"]}
 
     def point_of_wire(self, ends):
         return self.browser.execute_script(POINT_OF_WIRE, *ends)
@@ -92,8 +91,8 @@ class Page(PageCase):
         self.assertEqual(self.wires(), before)
 
     def test_4_code_is_exchanged_by_mouse_while_it_drives(self):
-        copy = pathlib.Path(self.system.folder.name) / "sonar_avoid.so"
-        shutil.copy(pathlib.Path(ARGUMENTS.programs).parent / "plugins" / "sonar_avoid.so", copy)
+        copy = self.folder / "sonar_avoid.so"
+        shutil.copy(BUILD / "plugins" / "sonar_avoid.so", copy)
         self.mouse(self.middle_of('#graph [data-component="avoid"] .name'))
         self.click("#inspector .row button:nth-child(2)")
         file = wait_for("the question for the file", lambda: self.browser.find_elements("css selector", "#swap-file"))[0]
@@ -105,7 +104,7 @@ class Page(PageCase):
         self.assertEqual(verdict[0], "runs the code", self.text("#dialog .verdict"))
         self.assertGreater(math.dist(before, self.pose()), 0.2, "it drove meanwhile")
         self.picture("swap")
-        self.assertEqual(next(row["plugin"] for row in self.system.orcactl("ps") if row["name"] == "avoid"), str(copy))
+        self.assertEqual(next(row["plugin"] for row in self.rows_of("ps") if row["name"] == "avoid"), str(copy))
         self.click("#dialog .end button:last-child")
 
     def test_5_parameters_are_set_at_once(self):
@@ -118,11 +117,11 @@ class Page(PageCase):
         self.assertEqual(self.text("#component .primary"), "Set 2 values at once")
         field.send_keys(Keys.ENTER)
         wait_for("why not", lambda: "slow_down" in self.text("#notices .refused"))
-        self.assertEqual(self.system.orcactl("get", "goto.max_speed")[0]["value"], "0.5", "one is wrong, so none is set")
+        self.assertEqual(self.rows_of("get", "goto.max_speed")[0]["value"], "0.5", "one is wrong, so none is set")
         field.clear()
         field.send_keys("0.7", Keys.ENTER)
-        wait_for("the new values", lambda: self.system.orcactl("get", "goto.max_speed")[0]["value"] == "0.45")
-        self.assertEqual(self.system.orcactl("get", "goto.slow_down")[0]["value"], "0.7")
+        wait_for("the new values", lambda: self.rows_of("get", "goto.max_speed")[0]["value"] == "0.45")
+        self.assertEqual(self.rows_of("get", "goto.slow_down")[0]["value"], "0.7")
         self.click('#component [aria-label="Look at goto.localizer"]')
         wait_for("the object that passes", lambda: "RobotPose" in self.text("#component .object .small"))
         self.picture("component")
@@ -149,7 +148,7 @@ class Page(PageCase):
                 self.shift_click(place)
         x, y = self.pixel(KITCHEN)
         self.mouse((x, y), (x, y - 40))
-        wait_for("it is on the way", lambda: "on the way to place" in self.text("#plain"))
+        wait_for("it is on the way", lambda: "on the way to the place you chose" in self.text("#plain"))
         self.picture("goal")
         wait_for("it has arrived in the kitchen", lambda: self.distance(KITCHEN) < 0.4, 60)
         wait_for("it stands and waits", lambda: self.text("#plain").startswith("Stands. It has no goal"))
