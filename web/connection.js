@@ -118,6 +118,16 @@ export class Connection extends EventTarget {
   }
 
   /**
+   * Gives `diff` or `apply` the text of a graph instead of a file of the deployer's machine.
+   * @param {string} command
+   * @param {string} graph
+   * @returns {Promise<Answer>}
+   */
+  askWithGraph(command, graph) {
+    return this.request({ op: "ask", command, words: [], graph }).answer;
+  }
+
+  /**
    * Gives a command that goes on, such as `log --follow`.
    * @param {string} command @param {string[]} words @param {(record: any) => void} record
    * @returns {() => void} ends it

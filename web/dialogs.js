@@ -85,17 +85,22 @@ export async function askSwap(connection, system, component) {
  */
 export function askApply(connection, system) {
   const file = el("input", { type: "text", id: "apply-file", spellcheck: "false", size: 60, placeholder: "graphs/my.xml" });
+  const own = el("input", { type: "file", id: "apply-own", accept: ".xml" });
   const order = (/** @type {string} */ command) => async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
-    if (file.value.trim() === "") return say("Name a graph file on the deployer's machine."), false;
+    const chosen = own.files?.[0];
+    if (file.value.trim() === "" && chosen === undefined) return say("Name a graph file, or choose one."), false;
     say(command === "diff" ? "It is compared …" : "It is applied …");
-    const answer = await connection.ask(command, file.value.trim());
+    const answer = await (chosen === undefined ? connection.ask(command, file.value.trim()) : connection.askWithGraph(command, await chosen.text()));
     if (!answer.ok) say(el("pre", { class: "bad" }, answer.error));
     else if (answer.records.length === 0) say("Nothing differs from what runs.");
     else say(el("p", { class: "good" }, command === "diff" ? "This would change:" : "This has changed:"), tableOf(answer.records));
     if (command === "apply") await system.refresh();
     return answer.ok;
   };
-  ask("Let the system become what a graph says", [el("label", { for: "apply-file" }, "Graph file on the deployer's machine"), file], [
+  ask("Let the system become what a graph says", [
+    el("label", { for: "apply-file" }, "Graph file on the deployer's machine"), file,
+    el("label", { for: "apply-own" }, "or a file of this computer, whose paths are absolute"), own,
+  ], [
     { label: "Compare", order: order("diff") },
     { label: "Apply", order: order("apply") },
   ]);

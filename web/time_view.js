@@ -184,7 +184,7 @@ export class TimeView {
       ];
     }
     byId("trace").setAttribute("aria-pressed", String(on));
-    setText(byId("trace"), on ? "Stop" : "Follow causes");
+    setText(byId("trace"), on ? "Follow no more" : "Follow causes");
   }
 
   /**

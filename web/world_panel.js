@@ -2,7 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
 import { byId, el, figure, notify, setText } from "./dom.js";
-import { Driver } from "./drive.js";
+import { Driver, PLACE } from "./drive.js";
 import { changeXml } from "./world_change.js";
 
 /**
@@ -129,7 +129,8 @@ export class WorldPanel {
     if (robot.way === null) return `${doing}. It has no goal.`;
     const points = [robot.pose, ...robot.way.points.slice(1)];
     const left = points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.x - points[i].x, p.y - points[i].y), 0);
-    return `${doing}, on the way to ${robot.way.name || "a place"}: ${left.toFixed(1)} m to go.`;
+    const where = robot.way.name === PLACE ? "the place you chose" : robot.way.name || "a place";
+    return `${doing}, on the way to ${where}: ${left.toFixed(1)} m to go.`;
   }
 
   showFigures() {

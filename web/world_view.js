@@ -19,7 +19,7 @@ import { WorldPanel } from "./world_panel.js";
 
 const EASE = 0.05;  // [s] in which the drawn robot comes two thirds nearer to where it is
 const FIT_AGAIN = 1500;  // [ms]
-const LABEL = 70;  // pixels of a name beside its place
+const LABEL = 90;  // pixels of a name beside its place
 const LEAST_PULL = 12;  // pixels below which a pull has no direction
 /** @type {Record<Tool, string>} */
 const HINTS = {
