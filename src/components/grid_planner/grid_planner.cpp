@@ -17,6 +17,7 @@
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
+#include "shown_map.hpp"
 #include "waiting_scans.hpp"
 
 namespace {
@@ -197,6 +198,7 @@ class GridPlanner final : public orca::go::GoalFollower {
                          scan->angle_increment(), in_map(*X_OR_first) * mount, in_map(*X_OR_last) * mount},
                         *map_range_, beams_);
     navigator_->hear(beams_, pose);
+    map_.show(navigator_->map(), now());
     heard_at_ = now();
   }
 
@@ -339,6 +341,7 @@ class GridPlanner final : public orca::go::GoalFollower {
       {.text = "Base that is asked about the robot's outline and how fast it can be.", .optional = true}};
 
   orca::planner::Lead lead_{*this};
+  orca::planner::ShownMap map_{*this};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
   orca::Param<double> turn_rate_{

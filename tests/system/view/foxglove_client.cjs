@@ -30,8 +30,8 @@ client.on("advertise", (channels) => {
     readers.set(subscription, { topic: channel.topic, reader: new MessageReader(parse(channel.schema, { ros2: true })) });
   }
   client.subscribeConnectionGraph();
-  client.getParameters(["goto.max_speed"], "1");
-  client.setParameters([{ name: "goto.max_speed", value: 0.25 }], "2");
+  client.getParameters(["planner.max_speed"], "1");
+  client.setParameters([{ name: "planner.max_speed", value: 0.25 }], "2");
   const goal = client.advertise({ topic: "/goal_pose", encoding: "json", schemaName: "geometry_msgs/msg/PoseStamped" });
   const pose = { position: { x: 3, y: 6, z: 0 }, orientation: { x: 0, y: 0, z: 0, w: 1 } };
   client.sendMessage(goal, Buffer.from(JSON.stringify({ header: {}, pose })));
