@@ -77,7 +77,7 @@ class Run {
   void run() {
     const auto ports = options_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(graph_, catalogue_);
-    if (const Status opened = files_.open(options_, ports, recorded_run()); !opened.ok())
+    if (const Status opened = files_.open(options_, ports, bag_origin()); !opened.ok())
       return refuse_output(opened.error());
     if (options_.looks_on) reporter().look_on(sightings_);
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
@@ -91,7 +91,7 @@ class Run {
     if (options_.keeps_motion) scene_ = watched_.scene();
   }
 
-  [[nodiscard]] RecordedRun recorded_run() const {
+  [[nodiscard]] BagOrigin bag_origin() const {
     return {graph_.name, graph::print(graph_), {{"seed", std::to_string(options_.seed.value_or(1))}}};
   }
 

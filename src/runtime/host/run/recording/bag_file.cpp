@@ -15,7 +15,7 @@ constexpr std::size_t kBound = std::size_t{64} << 20;  // [bytes] that wait for 
 BagFile::BagFile(std::string path) : path_(std::move(path)) {}
 BagFile::~BagFile() = default;
 
-Status BagFile::open(const RecordedRun& run, const std::vector<std::string>& ports, bool at_once) {
+Status BagFile::open(const BagOrigin& run, const std::vector<std::string>& ports, bool at_once) {
   auto output = at_once ? recording::open_file(path_) : recording::open_file_in_background(path_, kBound);
   if (!output) return output.error();
   writer_ = std::make_unique<recording::ObjectWriter>(*std::move(output));

@@ -19,7 +19,7 @@ class ObjectWriter;
 namespace orca::host {
 
 /// What a recording says of the run that it is of.
-struct RecordedRun {
+struct BagOrigin {
   std::string name;                         ///< Of the graph.
   std::string graph;                        ///< As graph::print() writes it.
   std::map<std::string, std::string> more;  ///< "seed"
@@ -36,7 +36,7 @@ class BagFile {
   /// @param ports  whose objects will come.
   /// @param at_once  time is virtual: the file depends on the run alone, and is written on the caller's thread.
   /// @errors  as recording::open_file().
-  Status open(const RecordedRun& run, const std::vector<std::string>& ports, bool at_once);
+  Status open(const BagOrigin& run, const std::vector<std::string>& ports, bool at_once);
   /// Adds an object. After an error nothing more is added; close() reports it.
   void add(const std::string& row, const ObjectRef& object, TimePoint passed);
   /// Writes what is left, and closes the file.

@@ -39,7 +39,7 @@ class Recorder::Desk {
       : executive_(executive), start_(executive.now()), at_once_(executive.is_virtual()) {}
 
   Status open(const RecordingOptions& options, const std::vector<graph::ListedPort>& ports,
-              const RecordedRun& run);
+              const BagOrigin& run);
   [[nodiscard]] bool records(Flow flow, std::string_view component, std::string_view port) const;
   void take(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object);
   // Takes an object for a row of all files that have rows besides those of ports.
@@ -80,7 +80,7 @@ class Recorder::Desk {
   };
 
   Status open_bag(File& file, const RecordingOptions& options, const std::vector<graph::ListedPort>& ports,
-                  const RecordedRun& run);
+                  const BagOrigin& run);
   void put(File& file, const std::string& row, const ObjectRef& object);
   [[nodiscard]] Status close(File& file, const std::map<std::string, std::string>& facts) const;
   void close_files();
@@ -102,7 +102,7 @@ class Recorder::Desk {
 };
 
 Status Recorder::Desk::open(const RecordingOptions& options, const std::vector<graph::ListedPort>& ports,
-                            const RecordedRun& run) {
+                            const BagOrigin& run) {
   File& file = files_.emplace_back(options.file, start_);
   if (file.is_bag) return open_bag(file, options, ports, run);
   for (const std::string& path : options.ports) {
@@ -117,7 +117,7 @@ Status Recorder::Desk::open(const RecordingOptions& options, const std::vector<g
 }
 
 Status Recorder::Desk::open_bag(File& file, const RecordingOptions& options,
-                                const std::vector<graph::ListedPort>& ports, const RecordedRun& run) {
+                                const std::vector<graph::ListedPort>& ports, const BagOrigin& run) {
   std::vector<std::string> recorded;
   for (const graph::ListedPort& port : ports) {
     const std::string path = port.ref.text();
@@ -239,7 +239,7 @@ Recorder::Recorder(const Executive& executive) : desk_(std::make_shared<Desk>(ex
 Recorder::~Recorder() { (void)close(); }
 
 Status Recorder::open(const std::vector<RecordingOptions>& files, const std::vector<graph::ListedPort>& ports,
-                      const RecordedRun& run) {
+                      const BagOrigin& run) {
   for (const RecordingOptions& options : files)
     if (Status opened = desk_->open(options, ports, run); !opened.ok()) return opened;
   if (desk_->has_bags()) log_.emplace([this](const log::Line& line) { desk_->note(line); });

@@ -40,7 +40,7 @@ class Recorder {
   /// @param ports  all ports of the graph; those that are recorded are among them.
   /// @errors  as OutputFile::open(), and as recording::open_file().
   Status open(const std::vector<RecordingOptions>& files, const std::vector<graph::ListedPort>& ports,
-              const RecordedRun& run = {});
+              const BagOrigin& run = {});
 
   /// Returns whether what leaves through a port of a PushServer is recorded.
   [[nodiscard]] bool records_pushes(std::string_view component, std::string_view port) const;

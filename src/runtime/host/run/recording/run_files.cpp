@@ -4,7 +4,7 @@
 namespace orca::host {
 
 Status RunFiles::open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports,
-                      const RecordedRun& run) {
+                      const BagOrigin& run) {
   if (!wanted.trace_file.empty()) {
     const auto detail = wanted.trace_values ? Trace::Detail::values : Trace::Detail::events;
     if (Status opened = trace_.open(wanted.trace_file, detail); !opened.ok()) return opened;

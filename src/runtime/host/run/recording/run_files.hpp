@@ -24,7 +24,7 @@ class RunFiles {
   /// Opens all files that are wanted, so that a wrong name is known before anything moves. To be called once.
   /// @param ports  all ports of the graph.
   /// @errors  as OutputFile::open().
-  Status open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports, const RecordedRun& run);
+  Status open(const RunOutputs& wanted, const std::vector<graph::ListedPort>& ports, const BagOrigin& run);
 
   /// Writes the rest of all files and closes them. @return what could not be written.
   [[nodiscard]] std::vector<Error> close();
