@@ -20,6 +20,17 @@ std::string replaced(const std::string& text, const std::string& pattern, const 
   return std::regex_replace(text, std::regex(pattern), by);
 }
 
+// Returns the recording of some seconds of a robot with a laser, which is made when it is asked for first.
+std::string recording_in(const TempFolder& folder) {
+  std::string file = folder.file("run.mcap");
+  if (std::filesystem::exists(file)) return file;
+  const Run run = run_deployer(
+      Words{source_file("graphs/pioneer_planner.xml"), "--until", "5 s", "--record", file} + virtual_clock());
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return file;
+}
+
 void insert_before(std::string& text, const std::string& mark, const std::string& more) {
   text.insert(text.rfind(mark), more);
 }
@@ -76,6 +87,7 @@ std::vector<std::string> shipped_graphs() {
 }
 
 Words needed_arguments(const std::string& graph, const TempFolder& folder) {
+  if (graph == "replay") return {"--set", "recording=" + recording_in(folder)};
   if (graph != "scout_hospital") return {};
   return {"--set", "map=" + folder.write("hall.pgm", hall_with_pillar()),
           "--set", "map_width=20 m",

@@ -118,10 +118,17 @@ const std::vector<Case> kCases{
 const std::set<std::string> kLeavesGoals{"scout_rounds", "scout_odometry"};
 
 // Shipped graphs that other tests look at.
-const std::set<std::string> kElsewhere{
-    "emulated_devices",          "scout_teleop",    "scout_player",      "scout_goto_processes",
-    "scout_goto_two_localizers", "two_machines",    "warehouse_scanner", "scout_real_time",
-    "scout_from_afar",           "scout_behaviours"};
+const std::set<std::string> kElsewhere{"emulated_devices",
+                                       "scout_teleop",
+                                       "scout_player",
+                                       "scout_goto_processes",
+                                       "scout_goto_two_localizers",
+                                       "two_machines",
+                                       "warehouse_scanner",
+                                       "scout_real_time",
+                                       "scout_from_afar",
+                                       "scout_behaviours",
+                                       "replay"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},

@@ -2,6 +2,7 @@
 // Recordings: what they hold, that they change nothing, what they lose, and that they can be played again.
 #include <signal.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdlib>
@@ -151,6 +152,52 @@ TEST_CASE("a recorder that is killed loses at most 0.25 s, and the rest is recov
                       std::stod(cell_of(info, "scout_goto_processes", "duration_s"));
   INFO("lost: " << killed - last << " s");
   CHECK(killed - last < 0.25 + 0.05);
+}
+
+TEST_CASE(
+    "when the disk is full the recorder says so and ends, the system runs on, and what was written is whole",
+    "[system][recording][fault]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  Subprocess system(deployer({kProcesses, "--until", "30s"}));
+  // A limit of the size of files, in KiB, is to a program what a full disk is.
+  Words command{"/bin/bash", "-c", "ulimit -f 60; exec \"$@\"", "bash"};
+  Subprocess recorder(command +
+                      orcactl({"--system", "scout_goto_processes", "record", file, "--wait", "20s"}));
+  const Run run = finish(recorder, Seconds(20));
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("the recording cannot be written: File too large"));
+  CHECK(run_orcactl({"ps"}).exit_code() == 0);
+  const Run checked = bag({"check", file});
+  INFO(checked.out);
+  CHECK_THAT(checked.out, EndsWith(": the file has no end: whoever wrote it was interrupted\n"));
+  CHECK(count_in(info_of(file), "/base/OdometryPush") > 10);
+  system.send(SIGTERM);
+  CHECK(finish(system, Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE("a process that is started again is recorded again", "[system][recording]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  Subprocess system(deployer({kProcesses, "--until", "10s", "--record", file}));
+  const auto works = [] {
+    return run_orcactl({"hz", "localizer.RobotPosePush", "--for", "0.5s"}).exit_code() == 0;
+  };
+  for (int i = 0; i < 50 && !works(); ++i) std::this_thread::sleep_for(100ms);
+  REQUIRE(run_orcactl({"restart", "avoid"}).exit_code() == 0);
+  const Run run = finish(system, Seconds(30));
+  INFO(run.err);
+  CHECK(bag({"check", file}).exit_code() == 0);
+  // Numbers begin anew in the new process.
+  std::vector<int> numbers;
+  for (const std::string& row : split_lines(bag({"csv", file, "avoid.motion"}).out)) {
+    const std::size_t at = row.find(",motion,");
+    if (at != std::string::npos) numbers.push_back(std::stoi(row.substr(at + 8)));
+  }
+  REQUIRE(numbers.size() > 40);
+  CHECK(numbers.front() == 1);
+  CHECK(std::count_if(numbers.begin() + 1, numbers.end(), [](int number) { return number <= 5; }) >= 1);
+  CHECK(numbers.back() < static_cast<int>(numbers.size()));
 }
 
 TEST_CASE("sensors of real drivers that were recorded drive GridPlanner to the same commands each time",

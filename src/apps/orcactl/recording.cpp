@@ -330,6 +330,7 @@ ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const 
 
 ExitCode record(const apps::Call& call) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { g_is_to_end = true; });
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file's size is like a full disk
   const std::string& file = call.words.front();
   if (!file.ends_with(".mcap"))
     return report({fail(Code::invalid_argument, "name a file that ends in .mcap, not " + in_quotes(file)),

@@ -42,12 +42,14 @@ class LogReplay final : public HardwareContainer {
   explicit LogReplay(HardwareHost& host) : HardwareContainer(host) {}
 
   std::vector<HardwareFault> prepare() override {
-    if (recording_->empty()) return {};  // a graph that is looked at without one
+    if (ports_->empty()) return {};
+    if (recording_->empty())
+      return {{.param = "recording", .text = "it names no file; record one with deployer --record run.mcap"}};
     Result<ObjectReader> opened = ObjectReader::open(*recording_);
     if (!opened) return {{.param = "recording", .text = opened.error().message}};
     reader_.emplace(*std::move(opened));
     std::vector<HardwareFault> faults;
-    for (const std::string& port : ports()) declare(port, faults);
+    for (const std::string& port : *ports_) declare(port, faults);
     if (!faults.empty()) return faults;
     if (const Status read = load(); !read.ok())
       faults.push_back({.param = "recording", .text = read.error().message});
@@ -85,19 +87,6 @@ class LogReplay final : public HardwareContainer {
     ObjectRef object;
     TimePoint passed;
   };
-
-  [[nodiscard]] std::vector<std::string> ports() const {
-    std::vector<std::string> all;
-    std::string word;
-    for (const char c : *ports_ + " ") {
-      if (c != ' ') {
-        word += c;
-      } else if (!word.empty()) {
-        all.push_back(std::exchange(word, {}));
-      }
-    }
-    return all;
-  }
 
   void declare(const std::string& port, std::vector<HardwareFault>& faults) {
     const auto row = reader_->rows().find(port);
@@ -190,12 +179,12 @@ class LogReplay final : public HardwareContainer {
       "recording",
       "",
       {.fixed = true, .text = "The recording, an MCAP file of deployer --record or orcactl record"}};
-  Param<std::string> ports_{*this,
-                            "ports",
-                            "",
-                            {.fixed = true,
-                             .text = "Ports of the recording whose objects come again, with blanks between: "
-                                     "base.OdometryPush laser.LaserRangeReadingsPush"}};
+  Param<std::vector<std::string>> ports_{*this,
+                                         "ports",
+                                         {},
+                                         {.fixed = true,
+                                          .text = "Ports of the recording whose objects come again: "
+                                                  "base.OdometryPush; laser.LaserRangeReadingsPush"}};
   Param<double> max_speed_{*this,
                            "max_speed",
                            1.0,
