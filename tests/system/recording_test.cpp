@@ -154,6 +154,23 @@ TEST_CASE("a recorder that is killed loses at most 0.25 s, and the rest is recov
   CHECK(killed - last < 0.25 + 0.05);
 }
 
+TEST_CASE("alarms and lines of the log are recorded, in one process and in several", "[system][recording]") {
+  const TempFolder folder;
+  const auto [how, name] = GENERATE(table<Words, std::string>(
+      {{Words{"--in-process"}, "one"}, {Words{}, "several"}, {virtual_clock(), "virtual"}}));
+  const std::string file = folder.file(name + ".mcap");
+  const Run run = run_deployer(Words{system_graph("alarms.xml"), "--until", "2 s", "--record", file} + how +
+                               with_test_plugins());
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  const std::string info = info_of(file);
+  INFO(info);
+  CHECK(count_in(info, "/alarms") >= 1);
+  CHECK(count_in(info, "/log") >= 1);
+  CHECK(count_in(info, "/rosout") == count_in(info, "/log"));
+  CHECK_THAT(bag({"csv", file, "alarms"}).out, Contains("hooligan"));
+}
+
 TEST_CASE(
     "when the disk is full the recorder says so and ends, the system runs on, and what was written is whole",
     "[system][recording][fault]") {

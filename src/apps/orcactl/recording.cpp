@@ -47,7 +47,7 @@ constexpr std::chrono::milliseconds kTurn{20};
 constexpr std::chrono::milliseconds kSearch{25};       // between two attempts to reach ports
 constexpr std::chrono::milliseconds kLateSearch{500};  // after kSearchTime: of processes that run on demand
 constexpr std::chrono::seconds kSearchTime{20};
-constexpr std::chrono::seconds kAlarmLook{1};
+constexpr std::chrono::milliseconds kAlarmLook{100};
 constexpr std::chrono::seconds kEndLimit{2};
 constexpr int kMostAtOnce = 2000;  // objects of a line before another one has its turn
 
