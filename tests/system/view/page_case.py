@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What tests of the page have in common: a system, a browser that shows its page, and what a person does there.
 
-    TEST.py [--pictures FOLDER] BUILD_FOLDER      with a folder each case leaves a picture of the page there
+    TEST.py [-k PART_OF_A_CASE'S_NAME] [--pictures FOLDER] BUILD_FOLDER
+
+With a folder for pictures each case leaves one of the page there.
 """
 import json
 import math
@@ -20,7 +22,8 @@ chromium.need_browser()
 from selenium.webdriver import ActionChains  # noqa: E402
 from selenium.webdriver.common.by import By  # noqa: E402
 
-PICTURES = sys.argv[sys.argv.index("--pictures") + 1] if "--pictures" in sys.argv else None
+WORDS = sys.argv[1:-1]
+PICTURES = WORDS.pop(WORDS.index("--pictures") + 1) if "--pictures" in WORDS else None
 
 
 def wait_for(what, condition, seconds=20):
@@ -35,7 +38,7 @@ def wait_for(what, condition, seconds=20):
 
 
 class PageCase(ViewCase):
-    """One system and one browser serve all cases of a class, in the order of their names."""
+    """One system and one browser serve all cases of a class, in the order of their names. Each case works alone, too."""
 
     @classmethod
     def setUpClass(cls):
@@ -126,4 +129,4 @@ class PageCase(ViewCase):
 
 
 def main():
-    unittest.main(argv=sys.argv[:1], verbosity=2, failfast=True)
+    unittest.main(argv=[sys.argv[0], *(word for word in WORDS if word != "--pictures")], verbosity=2, failfast=True)

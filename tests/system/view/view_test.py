@@ -52,7 +52,18 @@ class Page(PageCase):
         self.mouse(a, ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), b, **more)
         return b
 
+    def open_graph(self):
+        self.click("#tab-system")
+        wait_for("the graph", lambda: self.browser.find_elements("css selector", "#graph [data-port]"))
+
+    def look_at(self, component, port):
+        self.click("#tab-component")
+        self.click(f'#component-list [data-name="{component}"]')
+        self.click(f'#component [aria-label="Look at {component}.{port}"]')
+        wait_for("the object that passes", lambda: self.browser.find_elements("css selector", "#component .object tr"))
+
     def test_1_the_moving_robot_is_seen(self):
+        self.click("#tab-world")
         wait_for("the robot drives", self.drives)
         before = self.place()
         wait_for("the robot is seen at another place", lambda: self.distance(before) > 0.3)
@@ -68,7 +79,7 @@ class Page(PageCase):
 
     def test_2_a_connection_is_removed_and_made_again(self):
         ends = ("goto.GoalPush", "avoid.goal")
-        self.click("#tab-system")
+        self.open_graph()
         point = wait_for("the line of the connection", lambda: self.point_of_wire(ends))
         self.assertIn(ends, self.wires())
         self.mouse(point)
@@ -82,6 +93,7 @@ class Page(PageCase):
         self.picture("system")
 
     def test_3_what_does_not_fit_is_said_and_not_done(self):
+        self.open_graph()
         before = self.wires()
         end = self.pull("base.OdometryPush", "avoid.goal", up=False)
         self.assertEqual(self.text("#graph-hint"), "Odometry is no GoalPoint")
@@ -93,6 +105,9 @@ class Page(PageCase):
     def test_4_code_is_exchanged_by_mouse_while_it_drives(self):
         copy = self.folder / "sonar_avoid.so"
         shutil.copy(BUILD / "plugins" / "sonar_avoid.so", copy)
+        self.click("#tab-world")
+        wait_for("the robot drives", self.drives)
+        self.open_graph()
         self.mouse(self.middle_of('#graph [data-component="avoid"] .name'))
         self.click("#inspector .row button:nth-child(2)")
         file = wait_for("the question for the file", lambda: self.browser.find_elements("css selector", "#swap-file"))[0]
@@ -122,11 +137,12 @@ class Page(PageCase):
         field.send_keys("0.7", Keys.ENTER)
         wait_for("the new values", lambda: self.rows_of("get", "goto.max_speed")[0]["value"] == "0.45")
         self.assertEqual(self.rows_of("get", "goto.slow_down")[0]["value"], "0.7")
-        self.click('#component [aria-label="Look at goto.localizer"]')
-        wait_for("the object that passes", lambda: "RobotPose" in self.text("#component .object .small"))
+        self.look_at("goto", "localizer")
+        self.assertIn("RobotPose", self.text("#component .object .small"))
         self.picture("component")
 
     def test_6_a_sensor_is_followed_to_the_wheels_and_a_field_is_plotted(self):
+        self.look_at("goto", "localizer")
         self.click('#component [aria-label="Plot translational_velocity"]')
         self.click("#tab-time")
         self.click("#trace")
