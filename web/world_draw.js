@@ -21,6 +21,7 @@ const COLOURS = [
   "goal", "trail", "echo", "sure", "contact", "particle",
 ];
 const TURN = 2 * Math.PI;
+const LINE = 15;  // pixels from text to text
 const SECOND = 1;  // [s] of motion that arrows and arcs show
 
 /** @returns {Palette} the colours of style.css, in the light or the dark */
@@ -91,7 +92,7 @@ export function drawPlan(pen, plan, pixel, palette, labels) {
   pen.lineWidth = 2 * pixel;
   pen.strokeStyle = palette.wall;
   pen.stroke(plan.walls);
-  for (const { name, x, y } of plan.places) labels.push({ x, y, text: name, colour: palette.muted });
+  for (const { name, x, y } of plan.places) labels.push({ x, y, text: name, colour: palette.muted, isPlace: true });
 }
 
 /**
@@ -432,7 +433,7 @@ export function drawWishes(pen, robot, pixel, palette, labels) {
   }
 }
 
-/** @typedef {{x: number, y: number, text: string, colour: string}} Label  text beside a place */
+/** @typedef {{x: number, y: number, text: string, colour: string, isPlace?: boolean}} Label  text beside a place */
 
 /**
  * Draws the way that is left, and the goal with its name.
@@ -542,7 +543,8 @@ export function drawPull(pen, from, to, pixel, colour) {
 }
 
 /**
- * Writes texts, in pixels, with a rim that keeps them readable on everything.
+ * Writes texts, in pixels, with a rim that keeps them readable on everything. Of two in one place the one is written that came first,
+ * and names of places only where nothing else is.
  * @param {Pen} pen
  * @param {Camera} camera
  * @param {Label[]} labels
@@ -551,13 +553,18 @@ export function drawPull(pen, from, to, pixel, colour) {
  */
 export function writeLabels(pen, camera, labels, dots, palette) {
   pen.setTransform(dots, 0, 0, dots, 0, 0);
-  pen.font = "600 13px system-ui, sans-serif";
   pen.textBaseline = "middle";
   pen.lineJoin = "round";
   pen.lineWidth = 4;
   pen.strokeStyle = palette.floor;
-  for (const label of labels) {
+  /** @type {{left: number, right: number, y: number}[]} */
+  const written = [];
+  for (const label of [...labels.filter((each) => !each.isPlace), ...labels.filter((each) => each.isPlace)]) {
+    pen.font = label.isPlace ? "11px system-ui, sans-serif" : "600 13px system-ui, sans-serif";
     const { x, y } = camera.toScreen(label);
+    const right = x + pen.measureText(label.text).width;
+    if (written.some((other) => Math.abs(other.y - y) < LINE && other.left < right && x < other.right)) continue;
+    written.push({ left: x, right, y });
     pen.strokeText(label.text, x, y);
     pen.fillStyle = label.colour;
     pen.fillText(label.text, x, y);

@@ -31,6 +31,7 @@ const TRAIL_STEP = 0.02;
 const TRAIL_LENGTH = 5000;
 const ECHO_CELL = 0.05;
 const ECHOES = 4000;
+const OLD = 1500;  // [ms] after which a reading, or a command, says nothing about now
 const SILENT = 700;  // [ms] without an object after which its server is asked
 const ASK_AGAIN = 350;
 const AROUND = 3;  // [m] of a robot that belong to the picture
@@ -71,10 +72,13 @@ export class Robot {
     this.sonars = new Map();
     /** @type {Map<string, Scan>} */
     this.scans = new Map();
+    /** @type {Map<string, {stamp: number, at: number}>} the newest reading of each sensor's port: when it was taken [s], and when it came [ms] */
+    this.readings = new Map();
     /** @type {Map<string, Wish>} wishes of behaviours, by component */
     this.wishes = new Map();
     /** @type {Wish | null} */
     this.command = null;
+    this.commandedAt = 0;
     /** @type {Way | null} */
     this.way = null;
     /** @type {Goal | null} */
@@ -94,6 +98,26 @@ export class Robot {
     if (last !== undefined && Math.hypot(last.x - pose.x, last.y - pose.y) < TRAIL_STEP) return;
     this.trail.push({ x: pose.x, y: pose.y });
     if (this.trail.length > TRAIL_LENGTH) this.trail.splice(0, TRAIL_LENGTH / 10);
+  }
+
+  /**
+   * @param {string} port
+   * @param {number} stamp  [s]
+   * @returns {boolean} whether a reading is newer than the last one of its port; one that was asked for may be old
+   */
+  isNews(port, stamp) {
+    if (stamp <= (this.readings.get(port)?.stamp ?? -Infinity)) return false;
+    this.readings.set(port, { stamp, at: performance.now() });
+    return true;
+  }
+
+  /** Forgets readings of sensors that have fallen silent. */
+  forgetOld() {
+    for (const [port, { at }] of this.readings) {
+      if (performance.now() - at < OLD) continue;
+      this.sonars.delete(port);
+      this.scans.delete(port);
+    }
   }
 
   /**
@@ -267,7 +291,14 @@ const PUSHED = {
 };
 
 /** @type {Source} what a base is commanded */
-const COMMANDED = { layer: "robot", rate: 20, take: (_world, robot, o) => { robot.command = wishOf(o); } };
+const COMMANDED = {
+  layer: "robot",
+  rate: 20,
+  take: (_world, robot, o) => {
+    robot.command = wishOf(o);
+    robot.commandedAt = performance.now();
+  },
+};
 
 /** The world, kept up to date while somebody looks at it. Events: `changed` when there are other robots, `said` with a sentence. */
 export class WorldModel extends EventTarget {
@@ -421,6 +452,11 @@ export class WorldModel extends EventTarget {
   askSilent() {
     if (!this.isWatching || this.connection.hello === null) return;
     const now = performance.now();
+    for (const robot of this.robots.values()) {
+      robot.forgetOld();
+      if (now - robot.commandedAt > OLD) robot.command = null;
+    }
+    this.stale = true;
     for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server" && p.type === "AskReading")) {
       const pushed = port.port.replace(/Query$/, "Push");
       const source = this.looks.has(pushed) ? PUSHED[port.reply ?? ""] : undefined;
@@ -442,6 +478,7 @@ export class WorldModel extends EventTarget {
     const { type } = this.system.ports.get(port) ?? { type: "" };
     if (type === "Path") robot.way = null;
     if (type === "GoalPoint") robot.goal = null;
+    robot.readings.delete(port);
     if (type === "WorldScene") this.scene = null;
     robot.wishes.delete(componentOf(port));
   }
@@ -547,6 +584,7 @@ export class WorldModel extends EventTarget {
    * @param {string} port
    */
   takeCones(robot, o, port) {
+    if (!robot.isNews(port, Math.max(...o.stamps.map(seconds)))) return;
     const cones = conesOf(robot, o);
     robot.sonars.set(port, cones);
     for (const cone of cones) if (cone.echo && cone.range < 3) this.echoes.add(transform(cone.pose, { x: cone.range, y: 0 }));
@@ -558,7 +596,7 @@ export class WorldModel extends EventTarget {
    * @param {string} port
    */
   takeScan(robot, o, port) {
-    const scan = scanOf(robot, o);
+    const scan = robot.isNews(port, seconds(o.stamp)) ? scanOf(robot, o) : null;
     if (scan === null) return;
     robot.scans.set(port, scan);
     for (let i = 0; i < scan.hits.length; ++i) if (scan.hits[i] !== 0) this.echoes.add({ x: scan.points[2 * i], y: scan.points[2 * i + 1] });

@@ -115,7 +115,7 @@ export class WorldPanel {
     const port = this.changePort?.port;
     if (port === undefined) return;
     const xml = changeXml(works ? "RESTORE_SENSOR" : "SILENCE_SENSOR", { name: this.robot?.name ?? "", sensor });
-    this.order(this.connection.send(port, xml), works ? `The ${sensor} works again.` : `The ${sensor} is silent.`);
+    this.order(this.connection.send(port, xml), "");  // the world's events say what has become of it
   }
 
   /** Says in plain words what the robot does. */

@@ -36,7 +36,7 @@ class ViewCase(unittest.TestCase):
         cls.folder = pathlib.Path(folder.name)
         cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
         cls.system = cls.start_system()
-        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.NAME, "--port", "0"], env=cls.environment,
+        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.NAME, "--port", "0", "--web", TREE / "web"], env=cls.environment,
                                     stdout=subprocess.PIPE, text=True)
         cls.addClassCleanup(cls.end, cls.view)
         cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]

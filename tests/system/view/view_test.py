@@ -15,6 +15,9 @@ from view_case import BUILD
 
 KITCHEN = (4.2, 9.8)
 WAY_TO_KITCHEN = ((3.6, 6.0), (3.6, 7.6))
+BOX = (2.4, 5.8)  # [m] in the corridor, where every way to its end leads
+BEFORE_BOX = (3.6, 6.0)
+BEHIND_BOX = (1.2, 6.0)
 KITCHEN_FROM = 7.6  # [m] y of its door
 
 # Where a line of the graph can be clicked: a point of it that nothing else covers.
@@ -153,22 +156,47 @@ class Page(PageCase):
         self.picture("time")
         self.click("#trace")
 
-    def test_7_a_click_sends_it_to_another_room(self):
+    def begin_anew(self):
+        """Shows the world, and gives up whatever goal there is."""
         self.click("#tab-world")
+        wait_for("the robot is seen", self.place)
         self.click("#give-up")
         wait_for("the goal is given up", lambda: "no goal" in self.text("#plain"))
         self.click("#fit")
+
+    def order_drive(self, way, pull=None):
+        """Clicks a way; the mouse is pulled at its end."""
         self.click("#tool-drive")
-        if self.place()[1] < KITCHEN_FROM:
-            for place in WAY_TO_KITCHEN:
-                self.shift_click(place)
-        x, y = self.pixel(KITCHEN)
-        self.mouse((x, y), (x, y - 40))
+        for place in way[:-1]:
+            self.shift_click(place)
+        x, y = self.pixel(way[-1])
+        self.mouse((x, y), *([] if pull is None else [(x + pull[0], y + pull[1])]))
         wait_for("it is on the way", lambda: "on the way to the place you chose" in self.text("#plain"))
+
+    def test_7_a_click_sends_it_to_another_room(self):
+        self.begin_anew()
+        self.order_drive([*(WAY_TO_KITCHEN if self.place()[1] < KITCHEN_FROM else ()), KITCHEN], pull=(0, -40))
         self.picture("goal")
         wait_for("it has arrived in the kitchen", lambda: self.distance(KITCHEN) < 0.4, 60)
         wait_for("it stands and waits", lambda: self.text("#plain").startswith("Stands. It has no goal"))
         self.assertLess(abs(self.number("#figure-heading") - 90), 12, "it looks where the mouse was pulled to")
+
+    def test_8_an_obstacle_that_was_dropped_in_its_way_is_driven_round(self):
+        if not any(row["port"].endswith(".ChangeSend") for row in self.rows_of("ports")):
+            self.skipTest("no component of this graph takes changes of the simulated world")
+        self.begin_anew()
+        self.order_drive([*(WAY_TO_KITCHEN[:0:-1] if self.place()[1] > KITCHEN_FROM else ()), BEFORE_BOX])
+        wait_for("it stands before the place of the box", lambda: self.text("#plain").startswith("Stands. It has no goal"), 60)
+        self.click("#tool-change")
+        self.mouse(self.pixel(BOX))
+        wait_for("the box is there", lambda: "comes to" in self.text("#notices"))
+        self.order_drive([BEHIND_BOX])
+        self.picture("obstacle")
+        places = []
+        wait_for("it has passed the box", lambda: places.append(self.place()) or self.distance(BEHIND_BOX) < 0.4, 90)
+        beside = [abs(y - BOX[1]) for x, y in places if abs(x - BOX[0]) < 0.2]
+        self.assertGreater(min(beside), 0.35, "it kept away from the box")
+        self.assertNotIn("touches", self.text("#notices"))
 
     def shift_click(self, place):
         ActionChains(self.browser).key_down(Keys.SHIFT).perform()
