@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "lead.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
@@ -17,7 +16,7 @@
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
-#include "shown_map.hpp"
+#include "outlook.hpp"
 #include "waiting_scans.hpp"
 
 namespace {
@@ -124,8 +123,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     while (laser_.new_data_arrived()) take_scan();
     if (!take_motion()) return std::nullopt;
     const Pose2 pose = in_map(history_.at(posed_at()).value_or(Pose2{}));
-    if (navigator_) hear(pose);
-    if (navigator_) hear_scanners(pose);
+    if (navigator_) hear(pose), hear_scanners(pose);
     return pose;
   }
 
@@ -198,7 +196,7 @@ class GridPlanner final : public orca::go::GoalFollower {
                          scan->angle_increment(), in_map(*X_OR_first) * mount, in_map(*X_OR_last) * mount},
                         *map_range_, beams_);
     navigator_->hear(beams_, pose);
-    map_.show(navigator_->map(), now());
+    outlook_.map.show(navigator_->map(), now());
     heard_at_ = now();
   }
 
@@ -253,13 +251,13 @@ class GridPlanner final : public orca::go::GoalFollower {
     }
     const orca::nav::Moment moment{now(), pose, twist_};
     if (auto step = step_of_rest(target, pose, deceleration(), before())) {
-      lead_.name(target.place, target.reach_radius);
+      outlook_.lead.name(target.place, target.reach_radius);
       return rest(*step, moment, target);
     }
     const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
     motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
     note_speed(steer.speed);
-    if (const auto ahead = navigator_->ahead(moment)) lead_.name(*ahead, 0.0);
+    if (const auto ahead = navigator_->ahead(moment)) outlook_.lead.name(*ahead, 0.0);
   }
 
   [[nodiscard]] std::string what_holds() const override {
@@ -340,8 +338,7 @@ class GridPlanner final : public orca::go::GoalFollower {
       "robot",
       {.text = "Base that is asked about the robot's outline and how fast it can be.", .optional = true}};
 
-  orca::planner::Lead lead_{*this};
-  orca::planner::ShownMap map_{*this};
+  orca::planner::Outlook outlook_{*this};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
   orca::Param<double> turn_rate_{

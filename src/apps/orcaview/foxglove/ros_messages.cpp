@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/object.hpp"
@@ -97,7 +98,7 @@ std::vector<double> numbers_of(const Kind& kind, bool is_cdr, const std::string&
 }
 
 double yaw_of(const std::vector<double>& n) {  // a quaternion in 3 to 6: x, y, z, w
-  return std::atan2(2.0 * (n[6] * n[5] + n[3] * n[4]), 1.0 - 2.0 * (n[4] * n[4] + n[5] * n[5]));
+  return portable::atan2(2.0 * (n[6] * n[5] + n[3] * n[4]), 1.0 - 2.0 * (n[4] * n[4] + n[5] * n[5]));
 }
 
 Published goal(const std::vector<double>& n) {
