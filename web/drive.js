@@ -15,8 +15,8 @@ import { componentOf } from "./system_model.js";
  * @typedef {{name: string, end: Point, text: string}} NamedGoal
  */
 
-/** The name of a goal that the page sends. */
-export const PLACE = "place";
+/** The names of goals that the page sends: place_1, place_2 ... */
+export const PLACE = /^place_\d+$/;
 const REACH = 0.2;
 const REACH_ANGLE = 0.1;
 
@@ -26,22 +26,24 @@ const NO_WAY = { ok: false, records: [], text: "", notes: [], error: "no compone
 /**
  * @param {Point[]} points  via points, then the goal
  * @param {number | null} yaw  to face at the goal; null: any
+ * @param {string} name
  * @returns {string} as Command reads it
  */
-export function goalText(points, yaw) {
+export function goalText(points, yaw, name) {
   const way = points.map((p) => `${p.x.toFixed(3)} ${p.y.toFixed(3)}`).join(" > ");
-  return `${PLACE}: ${way}${yaw === null ? "" : ` @ ${((yaw * 180) / Math.PI).toFixed(1)}`}`;
+  return `${name}: ${way}${yaw === null ? "" : ` @ ${((yaw * 180) / Math.PI).toFixed(1)}`}`;
 }
 
 /**
  * @param {Point} p
  * @param {number | null} yaw
+ * @param {string} name
  * @returns {string} a GoalPoint
  */
-export function goalXml(p, yaw) {
+export function goalXml(p, yaw, name) {
   const facing = yaw === null ? "" : `<orientation><orientation yaw="${yaw.toFixed(4)}"/></orientation>`;
   const use = yaw === null ? "" : ` use_orientation="true" reach_angle="${REACH_ANGLE}"`;
-  return `<GoalPoint name="${PLACE}"${use}><coordinate x="${p.x.toFixed(3)}" y="${p.y.toFixed(3)}"/><reach_radius distance="${REACH}"/>${facing}</GoalPoint>`;
+  return `<GoalPoint name="${name}"${use}><coordinate x="${p.x.toFixed(3)}" y="${p.y.toFixed(3)}"/><reach_radius distance="${REACH}"/>${facing}</GoalPoint>`;
 }
 
 /**
@@ -93,8 +95,9 @@ export class Driver {
     this.connection = connection;
     this.system = system;
     this.prefix = prefix;
-    /** Whether Command is on its way to a goal of this page, after which it is to wait. */
-    this.hasOrdered = false;
+    /** The goal of this page that Command drives to, and after which it is to wait; "": none. */
+    this.ordered = "";
+    this.orders = 0;
     /** @type {NamedGoal[]} goals of the graph */
     this.goals = [];
   }
@@ -140,7 +143,7 @@ export class Driver {
   readGoals() {
     const name = this.command?.name;
     const params = this.system.graph?.components?.find((/** @type {any} */ each) => each.name === name)?.params;
-    const goals = (params?.goals ?? []).map(namedGoal).filter((/** @type {NamedGoal | null} */ goal) => goal !== null && goal.name !== PLACE);
+    const goals = (params?.goals ?? []).map(namedGoal).filter((/** @type {NamedGoal | null} */ goal) => goal !== null && !PLACE.test(goal.name));
     if (goals.length > 0) this.goals = goals;
   }
 
@@ -151,43 +154,47 @@ export class Driver {
    * @returns {Promise<Answer>}
    */
   driveTo(points, yaw) {
-    const end = points[points.length - 1];
-    return this.command === undefined ? this.sendGoal(end, yaw) : this.commandGoal(goalText(points, yaw));
+    this.orders += 1;
+    const name = `place_${this.orders}`;
+    return this.command === undefined ? this.sendGoal(points[points.length - 1], yaw, name) : this.commandGoal(goalText(points, yaw, name));
   }
 
   /**
-   * Gives Command one goal. It is to end neither itself nor the run with it, so it goes round until `arrived()` lets it wait.
+   * Gives Command one goal. It is to end neither itself nor the run with it, so it goes round until `ended()` lets it wait.
    * @param {string} text
    * @returns {Promise<Answer>}
    */
   async commandGoal(text) {
     const command = this.command?.name;
     if (command === undefined) return NO_WAY;
-    const answer = await this.connection.ask("set", `${command}.rounds`, "0", `${command}.goals`, text);
-    this.hasOrdered = answer.ok;
-    return answer;
+    this.ordered = text.slice(0, text.indexOf(":"));
+    return this.connection.ask("set", `${command}.rounds`, "0", `${command}.goals`, text);
   }
 
-  /** Lets Command wait where it is, if the goal was this page's. */
-  arrived() {
-    if (!this.hasOrdered || this.command === undefined) return;
-    this.hasOrdered = false;
+  /**
+   * Lets Command wait where it is, if the goal was this page's.
+   * @param {string} goal  that was reached, or could not be
+   */
+  ended(goal) {
+    if (this.ordered !== goal || this.command === undefined) return;
+    this.ordered = "";
     this.connection.ask("set", `${this.command.name}.goals`, "");
   }
 
   /**
    * @param {Point} p
    * @param {number | null} yaw
+   * @param {string} name
    * @returns {Promise<Answer>}
    */
-  async sendGoal(p, yaw) {
+  async sendGoal(p, yaw, name) {
     const goal = this.goalPort;
     if (goal === undefined) return NO_WAY;
     for (const list of this.own(this.system.servers("Send", "ClientList"))) {
       const told = await this.connection.send(list.port, clientsXml(this.behavioursOf(componentOf(list.port))));
       if (!told.ok) return told;
     }
-    return this.connection.send(goal.port, goalXml(p, yaw));
+    return this.connection.send(goal.port, goalXml(p, yaw, name));
   }
 
   /**
@@ -202,7 +209,7 @@ export class Driver {
 
   /** @returns {Promise<Answer>} */
   async giveUp() {
-    this.hasOrdered = false;
+    this.ordered = "";
     if (this.command !== undefined) return this.connection.ask("set", `${this.command.name}.goals`, "");
     return this.cancelPort === undefined ? NO_WAY : this.connection.send(this.cancelPort.port, "<GoalFailed/>");
   }

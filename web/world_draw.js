@@ -463,7 +463,7 @@ export function drawWay(pen, robot, pixel, palette, labels) {
     const goal = robot.goal !== null && Math.hypot(robot.goal.x - end.x, robot.goal.y - end.y) < 0.01 ? robot.goal : null;
     drawFlag(pen, end, pixel, palette.goal);
     if (goal !== null) drawReach(pen, goal, pixel, palette.goal);
-    labels.push({ x: end.x + 16 * pixel, y: end.y + 14 * pixel, text: robot.way.name, colour: palette.goal });
+    labels.push({ x: end.x + 16 * pixel, y: end.y + 14 * pixel, text: robot.way.name.replace(/^place_\d+$/, ""), colour: palette.goal });
   }
   if (robot.ordered !== null) drawGhost(pen, robot.ordered, robot.outline, pixel, palette.goal);
 }

@@ -275,7 +275,7 @@ const PUSHED = {
     rate: 10,
     take: (world, robot, o) => {
       robot.endWay(o.name);
-      world.dispatchEvent(new CustomEvent("said", { detail: `Arrived at ${o.name}.` }));
+      world.dispatchEvent(new CustomEvent("ended", { detail: { robot, goal: o.name, text: `has arrived at ${o.name}.` } }));
     },
   },
   GoalFailed: {
@@ -283,7 +283,8 @@ const PUSHED = {
     rate: 10,
     take: (world, robot, o) => {
       robot.endWay(o.name);
-      world.dispatchEvent(new CustomEvent("said", { detail: `Gave up ${o.name}: ${o.reason}` }));
+      if (o.reason.startsWith("cancelled")) return;  // whoever has cancelled it knows
+      world.dispatchEvent(new CustomEvent("ended", { detail: { robot, goal: o.name, text: `gives up ${o.name}: ${o.reason}` } }));
     },
   },
   WorldScene: { layer: "world", rate: 20, take: (world, _robot, o) => world.takeScene(o) },
@@ -300,7 +301,8 @@ const COMMANDED = {
   },
 };
 
-/** The world, kept up to date while somebody looks at it. Events: `changed` when there are other robots, `said` with a sentence. */
+/** The world, kept up to date while somebody looks at it. Events: `changed` when there are other robots, `ended` when a goal
+ * is reached or given up, `happened` with a sentence about a simulated world. */
 export class WorldModel extends EventTarget {
   /**
    * @param {Connection} connection

@@ -13,6 +13,8 @@ import { changeXml } from "./world_change.js";
  * @typedef {import("./connection.js").Connection} Connection
  */
 
+const PLACES = /\bplace_\d+\b/;
+
 export class WorldPanel {
   /**
    * @param {Connection} connection
@@ -28,7 +30,7 @@ export class WorldPanel {
     /** Prefix of the robot that orders are for. */
     this.chosen = "";
     world.addEventListener("changed", () => this.showRobots());
-    world.addEventListener("said", (event) => this.say(/** @type {CustomEvent} */ (event).detail));
+    world.addEventListener("ended", (event) => this.end(/** @type {CustomEvent} */ (event).detail));
     world.addEventListener("happened", (event) => notify(/** @type {CustomEvent} */ (event).detail));
     system.addEventListener("figures", () => this.showOrders());
     system.addEventListener("graph", () => this.showOrders());
@@ -44,9 +46,16 @@ export class WorldPanel {
     return this.world.robots.get(this.chosen) ?? this.world.robots.values().next().value;
   }
 
-  /** @returns {Driver} */
   get driver() {
-    const prefix = this.robot?.prefix ?? "";
+    return this.driverOf(this.robot);
+  }
+
+  /**
+   * @param {Robot | undefined} robot
+   * @returns {Driver}
+   */
+  driverOf(robot) {
+    const prefix = robot?.prefix ?? "";
     const known = this.drivers.get(prefix);
     if (known !== undefined) return known;
     const driver = new Driver(this.connection, this.system, prefix);
@@ -129,7 +138,7 @@ export class WorldPanel {
     if (robot.way === null) return `${doing}. It has no goal.`;
     const points = [robot.pose, ...robot.way.points.slice(1)];
     const left = points.slice(1).reduce((sum, p, i) => sum + Math.hypot(p.x - points[i].x, p.y - points[i].y), 0);
-    const where = robot.way.name === PLACE ? "the place you chose" : robot.way.name || "a place";
+    const where = PLACE.test(robot.way.name) ? "the place you chose" : robot.way.name || "a place";
     return `${doing}, on the way to ${where}: ${left.toFixed(1)} m to go.`;
   }
 
@@ -146,10 +155,10 @@ export class WorldPanel {
     setText(byId("figure-command"), wanted);
   }
 
-  /** @param {string} text */
-  say(text) {
-    notify(text);
-    this.driver.arrived();
+  /** @param {{robot: Robot, goal: string, text: string}} ended */
+  end({ robot, goal, text }) {
+    notify(`${robot.name || "The robot"} ${text.replace(PLACES, "the place you chose")}`);
+    this.driverOf(robot).ended(goal);
   }
 
   /**

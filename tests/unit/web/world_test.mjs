@@ -101,10 +101,10 @@ test("echoes of one place are kept once, and the oldest are forgotten", () => {
 });
 
 test("orders are written as Command and the ports read them", () => {
-  assert.equal(goalText([{ x: 1, y: 2 }, { x: 3.25, y: -4 }], Math.PI / 2), "place: 1.000 2.000 > 3.250 -4.000 @ 90.0");
-  assert.equal(goalText([{ x: 1, y: 2 }], null), "place: 1.000 2.000");
-  assert.match(goalXml({ x: 1, y: 2 }, 1), /use_orientation="true".*<coordinate x="1.000" y="2.000"\/>.*yaw="1.0000"/);
-  assert.ok(!goalXml({ x: 1, y: 2 }, null).includes("orientation"));
+  assert.equal(goalText([{ x: 1, y: 2 }, { x: 3.25, y: -4 }], Math.PI / 2, "place_1"), "place_1: 1.000 2.000 > 3.250 -4.000 @ 90.0");
+  assert.equal(goalText([{ x: 1, y: 2 }], null, "place_2"), "place_2: 1.000 2.000");
+  assert.match(goalXml({ x: 1, y: 2 }, 1, "place_1"), /use_orientation="true".*<coordinate x="1.000" y="2.000"\/>.*yaw="1.0000"/);
+  assert.ok(!goalXml({ x: 1, y: 2 }, null, "place_1").includes("orientation"));
   assert.equal(poseXml({ x: 1, y: 2, yaw: 3 }), '<RobotPose x="1.000" y="2.000" orientation="3.0000"/>');
   assert.equal(clientsXml(["a", 'b"<&']), '<ClientList><clients value="a"/><clients value="b&quot;&lt;&amp;"/></ClientList>');
   assert.equal(motionXml(0, 0), '<MotionCommand kind="FULLSTOP"/>');
