@@ -31,8 +31,10 @@ function ask(title, content, orders) {
     return button;
   });
   const close = el("button", { type: "button", click: () => dialog.close() }, "Close");
+  dialog.close();
   dialog.replaceChildren(el("h2", {}, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
-  dialog.showModal();
+  dialog.show();  // not modal: STOP stays in reach
+  dialog.querySelector("input")?.focus();
 }
 
 /**

@@ -43,6 +43,8 @@ export class Inspector {
     this.log = el("ol", { class: "log" });
     /** @type {() => void} */
     this.endLog = () => {};
+    /** @type {Set<string>} */
+    this.lines = new Set();
     /** @type {Map<string, ObjectView>} */
     this.views = new Map();
     /** @type {Value[]} */
@@ -110,7 +112,7 @@ export class Inspector {
     this.values.replaceChildren();
     this.showPorts();
     this.readValues(name);
-    this.endLog = this.connection.stream("log", [name, "--follow"], (record) => this.addLine(record));
+    this.followLog(name);
   }
 
   /** @param {string} name */
@@ -232,6 +234,25 @@ export class Inspector {
   }
 
   // ------------------------------------------------------------------------------------------------ its log
+
+  /**
+   * Shows the last lines of a component, and those that come. All lines are followed, and a line may come twice.
+   * @param {string} name
+   */
+  async followLog(name) {
+    this.lines.clear();
+    const take = (/** @type {Record<string, any>} */ record) => {
+      const key = `${record.time} ${record.text}`;
+      if (record.who !== name || this.lines.has(key)) return;
+      this.lines.add(key);
+      this.addLine(record);
+    };
+    const { records } = await this.connection.ask("log", name);
+    if (this.choice === null || !("component" in this.choice) || this.choice.component !== name) return;
+    records.forEach(take);
+    this.endLog();
+    this.endLog = this.connection.stream("log", ["--follow"], take);
+  }
 
   /** @param {Record<string, any>} record */
   addLine(record) {

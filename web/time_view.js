@@ -66,11 +66,13 @@ export class TimeView {
     if (on) this.refresh();
   }
 
-  begin() {
+  async begin() {
     this.endLog();
     this.log = [];
     this.zero = Infinity;
     this.endLog = this.connection.stream("log", ["--follow"], (record) => this.take(record));
+    const { records } = await this.connection.ask("log");
+    for (const record of records) this.take(record);
     if (this.traces.length > 0) this.trace(true);
   }
 
@@ -78,6 +80,7 @@ export class TimeView {
   take(record) {
     const time = Number(record.time);
     this.zero = Math.min(this.zero, Date.now() / 1000 - time);
+    if (this.log.some((line) => line.time === time && line.text === record.text)) return;  // a line may come twice
     this.log.push({ time, lane: "log", kind: record.level, who: record.who, text: record.text });
     if (this.log.length > LINES) this.log.splice(0, LINES / 10);
   }

@@ -339,8 +339,23 @@ export class WorldModel extends EventTarget {
     this.heard = new Map();
     /** @type {Set<string>} ports whose answer has not come yet */
     this.waiting = new Set();
+    connection.addEventListener("hello", () => this.forgetAll());
     system.addEventListener("graph", () => this.follow());
     setInterval(() => this.askSilent(), ASK_AGAIN);
+  }
+
+  /** Begins with nothing: a system has come, and may be another one. */
+  forgetAll() {
+    this.robots.clear();
+    this.localizers.clear();
+    this.heard.clear();
+    this.waiting.clear();
+    [this.grid, this.plan, this.scene] = [null, null, null];
+    this.echoes = new EchoMemory();
+    this.contacts = [];
+    this.lastEvent = 0;
+    this.stale = true;
+    this.dispatchEvent(new Event("changed"));
   }
 
   /** @returns {Point[]} corners of what is known: the map, the robots and their surroundings, what was echoed */

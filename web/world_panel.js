@@ -32,6 +32,7 @@ export class WorldPanel {
     world.addEventListener("changed", () => this.showRobots());
     world.addEventListener("ended", (event) => this.end(/** @type {CustomEvent} */ (event).detail));
     world.addEventListener("happened", (event) => notify(/** @type {CustomEvent} */ (event).detail));
+    for (const event of ["gone", "state"]) connection.addEventListener(event, () => this.showFigures());
     system.addEventListener("figures", () => this.showOrders());
     system.addEventListener("graph", () => this.showOrders());
     byId("give-up").addEventListener("click", () => this.order(this.driver.giveUp(), "The goal is given up."));
@@ -89,7 +90,9 @@ export class WorldPanel {
       label.hidden = this.system.portsThat((port) => types.includes(port.type) || types.includes(port.reply ?? "")).length === 0;
     }
     const list = byId("goal-list");
-    if (list.childElementCount === goals.length) return;
+    const key = goals.map((goal) => goal.text).join();
+    if (list.dataset.key === key) return;
+    list.dataset.key = key;
     list.replaceChildren(
       ...goals.map((goal) => el("button", { title: goal.text, click: () => this.order(driver.commandGoal(goal.text), `Sent to ${goal.name}.`) }, goal.name)),
     );
@@ -130,6 +133,7 @@ export class WorldPanel {
   /** Says in plain words what the robot does. */
   describe() {
     const robot = this.robot;
+    if (this.connection.hello === null) return "No system is there. What is shown is how it was.";
     if (robot === undefined || robot.pose === null) return "Nothing is known of a robot yet.";
     if (this.system.motorsHeld) return "The motors are held. Nothing moves before they are released.";
     const moves = Math.hypot(robot.motion.forward, robot.motion.left) > 0.01;
