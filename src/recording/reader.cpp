@@ -45,13 +45,12 @@ struct Piece {
 // Messages on their way into the order of time.
 class Sorter {
  public:
-  Sorter(const std::set<std::uint16_t>& channels, const std::function<bool(const Message&)>& take)
-      : channels_(channels), take_(take) {}
+  Sorter(std::set<std::uint16_t> channels, const std::function<bool(const Message&)>& take)
+      : channels_(std::move(channels)), take_(take) {}
 
   void add(const std::shared_ptr<const Bytes>& content, std::span<const std::byte> record) {
     const std::optional<Message> message = read_message(record);
-    if (message && (channels_.empty() || channels_.contains(message->channel)))
-      waiting_.push_back({*message, content});
+    if (message && channels_.contains(message->channel)) waiting_.push_back({*message, content});
   }
 
   // Passes on what is earlier than a time. Returns false if no more is wanted.
@@ -72,7 +71,7 @@ class Sorter {
     Message message;
     std::shared_ptr<const Bytes> content;  // which it is in; null: the file itself
   };
-  const std::set<std::uint16_t>& channels_;
+  const std::set<std::uint16_t> channels_;
   const std::function<bool(const Message&)>& take_;
   std::vector<Waiting> waiting_;
 };
@@ -185,7 +184,10 @@ Result<Metadata> Reader::metadata(const IndexEntry& entry) const {
 
 Status Reader::messages(const std::set<std::uint16_t>& channels,
                         const std::function<bool(const Message&)>& take) const {
-  Sorter sorter(channels, take);
+  std::set<std::uint16_t> wanted = channels;
+  if (channels.empty())
+    for (const auto& [id, channel] : inside_->summary.channels) wanted.insert(id);
+  Sorter sorter(std::move(wanted), take);
   for (const Piece& piece : inside_->pieces(channels)) {
     if (!sorter.pass_on(piece.start)) return ok();
     if (Status added = inside_->add(piece, sorter); !added.ok()) {

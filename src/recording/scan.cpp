@@ -94,16 +94,25 @@ class Scan {
                                      chunk->compressed_size,
                                      chunk->content.size()});
     ++found_.summary.statistics.chunks;
+    ChunkIndex& index = found_.summary.chunks.back();
+    bool is_first = true;
     RecordWalk walk(chunk->content);
     while (const std::optional<Record> inner = walk.next()) {
       if (inner->op == Op::message) {
-        (void)take_message({inner->op, record.offset, inner->content});
+        if (take_message({inner->op, record.offset, inner->content}))
+          widen(index, read_message(inner->content)->log_time, std::exchange(is_first, false));
       } else if (!found_.summary.take(*inner)) {
         note(record.offset, "a schema or channel in a chunk is damaged");
       }
     }
     if (!walk.is_at_end()) note(record.offset, "a chunk ends in the middle of a record");
     return pass_on(record, &*chunk);
+  }
+
+  // The times of a chunk are those of its messages, whatever it says of itself.
+  static void widen(ChunkIndex& index, Stamp time, bool is_first) {
+    index.start = is_first ? time : std::min(index.start, time);
+    index.end = is_first ? time : std::max(index.end, time);
   }
 
   Status take_extra(const Record& record) {

@@ -258,7 +258,13 @@ ChunkIndex put_chunk(Bytes& out, std::uint64_t offset, std::span<const std::byte
   ChunkIndex index{chunk.start, chunk.end,         offset + out.size(),   chunk_record.size(), {},
                    0,           chunk.compression, chunk.compressed_size, chunk.content.size()};
   put(out, chunk_record);
-  put_places(out, offset, places_in(chunk.content), index);
+  const Places places = places_in(chunk.content);
+  std::vector<Stamp> times;
+  for (const auto& [channel, list] : places)
+    for (const auto& [time, place] : list) times.push_back(time);
+  if (!times.empty()) index.start = *std::ranges::min_element(times);
+  if (!times.empty()) index.end = *std::ranges::max_element(times);
+  put_places(out, offset, places, index);
   return index;
 }
 

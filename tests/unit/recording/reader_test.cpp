@@ -87,6 +87,30 @@ TEST_CASE("files of other writers are read: messages without chunks, and chunks 
   CHECK(all_messages(*reader) == std::vector<Seen>(3, Seen{"/x", 10, 10, 1, "one"}));
 }
 
+TEST_CASE(
+    "a chunk that says wrong times of itself does not change the order, and messages of no channel are left "
+    "out",
+    "[recording][reader][fault]") {
+  test::Bytes bytes = foreign_beginning();
+  for (const Stamp time : {20, 10}) {
+    test::Bytes inner;
+    put_record(inner, Message{3, 1, time, time, bytes_of("x")});
+    put_record(inner, Message{4, 1, time, time, bytes_of("of no channel")});
+    test::Bytes content;
+    for (const std::uint64_t number :
+         {std::uint64_t{50} - time, std::uint64_t{50}, std::uint64_t{inner.size()}})
+      put(content, number);
+    put(content, std::uint32_t{0});
+    put(content, std::string_view());
+    put(content, std::uint64_t{inner.size()});
+    put(content, inner);
+    put_record(bytes, Op::chunk, content);
+  }
+  const Result<Reader> reader = Reader::of(bytes);
+  CHECK(all_messages(*reader) == std::vector<Seen>{{"/x", 10, 10, 1, "x"}, {"/x", 20, 20, 1, "x"}});
+  CHECK(reader->findings().size() == 3);  // two messages, and the missing end
+}
+
 TEST_CASE("bytes that are no MCAP file are refused with the reason", "[recording][reader]") {
   CHECK(Reader::of({}).error().message == "this is no MCAP file: it does not begin like one");
   CHECK(Reader::of(bytes_of("SQLite format 3, and more")).error().code == Code::invalid_argument);
