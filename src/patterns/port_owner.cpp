@@ -20,6 +20,7 @@ PortDeclaration make_declaration(std::string name, Pattern pattern, Role role, T
   declaration.contract.required = role == Role::proxy && !options.optional;
   declaration.contract.queue.depth = options.depth > 0 ? options.depth : default_depth(pattern);
   if (pattern != Pattern::push) declaration.contract.queue.overflow = QueuePolicy::Overflow::refuse;
+  declaration.contract.queue.confirm = options.confirm;
   declaration.contract.period = options.period;
   declaration.contract.from_device = options.from_device;
   declaration.contract.text = options.text;

@@ -203,8 +203,9 @@ class PolicyReader {
     const Text* text = connection_.find("confirm");
     if (text == nullptr) return true;
     const auto confirm = read_value(*text, rule_of("confirm"), "confirm", report_);
-    if (confirm && std::get<std::string>(*confirm) == to_string(QueuePolicy::Confirm::handled))
-      edge_.queue.confirm = QueuePolicy::Confirm::handled;
+    using Confirm = QueuePolicy::Confirm;
+    const bool handled = confirm && std::get<std::string>(*confirm) == to_string(Confirm::handled);
+    if (confirm) edge_.queue.confirm = handled ? Confirm::handled : Confirm::accepted;
     return confirm.has_value();
   }
 

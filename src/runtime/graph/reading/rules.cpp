@@ -225,8 +225,9 @@ constexpr std::array kConnect{
                   seconds(0.0)},
     AttributeRule{
         "confirm", false,
-        "Send: when an object counts as sent. accepted (if not given): it waits to be handled; "
-        "handled: the receiver's handler has returned, and what it returned is the sender's answer.",
+        "Send: when an object counts as sent; as the receiver's port says if not given, as a rule accepted. "
+        "accepted: it waits to be handled; handled: the receiver's handler has returned, and what it "
+        "returned is the sender's answer.",
         one_of(kConfirm)},
     AttributeRule{"link", false,
                   "What carries the objects; if not given: local within a process, shm within a machine, dds "

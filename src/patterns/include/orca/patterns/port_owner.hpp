@@ -33,6 +33,9 @@ struct PortOptions {
   Duration period{0};
   /// Marks a PushServer at which a device's strand pushes, not the component's: no edge may make it wait.
   bool from_device = false;
+  /// A SendServer's: when an object counts as sent, unless the graph says otherwise for an edge. With `handled` the handler's error
+  /// is the sender's.
+  QueuePolicy::Confirm confirm = QueuePolicy::Confirm::accepted;
 };
 
 /// A port as declared by a member of a component.
