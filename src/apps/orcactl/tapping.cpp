@@ -90,7 +90,11 @@ Status echo(Channel& line, const apps::Call& call) {
     print(*text);
   }
   if (seen == 0)
-    std::fprintf(stderr, "orcactl: nothing has passed %s in this time\n", call.words.front().c_str());
+    std::fprintf(stderr,
+                 "orcactl: nothing has passed %s in this time; a component that nobody uses works for "
+                 "whoever looks only "
+                 "with watchable=\"true\" in the graph\n",
+                 call.words.front().c_str());
   return ok();
 }
 

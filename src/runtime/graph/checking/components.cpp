@@ -103,6 +103,7 @@ class ComponentReader {
     if (const auto priority = attribute<std::int64_t>("priority"))
       checked_.value.priority = static_cast<int>(*priority);
     if (const auto autonomous = attribute<bool>("autonomous")) checked_.value.autonomous = *autonomous;
+    checked_.value.watchable = attribute<bool>("watchable").value_or(false);
     checked_.value.takes = read_lap_time(node_, report_);
     checked_.value.restore_last = attribute<std::string>("restore") == "last";
     checked_.value.may_fail = attribute<bool>("may_fail").value_or(false);

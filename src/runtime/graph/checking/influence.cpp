@@ -63,7 +63,8 @@ class Influence {
   }
 
   [[nodiscard]] bool works_by_itself(const ComponentNode& node) const {
-    return node.autonomous.value_or(false) || std::ranges::find(graph_.ends, node.name) != graph_.ends.end();
+    return node.autonomous.value_or(false) || node.watchable ||
+           std::ranges::find(graph_.ends, node.name) != graph_.ends.end();
   }
 
   // --- Components that never work -------------------------------------------------------------------------

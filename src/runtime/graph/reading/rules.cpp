@@ -151,6 +151,11 @@ constexpr std::array kComponent{
     AttributeRule{"autonomous", false,
                   "Whether the component works without clients; without the attribute it decides itself.",
                   kBoolean},
+    AttributeRule{
+        "watchable", false,
+        "Whether the component also works while somebody looks at what it pushes: orcactl, the page or a "
+        "recording; without the attribute looking makes no component work.",
+        kBoolean},
     AttributeRule{"period", false, "Time from one lap to the next, for example 50 ms.",
                   seconds(kMicrosecond)},
     AttributeRule{"on", false, "PushProxies and port arrays whose new objects start the laps."},

@@ -102,6 +102,7 @@ Attributes attributes_of(const ComponentNode& node) {
   if (node.process != kMainProcess) add(result, "process", node.process);
   if (node.priority != 0) add(result, "priority", std::to_string(node.priority));
   if (node.autonomous) add(result, "autonomous", value_text(*node.autonomous));
+  if (node.watchable) add(result, "watchable", "true");
   if (node.trigger) add_trigger(result, *node.trigger);
   if (!node.takes.file.empty()) {
     add(result, "takes", node.takes.file);

@@ -20,6 +20,7 @@ TEST_CASE("a component that nobody listens to is warned about, unless it works b
   CHECK(said(avoid("")).find("warning G051: component \"avoid\": nobody listens to what it pushes: motion") !=
         std::string::npos);
   CHECK(said(avoid(" autonomous='true'")).empty());
+  CHECK(said(avoid(" watchable='true'")).empty());
   CHECK(said(avoid(""), "avoid").empty());
 }
 

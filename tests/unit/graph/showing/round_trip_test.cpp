@@ -86,8 +86,8 @@ class RandomGraph {
     return "<component name='" + name + "' type='orca.SonarAvoid'" + process() +
            maybe(" priority='" + integer(-100, 100) + "'") +
            (pick(2) == 0 ? loading() : maybe(" autonomous='true'")) + maybe(" start_after='base fuser'") +
-           maybe(" may_fail='true'") + maybe(" restore='last'") + maybe(" takes='" + real(0, 9) + "'") +
-           (by_stamps ? stamps() : maybe(trigger())) + ">" +
+           maybe(" may_fail='true'") + maybe(" watchable='true'") + maybe(" restore='last'") +
+           maybe(" takes='" + real(0, 9) + "'") + (by_stamps ? stamps() : maybe(trigger())) + ">" +
            maybe("<property name='range' value='" + real(0, 9) + " m'/>") +
            maybe("<property name='room' value=\"'4 m'\"/>") + maybe(param("stop_distance", real(0.05, 5.0))) +
            maybe(param("sector", integer(0, 180) + " deg")) + maybe(param("gain", real(0.0, 1e6))) +

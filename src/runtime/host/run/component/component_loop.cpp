@@ -180,7 +180,9 @@ void ComponentLoop::contain(const Endpoint& endpoint, const std::optional<Plugin
 bool ComponentLoop::asked_for() const { return wanted() || (is_open() && parts_.ports.has_intake()); }
 
 bool ComponentLoop::wanted() const {
-  return is_open() && (residency_.stays_active() || parts_.ports.has_subscribers());
+  if (!is_open()) return false;
+  if (residency_.stays_active()) return true;
+  return parts_.settings.watchable ? parts_.ports.has_audience() : parts_.ports.has_subscribers();
 }
 
 bool ComponentLoop::must_leave_lap() const {

@@ -75,7 +75,8 @@ std::vector<Idleness> find_idleness(const graph::Graph& graph, const Reports& re
     const ComponentReport report = reports(node.name);
     const bool did_something = report.has_worked || report.has_failed || has_served(node.name, counters);
     const bool on_demand = node.on_demand || graph::starts_on_demand(graph, node.process);
-    if (did_something || on_demand || only_serves(node.name, graph) || only_stands_by(node.name, graph))
+    if (did_something || on_demand || node.watchable || only_serves(node.name, graph) ||
+        only_stands_by(node.name, graph))
       continue;
     found.push_back({node.name, "has never worked in this run: " + reason(node, graph)});
   }

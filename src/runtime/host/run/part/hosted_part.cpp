@@ -83,7 +83,9 @@ class HostedPart::Inside {
       if (endpoint == nullptr) return no_such(port);
       places.push_back({port.component, endpoint->contract().name, flow_of(endpoint->contract())});
     }
-    return taps_.open(std::move(places), bounds);
+    std::shared_ptr<PortTap> tap = taps_.open(std::move(places), bounds);
+    for (const graph::PortRef& port : ports) watched_.system().endpoint(port)->home().strand.wake();
+    return tap;
   }
 
   Status offer(const graph::PortRef& port, ObjectLoan object,

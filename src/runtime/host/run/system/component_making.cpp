@@ -13,6 +13,7 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   settings.name = node.name;
   settings.priority = node.priority;
   settings.autonomous = node.autonomous;
+  settings.watchable = node.watchable;
   settings.trigger = node.trigger;
   settings.takes = node.takes;
   settings.on_demand = node.on_demand;

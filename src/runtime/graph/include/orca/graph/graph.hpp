@@ -58,6 +58,7 @@ struct ComponentNode {
   std::string process = kMainProcess;
   int priority = 0;  ///< -100 to 100; of components that are ready together, the highest goes first.
   std::optional<bool> autonomous;  ///< Works without clients; nothing: the author's choice.
+  bool watchable = false;          ///< Also works while somebody looks at what it pushes.
   LapTime takes{};                 ///< Virtual time that computing a lap takes.
   bool on_demand = false;          ///< Loaded when first asked for, and unloaded when long unused.
   bool stay_warm = false;          ///< Stays in memory once it is loaded.

@@ -19,6 +19,7 @@ struct ComponentSettings {
   std::string name;
   int priority = 0;
   std::optional<bool> autonomous;  ///< Replaces what the component says by stay_active().
+  bool watchable = false;          ///< Works also while somebody looks at what it pushes.
   std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
   LapTime takes{};                 ///< Virtual time that computing a lap takes.
   Cores* cores = nullptr;          ///< Those on which its laps compute with others; null: its own.

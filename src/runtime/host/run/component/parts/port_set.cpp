@@ -115,6 +115,11 @@ bool PortSet::has_subscribers() const {
                      [](const PushServerEndpoint* server) { return server->subscriber_count() > 0; });
 }
 
+bool PortSet::has_audience() const {
+  return std::any_of(push_servers_.begin(), push_servers_.end(),
+                     [](const PushServerEndpoint* server) { return server->audience() > 0; });
+}
+
 void PortSet::subscribe() {
   for (PushClientEndpoint* client : automatic_clients_) client->subscribe_all();
 }

@@ -66,6 +66,8 @@ class PortSet {
   }
 
   [[nodiscard]] bool has_subscribers() const;
+  /// Returns whether somebody subscribes to what it pushes, or looks at it.
+  [[nodiscard]] bool has_audience() const;
   /// Subscribes the clients whose subscriptions the runtime manages.
   void subscribe();
   void unsubscribe();
