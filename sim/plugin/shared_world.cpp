@@ -109,6 +109,26 @@ void SharedWorld::step() {
   world_.step();
   for (const std::string& event : world_.happened()) members_.front().inbox.happened.push_back(event);
   for (Member& member : members_) collect(member);
+  collect_events();
+}
+
+void SharedWorld::collect_events() {
+  const TimePoint now = on_run_clock(world_.time());
+  for (const std::string& text : world_.happened()) events_.push_back({now, text});
+  for (const ContactEvent& contact : world_.contacts())
+    events_.push_back({now, contact.robot + " touches " + contact.other,
+                       world_.pose(*world_.find(contact.robot)).position()});
+  while (!events_.empty() && events_.front().time < now - kEventsKept) events_.pop_front();
+}
+
+std::vector<SharedWorld::Event> SharedWorld::events() const {
+  const std::lock_guard lock(mutex_);
+  return {events_.begin(), events_.end()};
+}
+
+void SharedWorld::note(std::string text, TimePoint now) {
+  const std::lock_guard lock(mutex_);
+  events_.push_back({now, std::move(text)});
 }
 
 void SharedWorld::collect_readings(Member& member) {

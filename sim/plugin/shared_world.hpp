@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -94,6 +95,26 @@ class SharedWorld {
   /// Returns the time of the first tick that the robot has not seen yet [run's clock]. It may have passed
   /// already: another robot may have advanced the world.
   [[nodiscard]] TimePoint next_tick(RobotId robot) const;
+  /// Something that has happened in the world.
+  struct Event {
+    TimePoint time;  ///< Of the run's clock.
+    std::string text;
+    std::optional<Vec2> place{};
+  };
+  static constexpr Duration kEventsKept = std::chrono::seconds(5);
+
+  /// Simulates up to `now` [run's clock], and lets `act` look at the world, or change it.
+  template <class Act>
+  auto at(TimePoint now, const Act& act) {
+    const std::lock_guard lock(mutex_);
+    catch_up(now);
+    return act(world_);
+  }
+  /// Returns what has happened in the last kEventsKept before the present tick, the oldest first.
+  [[nodiscard]] std::vector<Event> events() const;
+  /// Notes that somebody has changed the world at `now` [run's clock].
+  void note(std::string text, TimePoint now);
+
   /// Keeps from now on where the robot goes, for snapshot().
   void keep_trajectory(RobotId robot);
   /// Keeps the robot's true motion from now on, ten steps a second, for motion().
@@ -130,6 +151,7 @@ class SharedWorld {
   void collect_gripper(Member& member);
   void collect_motion(Member& member);
   void collect_encounters(Member& member);
+  void collect_events();
   [[nodiscard]] TimePoint on_run_clock(TimePoint time) const { return time + epoch_; }
 
   mutable std::mutex mutex_;
@@ -137,6 +159,7 @@ class SharedWorld {
   const std::string settings_;
   Duration epoch_;               // The run's clock when the world's clock was zero.
   std::vector<Member> members_;  // By RobotId.
+  std::deque<Event> events_;     // The oldest first.
 };
 
 }  // namespace orca::sim

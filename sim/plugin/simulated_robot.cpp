@@ -65,6 +65,17 @@ std::string text_of(const ContactEvent& contact) {
   return touch + ": the robot" + way(contact.speed) + ", the person" + way(*contact.person_speed);
 }
 
+void report(const SharedWorld::Inbox::Contact& contact, hw::HardwareHost& host) {
+  host.write_log(log::Level::warning, text_of(contact.event));
+  idl::Contact touched;
+  touched.robot() = contact.event.robot;
+  touched.other() = contact.event.other;
+  touched.x(contact.robot.x);
+  touched.y(contact.robot.y);
+  touched.stamp(to_time_value(contact.event.time));
+  host.report(touched);
+}
+
 }  // namespace
 
 std::vector<HardwareFault> SimulatedRobot::prepare() {
@@ -178,6 +189,7 @@ Status SimulatedRobot::open() {
   });
   if (!joined) return joined.error();
   shared_ = std::move(*joined);
+  outside_.enter(shared_);
   const Result<RobotId> added = shared_->add_robot(*name_, *robot_, start_, kTruthPeriod);
   if (!added) return added.error();
   id_ = *added;
@@ -203,17 +215,6 @@ std::string SimulatedRobot::settings() const {
   return text;
 }
 
-void SimulatedRobot::report(const SharedWorld::Inbox::Contact& contact) {
-  host().write_log(log::Level::warning, text_of(contact.event));
-  idl::Contact touched;
-  touched.robot() = contact.event.robot;
-  touched.other() = contact.event.other;
-  touched.x(contact.robot.x);
-  touched.y(contact.robot.y);
-  touched.stamp(to_time_value(contact.event.time));
-  host().report(touched);
-}
-
 void SimulatedRobot::draw(Scene& scene) {
   if (!moments_) return;
   scene.people = shared_->people();
@@ -237,7 +238,7 @@ void SimulatedRobot::note_lost(Duration lost) {
 
 void SimulatedRobot::go_on() {
   const SharedWorld::Inbox inbox = shared_->advance(id_, host().now());
-  for (const auto& contact : inbox.contacts) report(contact);
+  for (const auto& contact : inbox.contacts) report(contact, host());
   for (const std::string& event : inbox.happened)
     host().write_log(log::Level::info, "in the world: " + event);
   note_lost(inbox.lost);

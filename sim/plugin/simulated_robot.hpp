@@ -12,6 +12,7 @@
 #include "orca/sim/realism.hpp"
 #include "orca/sim/world_model.hpp"
 #include "shared_world.hpp"
+#include "world_surroundings.hpp"
 
 namespace orca::sim {
 
@@ -62,13 +63,14 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   [[nodiscard]] const char* start_param() const { return place_->empty() ? "x" : "place"; }
   [[nodiscard]] Result<ErrorLevels> levels() const;
   [[nodiscard]] std::string settings() const;
-  void report(const SharedWorld::Inbox::Contact& contact);
   void note_lost(Duration lost);
 
   hw::Drawable* drawable() final { return this; }
   void keep_moments() final { keeps_moments_ = true; }
   void keep_motion() final { keeps_motion_ = true; }
   void draw(Scene& scene) final;
+
+  hw::Surroundings* surroundings() final { return &outside_; }
 
   static constexpr double kFarthest = 1e5;  // [m] A world reaches no farther.
 
@@ -153,6 +155,7 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   bool keeps_moments_ = false;
   bool keeps_motion_ = false;
   std::optional<MomentLog> moments_;
+  WorldSurroundings outside_{host()};
 };
 
 }  // namespace orca::sim

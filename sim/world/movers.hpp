@@ -14,6 +14,7 @@
 #include "orca/sim/caster.hpp"
 #include "orca/sim/readings.hpp"
 #include "orca/sim/snapshot.hpp"
+#include "orca/sim/world.hpp"
 #include "robot.hpp"
 
 namespace orca::sim::detail {
@@ -38,6 +39,12 @@ class Movers {
   [[nodiscard]] bool is_obstacle(std::size_t number) const;
   [[nodiscard]] bool has_name(const std::string& name) const;
   [[nodiscard]] const std::string& name(std::size_t number) const { return movers_.at(number).name; }
+  [[nodiscard]] std::size_t size() const { return movers_.size(); }
+  // Returns what there is of an obstacle.
+  [[nodiscard]] Standing obstacle(std::size_t number) const {
+    const Mover& mover = movers_.at(number);
+    return {mover.name, mover.shape, mover.pose};
+  }
   // Returns the body that an obstacle would have at `X_WO`.
   [[nodiscard]] Body body_at(std::size_t number, const Pose2& X_WO) const;
   // Returns the name of a mover that overlaps `body` and is taller than `bottom` [m], or null.

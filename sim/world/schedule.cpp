@@ -13,25 +13,24 @@ Result<RobotId> robot_of(const World& world, const std::string& name) {
 
 std::string name_of(SensorKind kind) { return std::string(kSensorKinds.at(static_cast<std::size_t>(kind))); }
 
+// Whether one of the devices has that name; empty: whether there are any.
 template <class Device>
 bool holds(const std::vector<Device>& devices, const std::string& name) {
-  return std::ranges::find(devices, name, &Device::name) != devices.end();
+  return name.empty() ? !devices.empty() : std::ranges::find(devices, name, &Device::name) != devices.end();
 }
 
-// Whether the robot has the device that is to fail.
+}  // namespace
+
 bool has(const RobotModel& model, const Outage& outage) {
-  if (outage.device.empty()) return true;
   switch (outage.sensor) {
     case SensorKind::sonar: return holds(model.sonars, outage.device);
     case SensorKind::laser: return holds(model.lasers, outage.device);
     case SensorKind::infrared: return holds(model.infrareds, outage.device);
     case SensorKind::bumper: return holds(model.bumpers, outage.device);
-    case SensorKind::odometry: return false;
+    case SensorKind::odometry: return model.odometer && outage.device.empty();
   }
   return false;
 }
-
-}  // namespace
 
 Schedule::Schedule(const Events& events) : outages_(events.outages) {
   for (const Visitor& visitor : events.visitors) add(visitor);
@@ -73,7 +72,7 @@ void Schedule::add(const Outage& outage) {
   const auto look = [outage](World& world) -> Status {
     const Result<RobotId> robot = robot_of(world, outage.robot);
     if (!robot) return robot.error();
-    if (has(world.robot_model(*robot), outage)) return ok();
+    if (outage.device.empty() || has(world.robot_model(*robot), outage)) return ok();
     return fail(Code::not_found, outage.robot + " has no " + name_of(outage.sensor) + " of that name");
   };
   const std::string which = outage.device.empty() ? "" : " \"" + outage.device + "\"";
@@ -107,14 +106,61 @@ bool Schedule::take(Step& step, World& world, std::vector<std::string>& notes) {
   return !waits;
 }
 
+namespace {
+
+bool holds_at(const Outage& one, Duration time) {
+  return one.from <= time && (!one.until || time < *one.until);
+}
+
+std::string text_of(const Outage& one) {
+  return name_of(one.sensor) + (one.device.empty() ? "" : " " + one.device);
+}
+
+}  // namespace
+
 bool Schedule::is_out(std::string_view robot, SensorKind sensor, std::string_view device,
                       TimePoint now) const {
   const Duration time = now - TimePoint{};
   return std::ranges::any_of(outages_, [&](const Outage& one) {
     const bool is_meant =
         one.sensor == sensor && one.robot == robot && (one.device.empty() || one.device == device);
-    return is_meant && one.from <= time && (!one.until || time < *one.until);
+    return is_meant && holds_at(one, time);
   });
+}
+
+Status Schedule::silence(Outage which, TimePoint now) {
+  if (is_out(which.robot, which.sensor, which.device, now))
+    return fail(Code::failed_precondition, text_of(which) + " of " + which.robot + " is silent already");
+  which.from = now - TimePoint{};
+  which.until.reset();
+  outages_.push_back(std::move(which));
+  return ok();
+}
+
+Status Schedule::restore(const Outage& which, TimePoint now) {
+  const Duration time = now - TimePoint{};
+  bool was_out = false;
+  for (Outage& one : outages_) {
+    const bool is_meant = one.robot == which.robot && one.sensor == which.sensor &&
+                          (which.device.empty() || one.device == which.device);
+    if (!is_meant || !holds_at(one, time)) continue;
+    one.until = time;
+    was_out = true;
+  }
+  if (is_out(which.robot, which.sensor, which.device, now))
+    return fail(Code::failed_precondition, "every " + name_of(which.sensor) + " of " + which.robot +
+                                               " is silent; restore them together, with no device");
+  if (was_out) return ok();
+  return fail(Code::failed_precondition, text_of(which) + " of " + which.robot + " is not silent");
+}
+
+std::vector<std::string> Schedule::silent(std::string_view robot, TimePoint now) const {
+  std::vector<std::string> all;
+  for (const Outage& one : outages_)
+    if (one.robot == robot && holds_at(one, now - TimePoint{})) all.push_back(text_of(one));
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
 }
 
 }  // namespace orca::sim::detail

@@ -12,6 +12,9 @@
 
 namespace orca::sim::detail {
 
+// Returns whether a robot has the sensors, or the one sensor, that are to fail.
+[[nodiscard]] bool has(const RobotModel& model, const Outage& outage);
+
 // The events of a running world.
 class Schedule {
  public:
@@ -23,6 +26,13 @@ class Schedule {
   // Returns whether the device, of that kind of sensors, is silent at a time of the world's clock.
   [[nodiscard]] bool is_out(std::string_view robot, SensorKind sensor, std::string_view device,
                             TimePoint now) const;
+
+  // Silences sensors from now on, or ends what silences them now; their times are not read.
+  // @errors  failed_precondition: it is so already, or cannot be for this device alone.
+  [[nodiscard]] Status silence(Outage which, TimePoint now);
+  [[nodiscard]] Status restore(const Outage& which, TimePoint now);
+  // Returns what is silent of a robot: "laser", or "laser rear" for one device of several.
+  [[nodiscard]] std::vector<std::string> silent(std::string_view robot, TimePoint now) const;
 
  private:
   struct Step {

@@ -367,6 +367,40 @@ Snapshot World::snapshot() const {
 
 std::vector<Person> people_in(const World& world) { return world.impl_->movers.people(); }
 
+std::vector<std::string> robots_in(const World& world) {
+  std::vector<std::string> names;
+  for (const detail::Robot& robot : world.impl_->robots) names.push_back(robot.name);
+  return names;
+}
+
+std::vector<Standing> standing_in(const World& world) {
+  const World::Impl& impl = *world.impl_;
+  std::vector<Standing> all;
+  for (std::size_t number = 0; number < impl.movers.size(); ++number)
+    if (impl.is_obstacle(number)) {
+      all.push_back(impl.movers.obstacle(number));
+      all.back().id = ObstacleId{number};
+    }
+  for (const Item& item : impl.model.items)
+    all.push_back({item.name, Circle{{}, item.radius}, impl.items.pose(item.name).value_or(item.pose)});
+  return all;
+}
+
+Status set_silent(World& world, const Outage& which, bool silent) {
+  World::Impl& impl = *world.impl_;
+  const auto robot = world.find(which.robot);
+  if (!robot) return fail(Code::not_found, "there is no robot '" + which.robot + "' in the world");
+  if (!detail::has(world.robot_model(*robot), which))
+    return fail(Code::not_found, which.robot + " has no " +
+                                     std::string(kSensorKinds.at(static_cast<std::size_t>(which.sensor))) +
+                                     (which.device.empty() ? "" : " '" + which.device + "'"));
+  return silent ? impl.schedule.silence(which, impl.now) : impl.schedule.restore(which, impl.now);
+}
+
+std::vector<std::string> silent_in(const World& world, RobotId robot) {
+  return world.impl_->schedule.silent(world.impl_->robot(robot).name, world.impl_->now);
+}
+
 std::uint64_t World::state_hash() const {
   Fnv1a hash;
   hash.add_u64(static_cast<std::uint64_t>(impl_->now.time_since_epoch().count()));

@@ -60,6 +60,21 @@ Status HardwareSeat::command(const Actuator& actuator, ObjectRef command) {
   return driver_->command(*endpoint, std::move(command));
 }
 
+Status HardwareSeat::in_surroundings(const std::function<Status(Surroundings&)>& act) const {
+  const std::lock_guard lock(mutex_);
+  Surroundings* const world = driver_->surroundings();
+  if (world == nullptr)
+    return fail(Code::unimplemented,
+                "its hardware is real, and only a simulated world can be seen from outside and changed; bind "
+                "orca.hw.Sim or orca.hw.Emulated to it");
+  if (Status open = check_open(); !open.ok()) return open;
+  const HardwareState state = driver_->state();
+  if (state != HardwareState::ready && state != HardwareState::active)
+    return fail(Code::unavailable, "the simulated world is not there yet, or no more; its robot is " +
+                                       std::string(to_string(state)));
+  return act(*world);
+}
+
 std::optional<DriveLimits> HardwareSeat::limits() const {
   const std::lock_guard lock(mutex_);
   return driver_->motion() != nullptr ? std::optional(driver_->motion()->limits()) : std::nullopt;

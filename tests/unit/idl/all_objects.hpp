@@ -13,6 +13,7 @@
 #include "orca/idl/generated/navigation.reflection.hpp"
 #include "orca/idl/generated/sensing.reflection.hpp"
 #include "orca/idl/generated/system.reflection.hpp"
+#include "orca/idl/generated/world.reflection.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/graph.hpp"
 #include "orca/idl/hardware.hpp"
@@ -21,6 +22,7 @@
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/idl/world.hpp"
 
 namespace orca::test {
 
@@ -31,15 +33,14 @@ using TravellingStructs =
                idl::WorldCoordinate3D, idl::WorldCoordinate6DOF>;
 
 /// The object types that have a header themselves.
-using HeadedObjects =
-    std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery,
-               idl::BumperReadings, idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door,
-               idl::Drive, idl::Estimate, idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph,
-               idl::GripperCommand, idl::GripperState, idl::HolonomicVelocity, idl::Image,
-               idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor, idl::LogRecord,
-               idl::MachineState, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry, idl::Path,
-               idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings,
-               idl::SonarRing, idl::TurretAngle, idl::TurretCommand>;
+using HeadedObjects = std::tuple<
+    idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery, idl::BumperReadings,
+    idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door, idl::Drive, idl::Estimate,
+    idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::GripperCommand, idl::GripperState,
+    idl::HolonomicVelocity, idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
+    idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry, idl::Path,
+    idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing,
+    idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

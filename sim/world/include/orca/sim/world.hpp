@@ -26,6 +26,14 @@ enum class RobotId : std::size_t {};
 /// The number of an obstacle that was added to one World while it ran; comes from add_obstacle.
 enum class ObstacleId : std::size_t {};
 
+/// Something that stands in a running world and is not of its plan: an obstacle that was added, or an item. A plain value.
+struct Standing {
+  std::string name;
+  Shape shape;                     ///< Its plan, in its own frame.
+  Pose2 X_WO;                      ///< Where it is now.
+  std::optional<ObstacleId> id{};  ///< Nothing: it is an item.
+};
+
 /// A running simulation: a world, the robots in it, and a time that only step() advances.
 ///
 /// Two worlds that are built and used in the same way with the same options are bit-identical at each tick. A
@@ -178,6 +186,10 @@ class World {
   [[nodiscard]] std::uint64_t state_hash() const;
 
   friend std::vector<Person> people_in(const World& world);
+  friend std::vector<std::string> robots_in(const World& world);
+  friend std::vector<Standing> standing_in(const World& world);
+  friend Status set_silent(World& world, const Outage& which, bool silent);
+  friend std::vector<std::string> silent_in(const World& world, RobotId robot);
 
  private:
   struct Impl;
@@ -186,5 +198,21 @@ class World {
 
 /// Returns the people who walk about in a world, as they are now.
 [[nodiscard]] std::vector<Person> people_in(const World& world);
+
+/// Returns the names of the robots in a world, in the order in which they came.
+[[nodiscard]] std::vector<std::string> robots_in(const World& world);
+
+/// Returns what stands in a world and may go again, also while a gripper holds it. The events of the model count as whoever
+/// calls add_obstacle().
+[[nodiscard]] std::vector<Standing> standing_in(const World& world);
+
+/// Silences all sensors of a kind of a robot, or one of them, from now on, or ends that, whoever has silenced them.
+/// @param which  its times are not read.
+/// @errors  not_found: there is no such robot or sensor. failed_precondition: it is so already; or one is to work again where all
+///          were silenced together.
+Status set_silent(World& world, const Outage& which, bool silent);
+
+/// Returns what is silent of a robot: "laser", or "laser rear" for one of several.
+[[nodiscard]] std::vector<std::string> silent_in(const World& world, RobotId robot);
 
 }  // namespace orca::sim

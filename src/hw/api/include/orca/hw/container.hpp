@@ -15,6 +15,7 @@
 #include "orca/hw/endpoint_list.hpp"
 #include "orca/hw/hardware_state.hpp"
 #include "orca/hw/line_counts.hpp"
+#include "orca/hw/surroundings.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/sensing.hpp"
 
@@ -131,6 +132,8 @@ class HardwareContainer : public DriverFunctions, public EndpointList {
   [[nodiscard]] idl::DeviceStatistics statistics() const;
   /// Returns the interface that draws this hardware; null for real hardware.
   [[nodiscard]] virtual Drawable* drawable() { return nullptr; }
+  /// Returns the world around this hardware; null for real hardware.
+  [[nodiscard]] virtual Surroundings* surroundings() { return nullptr; }
 
   /// Starts the container's strand, which opens the device; again if it was shut down and has ended, closed.
   void run();

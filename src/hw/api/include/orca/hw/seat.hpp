@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -53,6 +54,11 @@ class HardwareSeat final : public Device {
   /// Takes a command for an actuator, as HardwareContainer::command().
   /// @errors  the same; unavailable during a pause.
   Status command(const Actuator& actuator, ObjectRef command);
+
+  /// Lets `act` look at the world around the hardware, or change it.
+  /// @errors  unimplemented: the hardware is real, and has none. unavailable during a pause, and before the hardware is Ready.
+  ///          Those of `act`.
+  Status in_surroundings(const std::function<Status(Surroundings&)>& act) const;
 
   /// Returns the limits of the base; nothing if it has none.
   [[nodiscard]] std::optional<DriveLimits> limits() const;
