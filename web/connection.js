@@ -207,7 +207,11 @@ export class Connection extends EventTarget {
       case "types":
         this.types = message.types;
         this.dispatchEvent(new Event("hello"));
-        for (const [id, look] of this.looks) this.put({ op: "look", id, port: look.port, rate: look.rate });
+        for (const [id, look] of this.looks) {  // lines of an earlier run may still be there
+          clearTimeout(look.again);
+          this.put({ op: "unlook", id });
+          this.put({ op: "look", id, port: look.port, rate: look.rate });
+        }
         return;
       case "system":
         return this.end();
@@ -233,12 +237,12 @@ export class Connection extends EventTarget {
   takeLook(message) {
     const look = this.looks.get(message.id);
     if (look === undefined) return;
+    clearTimeout(look.again);
     if (message.op === "looking") {
       look.type = message.type;
       look.state("", message.type);
     } else {
       look.state(message.error, look.type);
-      clearTimeout(look.again);
       look.again = setTimeout(() => this.put({ op: "look", id: message.id, port: look.port, rate: look.rate }), LOOK_AGAIN);
     }
   }

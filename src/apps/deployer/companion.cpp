@@ -82,12 +82,12 @@ bool Companion::end() {
   if (process == 0) return true;
   kill(process, SIGTERM);
   const auto limit = std::chrono::steady_clock::now() + kEndLimit;
-  int status = 0;
+  int status = -1;
   while (waitpid(process, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() >= limit) kill(process, SIGKILL);
     std::this_thread::sleep_for(kLook);
   }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 std::optional<Companion> start_viewer(const std::string& system) {

@@ -28,6 +28,19 @@ std::string text_of(const json& message) {
   return message.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json read_json(const std::string& text) {
+  constexpr int kDeepest = 16;
+  bool is_too_deep = false;
+  json message = json::parse(
+      text,
+      [&](int depth, json::parse_event_t, json&) {
+        is_too_deep = is_too_deep || depth > kDeepest;
+        return !is_too_deep;  // deeper values are dropped as they come
+      },
+      false);
+  return is_too_deep ? json(json::value_t::discarded) : message;
+}
+
 AnswerInParts::AnswerInParts(std::uint64_t id)
     : answer_({{"op", "answer"}, {"id", id}, {"records", json::array()}, {"notes", json::array()}}) {}
 

@@ -34,6 +34,9 @@ void Desk::leave(Session& session) {
 }
 
 void Desk::follow_log(Session& session, std::uint32_t id) {
+  leave_log(session, id);
+  constexpr std::ptrdiff_t kMost = 8;  // of one session
+  if (std::ranges::count(followers_, &session, &Follower::session) >= kMost) return;
   followers_.push_back({&session, id});
   ask_for_log();
 }

@@ -80,10 +80,30 @@ void Outbox::add_object(std::uint32_t look, std::shared_ptr<const supervisor::Ta
   own.waiting.push_back(std::move(passed));
   // With a rate the older ones are not wanted; otherwise they are missed.
   const std::size_t most = own.interval.count() > 0 ? 1 : kMostObjects;
-  while (own.waiting.size() > 1 && (own.waiting.size() > most || object_bytes_ > kMostBytes)) {
+  while (own.waiting.size() > most) {
     if (own.interval.count() == 0) ++dropped_;
     drop_oldest(own);
   }
+  while (object_bytes_ > kMostBytes && waiting_objects() > 1) {
+    ++dropped_;
+    drop_oldest(heaviest());
+  }
+}
+
+std::size_t Outbox::waiting_objects() const {
+  std::size_t count = 0;
+  for (const auto& [id, look] : looks_) count += look.waiting.size();
+  return count;
+}
+
+// Returns the look with the most bytes that wait. @pre  something waits.
+Outbox::Look& Outbox::heaviest() {
+  const auto weight = [](const auto& entry) {
+    std::size_t bytes = 0;
+    for (const auto& passed : entry.second.waiting) bytes += passed->object.size();
+    return std::pair(bytes, entry.second.waiting.size());
+  };
+  return std::ranges::max_element(looks_, {}, weight)->second;
 }
 
 std::optional<Frame> Outbox::take(Moment now) {

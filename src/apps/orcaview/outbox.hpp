@@ -35,8 +35,8 @@ class Outbox {
   using Moment = std::chrono::steady_clock::time_point;
   static constexpr std::size_t kBound = std::size_t{8} << 20;  ///< [bytes] of answers.
   static constexpr std::size_t kMostObjects = 64;              ///< Of a look without a rate.
-  static constexpr std::size_t kMostBytes = std::size_t{4}
-                                            << 20;  ///< [bytes] of objects, of all looks together.
+  static constexpr std::size_t kMostBytes =
+      std::size_t{4} << 20;  ///< [bytes] of objects, of all looks together, but for one that is alone.
 
   /// Adds an answer.
   /// @return whether there is room. If not, the page does not read, and should be closed.
@@ -69,6 +69,8 @@ class Outbox {
   };
   bool add(Frame frame);
   void drop_oldest(Look& look);
+  [[nodiscard]] std::size_t waiting_objects() const;
+  [[nodiscard]] Look& heaviest();
 
   std::deque<Frame> answers_;
   std::map<std::uint32_t, Look> looks_;

@@ -2,12 +2,18 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "page.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "answers.hpp"
+#include "orca/base/descriptor.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/idl/object_type.hpp"
 
@@ -16,17 +22,31 @@ namespace {
 
 using nlohmann::json;
 
-// A graph that a page has edited is a file for the supervisor.
-Result<std::string> keep_graph(const std::string& system, const std::string& text) {
-  const Result<OwnFolder> folder = OwnFolder::make();
-  if (!folder) return folder.error();
-  std::string path = folder->path() + "/" + system + ".view.xml";
-  std::ofstream file(path, std::ios::trunc);
-  file << text;
-  file.close();
-  if (!file) return fail(Code::unavailable, "cannot write " + path);
-  return path;
-}
+// A graph that a page has edited is a file for the supervisor, of its own for each question and for its time.
+class GraphFile {
+ public:
+  static Result<std::shared_ptr<GraphFile>> make(const std::string& system, const std::string& text) {
+    const Result<OwnFolder> folder = OwnFolder::make();
+    if (!folder) return folder.error();
+    static std::uint64_t number = 0;
+    std::string path = folder->path() + "/" + system + "." + std::to_string(getpid()) + "." +
+                       std::to_string(++number) + ".view.xml";
+    constexpr mode_t kOwnersOnly = 0600;
+    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kOwnersOnly));
+    if (!file || ::write(file.number(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+      return fail(Code::unavailable, "cannot write " + path);
+    return std::shared_ptr<GraphFile>(new GraphFile(std::move(path)));
+  }
+  ~GraphFile() { ::unlink(path_.c_str()); }
+  GraphFile(const GraphFile&) = delete;
+  GraphFile& operator=(const GraphFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  explicit GraphFile(std::string path) : path_(std::move(path)) {}
+  const std::string path_;
+};
 
 }  // namespace
 
@@ -92,19 +112,24 @@ void Page::ask(const Wish& wish) {
   if (ask.command == "line") return refuse(wish.id, "a page looks at a port with the op look");
   if (role() == Role::reader && !only_shows(ask.command, !ask.words.empty()))
     return refuse(wish.id, kOnlyLooks);
+  if (!wish.graph.empty() && ask.command != "apply" && ask.command != "diff")
+    return refuse(wish.id, "a graph goes with apply and diff only");
   if (wish.streams && ask.command == "log") return desk().follow_log(*this, wish.id);
   if (wish.streams) return refuse(wish.id, "only the log can be followed");
   if (std::ranges::find(ask.words, "--follow") != ask.words.end())
     return refuse(wish.id, "for what has no end, ask with \"stream\": true");
+  std::shared_ptr<GraphFile> file;
   if (!wish.graph.empty()) {
-    const Result<std::string> path = keep_graph(desk().link().system(), wish.graph);
-    if (!path) return refuse(wish.id, path.error().text());
-    ask.words.insert(ask.words.begin(), *path);
+    const Result<std::shared_ptr<GraphFile>> made = GraphFile::make(desk().link().system(), wish.graph);
+    if (!made) return refuse(wish.id, made.error().text());
+    file = *made;
+    ask.words.insert(ask.words.begin(), file->path());
   }
+  if (!may_ask()) return refuse(wish.id, "too many questions; this page may ask 20 times a second");
   const auto parts = std::make_shared<AnswerInParts>(wish.id);
   desk().link().ask(
       std::move(ask), [parts](const supervisor::ControlAnswer& answer) { parts->take(answer); },
-      [parts, find = finder()](const Status& outcome) {
+      [parts, file, find = finder()](const Status& outcome) {
         if (const auto page = find()) page->say(parts->finish(outcome));
       });
 }

@@ -15,6 +15,9 @@ namespace {
 
 using supervisor::LineAnswer;
 
+constexpr std::size_t kMostCounters = 16;
+constexpr std::size_t kMostWaiting = 256;  // answers of one port
+
 supervisor::Ask line_to(const std::string& port, const std::vector<std::string>& options) {
   supervisor::Ask ask{"line", {port}, false};
   ask.words.insert(ask.words.end(), options.begin(), options.end());
@@ -37,6 +40,8 @@ void open_line(SystemLink& link, supervisor::Ask ask,
         opened(std::move(*line));
       });
 }
+
+Error no_descriptors() { return fail(Code::unavailable, "there are no descriptors left"); }
 
 }  // namespace
 
@@ -73,7 +78,8 @@ void Ports::open_view(const std::string& port) {
               if (!view) return;  // nobody looks any more
               if (!line) return end_view(port, line.error());
               view->type = (*line)->type;
-              view->wire = std::make_shared<Wire>(loop_, std::move((*line)->line));
+              view->wire = Wire::make(loop_, std::move((*line)->line));
+              if (!view->wire) return end_view(port, no_descriptors());
               view->wire->start(
                   [this, raw = view.get()](supervisor::Message message) { take(*raw, std::move(message)); },
                   [this, port](const Error& why) { end_view(port, why); });
@@ -108,13 +114,17 @@ void Ports::when_open(const std::string& port, std::function<void(const Status&)
   const auto found = counters_.find(port);
   if (found != counters_.end() && found->second->wire) return then(ok());
   if (found != counters_.end()) return found->second->opened.push_back(std::move(then));
+  close_idle_counters();
   const auto counter = counters_.emplace(port, std::make_shared<Counter>()).first->second;
   counter->opened.push_back(std::move(then));
   open_line(link_, line_to(port, {}), [this, port, counter](Result<std::shared_ptr<LineAnswer>> line) {
     const auto waiting = std::exchange(counter->opened, {});
     if (line) {
       counter->type = (*line)->type;
-      counter->wire = std::make_shared<Wire>(loop_, std::move((*line)->line));
+      counter->wire = Wire::make(loop_, std::move((*line)->line));
+      if (!counter->wire) line = no_descriptors();
+    }
+    if (line) {
       counter->wire->start(
           [counter = counter.get()](supervisor::Message message) {
             const auto asked = counter->waiting.extract(message.request);
@@ -130,7 +140,19 @@ void Ports::when_open(const std::string& port, std::function<void(const Status&)
   });
 }
 
+// A process has a limited number of lines, which others need, too.
+void Ports::close_idle_counters() {
+  if (counters_.size() < kMostCounters) return;
+  for (auto counter = counters_.begin(); counter != counters_.end();) {
+    const bool is_idle = counter->second->wire && counter->second->waiting.empty();
+    if (is_idle) counter->second->wire->close();
+    counter = is_idle ? counters_.erase(counter) : std::next(counter);
+  }
+}
+
 void Ports::hand_in(Counter& counter, const std::string& xml, Answered answered) {
+  if (counter.waiting.size() >= kMostWaiting)
+    return answered(fail(Code::unavailable, "too many objects wait for an answer"));
   xml::Diagnostics problems;
   const Result<ObjectLoan> object = orcactl::object_from(xml, "XML", counter.type, problems);
   if (!object) return answered(fail(object.error().code, problems.text() + object.error().message));

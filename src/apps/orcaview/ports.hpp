@@ -69,6 +69,7 @@ class Ports {
   void take(View& view, supervisor::Message message);
   void end_view(const std::string& port, const Error& why);
   void when_open(const std::string& port, std::function<void(const Status&)> then);
+  void close_idle_counters();
   void hand_in(Counter& counter, const std::string& xml, Answered answered);
   void end_counter(const std::string& port, const Error& why);
 

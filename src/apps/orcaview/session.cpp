@@ -2,6 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "session.hpp"
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -158,6 +159,17 @@ Status Session::look(std::uint32_t id, const std::string& port, double rate) {
                 std::chrono::nanoseconds(rate > 0.0 ? static_cast<std::int64_t>(kNanoseconds / rate) : 0));
   looks_.emplace(id, std::make_unique<Look>(*this, id, port)).first->second->begin();
   return ok();
+}
+
+bool Session::may_ask() {
+  constexpr double kMost = 40.0;
+  constexpr double kPerSecond = 20.0;
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> since = now - std::exchange(questions_seen_, now);
+  questions_left_ = std::min(kMost, questions_left_ + kPerSecond * since.count());
+  if (questions_left_ < 1.0) return false;
+  questions_left_ -= 1.0;
+  return true;
 }
 
 void Session::look_away(std::uint32_t id) {

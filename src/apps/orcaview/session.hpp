@@ -83,6 +83,9 @@ class Session : public std::enable_shared_from_this<Session> {
   Status look(std::uint32_t id, const std::string& port, double rate);
   void look_away(std::uint32_t id);
 
+  /// Returns whether one more question is within the budget of this session: 40 at once, 20 a second in the long run.
+  [[nodiscard]] bool may_ask();
+
   [[nodiscard]] Role role() const { return role_; }
   [[nodiscard]] Desk& desk() { return desk_; }
 
@@ -102,6 +105,8 @@ class Session : public std::enable_shared_from_this<Session> {
   Outbox outbox_;
   std::map<std::uint32_t, std::unique_ptr<Look>> looks_;
   boost::asio::steady_timer bell_;  // cancelled when there is something to send
+  double questions_left_ = 40.0;
+  Outbox::Moment questions_seen_{};
   bool is_open_ = true;
   std::uint64_t reported_ = 0;  // drops
   Outbox::Moment report_due_{};

@@ -7,10 +7,12 @@
 // after wire.hpp, which includes what Boost.Asio lacks
 #include <boost/asio/steady_timer.hpp>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "orca/base/result.hpp"
 #include "orca/supervisor/control.hpp"
@@ -35,7 +37,8 @@ class SystemLink {
   /// Connects, again and again until it succeeds.
   void start();
 
-  /// Asks. `done` is called once, at the end of the answer; with unavailable if the system ends before.
+  /// Asks. The supervisor cuts off whoever asks 200 times in a second, so the rest of 150 waits for the next second, but for an
+  /// emergency stop. `done` is called once, at the end of the answer; with unavailable if the system ends before.
   void ask(supervisor::Ask ask, Taker take, Done done);
 
   [[nodiscard]] bool is_up() const { return wire_ != nullptr; }
@@ -46,6 +49,8 @@ class SystemLink {
     Taker take;
     Done done;
   };
+  void send(std::uint64_t request, supervisor::Ask ask);
+  void send_waiting();
   void take(supervisor::Message message);
   void lose(const Error& why);
   void try_later();
@@ -57,6 +62,9 @@ class SystemLink {
   std::shared_ptr<Wire> wire_;  // null: there is no system
   std::uint64_t last_request_ = 0;
   std::map<std::uint64_t, Question> open_;
+  std::deque<std::pair<std::uint64_t, supervisor::Ask>> waiting_;  // for the next second
+  boost::asio::steady_timer second_;                               // that has begun with the first question
+  int asked_ = 0;                                                  // in it
 };
 
 }  // namespace orca::view

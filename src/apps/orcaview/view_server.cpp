@@ -5,9 +5,11 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -26,7 +28,8 @@ using asio::use_awaitable;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::chrono::seconds kPatience{10};  // with whoever sends a request or takes an answer
+constexpr std::chrono::seconds kPatience{10};     // with whoever sends a request or takes an answer
+constexpr std::chrono::milliseconds kPause{200};  // until there may be descriptors again
 constexpr std::size_t kLongestHead = std::size_t{16} << 10;
 
 http::response<http::string_body> answer(const Session::Request& request, http::status status,
@@ -75,14 +78,22 @@ awaitable<void> ViewServer::accept_all() {
     error_code error;
     tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(use_awaitable, error));
     if (error == asio::error::operation_aborted) co_return;
-    if (error || connections_ >= kMostConnections) continue;  // the socket closes
+    if (error) {  // no descriptors are left
+      asio::steady_timer pause(acceptor_.get_executor(), kPause);
+      co_await pause.async_wait(asio::redirect_error(use_awaitable, error));
+      continue;
+    }
+    if (connections_ >= kMostConnections) continue;  // the socket closes
     asio::co_spawn(acceptor_.get_executor(), serve(std::move(socket)), asio::detached);
   }
 }
 
 awaitable<void> ViewServer::serve(tcp::socket socket) {
   ++connections_;
-  co_await serve_requests(std::move(socket));
+  try {
+    co_await serve_requests(std::move(socket));
+  } catch (const std::exception&) {  // such as lack of memory: this connection ends, the others go on
+  }
   --connections_;
 }
 

@@ -2,7 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "wire.hpp"
 
-#include <unistd.h>
+#include <fcntl.h>
 
 #include <optional>
 
@@ -10,8 +10,13 @@ namespace orca::view {
 
 using boost::asio::posix::stream_descriptor;
 
-Wire::Wire(const boost::asio::any_io_executor& loop, Descriptor socket)
-    : channel_(std::move(socket)), waiting_(loop, ::dup(channel_.descriptor())) {}
+std::shared_ptr<Wire> Wire::make(const boost::asio::any_io_executor& loop, Descriptor socket) {
+  const int copy = ::fcntl(socket.number(), F_DUPFD_CLOEXEC, 0);
+  return copy < 0 ? nullptr : std::make_shared<Wire>(loop, std::move(socket), copy);
+}
+
+Wire::Wire(const boost::asio::any_io_executor& loop, Descriptor socket, int copy)
+    : channel_(std::move(socket)), waiting_(loop, copy) {}
 
 void Wire::start(Taker take, Ended ended) {
   take_ = std::move(take);

@@ -24,7 +24,10 @@ class Wire : public std::enable_shared_from_this<Wire> {
   using Taker = std::function<void(supervisor::Message)>;
   using Ended = std::function<void(const Error& why)>;
 
-  Wire(const boost::asio::any_io_executor& loop, Descriptor socket);
+  /// Returns a wire; null if there are no descriptors left.
+  [[nodiscard]] static std::shared_ptr<Wire> make(const boost::asio::any_io_executor& loop,
+                                                  Descriptor socket);
+  Wire(const boost::asio::any_io_executor& loop, Descriptor socket, int copy);
 
   /// Begins to receive.
   /// @param take   takes each message.

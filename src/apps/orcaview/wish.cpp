@@ -6,11 +6,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "answers.hpp"
+
 namespace orca::view {
 namespace {
 
 using nlohmann::json;
 
+constexpr double kLeastPerSecond = 0.001;
 constexpr double kMostPerSecond = 1000.0;
 
 const std::map<std::string, Wish::Op> kOps{{"ask", Wish::Op::ask},     {"cancel", Wish::Op::cancel},
@@ -44,8 +47,8 @@ Result<Wish> read(const json& message, std::uint32_t& id) {
   wish.port = member<std::string>(message, "port");
   wish.rate = member<double>(message, "rate");
   wish.xml = member<std::string>(message, "xml");
-  if (!(wish.rate >= 0.0 && wish.rate <= kMostPerSecond))
-    return fail(Code::invalid_argument, "rate must be from 0, which means all objects, to 1000");
+  if (wish.rate != 0.0 && !(wish.rate >= kLeastPerSecond && wish.rate <= kMostPerSecond))
+    return fail(Code::invalid_argument, "rate must be from 0.001 to 1000, or 0, which means all objects");
   return wish;
 }
 
@@ -53,7 +56,7 @@ Result<Wish> read(const json& message, std::uint32_t& id) {
 
 Result<Wish> read_wish(const std::string& text, std::uint32_t& id) {
   id = 0;
-  const json message = json::parse(text, nullptr, false);
+  const json message = read_json(text);
   if (!message.is_object()) return fail(Code::invalid_argument, "a message must be a JSON object");
   try {
     return read(message, id);

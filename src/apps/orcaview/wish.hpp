@@ -20,7 +20,7 @@ struct Wish {
   bool streams = false;              ///< Its records are wanted as they come.
   std::string graph{};               ///< A graph, in place of the file that the first word would name.
   std::string port{};                ///< For look, query and send.
-  double rate = 0.0;                 ///< [1/s] Most objects of a look; 0: all.
+  double rate = 0.0;                 ///< [1/s] Most objects of a look, from 0.001 to 1000; 0: all.
   std::string xml{};                 ///< The object for query and send, in its text form.
 };
 

@@ -98,6 +98,9 @@ class Foxglove(ViewCase):
     def test_what_is_wrong_is_said_and_nothing_ends(self):
         viewer = self.viewer()
         self.advertised(viewer)
+        deep = b'{"op":"getParameters","id":' + b"[" * 400_000 + b"]" * 400_000 + b"}"
+        viewer.send_frame(1, deep)
+        self.assertIn("JSON object", self.message(viewer, "status")["message"])
         for text, part in ((b"nonsense", "JSON object"), (b'{"op":"dance"}', "dance"), (b'{"op":"subscribe"}', "missing"),
                            (b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":9999}]}', "no channel 9999"),
                            (b'{"op":"subscribe","subscriptions":7}', "wrong type")):

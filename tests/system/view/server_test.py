@@ -145,7 +145,7 @@ class View(ViewCase):
         for number, message in enumerate((
                 {"op": "ask", "command": "estop"}, {"op": "ask", "command": "alarms", "words": ["ack", "all"]},
                 {"op": "ask", "command": "set", "words": ["goto.max_speed", "0.1"]},
-                {"op": "ask", "command": "apply", "graph": "<graph/>"},
+                {"op": "ask", "command": "apply", "graph": "<graph/>"}, {"op": "ask", "command": "diff", "graph": "<graph/>"},
                 {"op": "send", "port": "goto.CancelSend", "xml": "<GoalFailed/>"}), 1):
             page.send(id=number, **message)
             answer = page.answer(number)
@@ -178,6 +178,45 @@ class View(ViewCase):
                 self.assertFalse(page.receive()["ok"])
             except EOFError:  # text that is no UTF-8 ends the connection, as RFC 6455 wants
                 page = self.page()
+
+    def test_a_page_that_asks_without_end_silences_nobody(self):
+        greedy, other = self.page(self.reader), self.page()
+        for number in range(1, 301):
+            greedy.send(op="ask", id=number, command="ps")
+        answers = [greedy.answer(number) for number in range(1, 301)]
+        self.assertIn("too many questions", answers[-1]["error"])
+        other.send(op="ask", id=1, command="estop")
+        self.assertTrue(other.answer(1)["ok"])
+        other.send(op="ask", id=2, command="estop", words=["--release"])
+        self.assertTrue(other.answer(2)["ok"])
+        other.send(op="ask", id=3, command="ps", words=["x" * 300_000])
+        self.assertIn("too long", other.answer(3)["error"])
+
+    def test_a_graph_goes_with_apply_and_diff_only(self):
+        page = self.page()
+        page.send(op="ask", id=1, command="ps", graph="<graph/>")
+        self.assertIn("apply and diff only", page.answer(1)["error"])
+        page.send(op="ask", id=2, command="diff", graph="<graph/>")
+        self.assertFalse(page.answer(2)["ok"])
+        self.assertEqual(list((self.folder / "orca").glob("*.view.xml")), [])
+
+    def test_few_descriptors_end_nothing(self):
+        limited = ["bash", "-c", 'ulimit -n 24; exec "$0" "$@"', BUILD / "bin" / "orcaview", self.NAME, "--port", "0"]
+        other = subprocess.Popen(limited, env=self.environment, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, other)
+        port = int(re.search(r":(\d+)/", other.stdout.readline())[1])
+        token = other.stdout.readline().split("token=")[1].strip()
+        page = WebSocket(port, token)
+        self.addCleanup(page.socket.close)
+        page.send(op="ask", id=1, command="ports")
+        for number, row in enumerate(json.loads(page.answer(1)["text"]), 2):
+            page.send(op="look", id=number, port=row["port"])
+        crowd = [socket.create_connection(("127.0.0.1", port)) for _ in range(30)]
+        time.sleep(0.5)
+        for one in crowd:
+            one.close()
+        page.send(op="ask", id=1000, command="ps")
+        self.assertTrue(page.answer(1000)["ok"])
 
     def test_a_message_without_end_is_cut_off(self):
         page = self.page()

@@ -98,6 +98,18 @@ TEST_CASE("of a page that stalls the oldest objects go, are counted, and memory 
   CHECK(outbox.waiting_bytes() == 0);
 }
 
+TEST_CASE("many looks together keep within the bound, too", "[view]") {
+  Outbox outbox;
+  std::size_t most = 0;
+  for (std::uint32_t look = 0; look < 100; ++look) outbox.begin(look, 10ms);
+  for (std::uint32_t look = 0; look < 100; ++look) {
+    outbox.add_object(look, object_of(1'000'000));
+    most = std::max(most, outbox.waiting_bytes());
+  }
+  CHECK(most <= Outbox::kMostBytes + 1'000'000);
+  CHECK(outbox.dropped() > 90);
+}
+
 TEST_CASE("a single object larger than the bound is sent all the same", "[view]") {
   Outbox outbox;
   outbox.begin(1, 0ns);

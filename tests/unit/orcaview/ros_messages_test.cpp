@@ -59,6 +59,9 @@ TEST_CASE("bytes that are no such message are refused", "[foxglove]") {
     CHECK_FALSE(read_ros_message("geometry_msgs/msg/Twist", "cdr", kTwist.substr(0, size)));
   for (std::size_t size = 0; size < kTwistStamped.size(); ++size)
     CHECK_FALSE(read_ros_message("geometry_msgs/msg/TwistStamped", "cdr", kTwistStamped.substr(0, size)));
+  std::string most_first = kTwist;
+  most_first[1] = '\0';
+  CHECK_FALSE(read_ros_message("geometry_msgs/msg/Twist", "cdr", most_first));
   std::string nan = kTwist;
   nan.replace(4, 8, std::string("\0\0\0\0\0\0\xf8\x7f", 8));
   CHECK_FALSE(read_ros_message("geometry_msgs/msg/Twist", "cdr", nan));

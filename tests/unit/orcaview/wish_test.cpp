@@ -52,10 +52,13 @@ TEST_CASE("what is wrong with a message is said with its number", "[view]") {
   CHECK_THAT(refusal(""), Contains("JSON object"));
   for (const char* const number : {"-1", "1.5", "4294967296", "\"7\"", "null"})
     CHECK_THAT(refusal(std::string(R"({"op":"types","id":)") + number + "}"), Contains("32 bits"));
-  for (const char* const rate : {"-1", "1001", "1e300"})
+  for (const char* const rate : {"-1", "1001", "1e300", "1e-12"})
     CHECK_THAT(refusal(std::string(R"({"op":"look","id":1,"rate":)") + rate + "}"), Contains("rate"));
 }
 
 TEST_CASE("a message that is nested without end is refused", "[view]") {
+  const std::string deep =
+      R"({"op":"types","x":)" + std::string(400'000, '[') + std::string(400'000, ']') + "}";
+  CHECK_THAT(refusal(deep), Contains("JSON object"));
   CHECK_THAT(refusal(std::string(100'000, '[')), Contains("JSON object"));
 }

@@ -20,7 +20,8 @@ using nlohmann::json;
 
 constexpr int kWarning = 1;
 constexpr int kError = 2;
-constexpr double kFrameRate = 30.0;  // [1/s] at which frames follow
+constexpr std::size_t kMostChannels = 64;  // that a viewer publishes
+constexpr double kFrameRate = 30.0;        // [1/s] at which frames follow
 
 template <class Number>
 void append_number(std::string& bytes, Number number) {
@@ -86,7 +87,7 @@ void FoxgloveClient::take_ports(const json& ports) {
 }
 
 void FoxgloveClient::take_text(const std::string& text) {
-  const json message = json::parse(text, nullptr, false);
+  const json message = read_json(text);
   try {
     if (!message.is_object()) return status(kError, "a message must be a JSON object");
     carry_out(message.value("op", ""), message);
@@ -108,9 +109,11 @@ void FoxgloveClient::carry_out(const std::string& op, const json& message) {
   } else if (op == "unsubscribe") {
     for (const json& one : message.at("subscriptionIds")) unsubscribe(one.get<std::uint32_t>());
   } else if (op == "advertise") {
-    for (const json& one : message.at("channels"))
+    for (const json& one : message.at("channels")) {
+      if (own_channels_.size() >= kMostChannels) return status(kError, "too many channels");
       own_channels_[one.at("id").get<std::uint32_t>()] = {one.at("schemaName").get<std::string>(),
                                                           one.at("encoding").get<std::string>()};
+    }
   } else if (op == "unadvertise") {
     for (const json& one : message.at("channelIds")) own_channels_.erase(one.get<std::uint32_t>());
   } else if (op == "getParameters") {
@@ -219,7 +222,7 @@ void FoxgloveClient::get_parameters(const json& message) {
       if (std::ranges::find(names, component) == names.end()) names.push_back(std::move(component));
     }
   }
-  const json id = message.value("id", json());
+  const std::string id = message.value("id", "");
   for (const std::string& name : names)
     ask("get", {name}, [id](FoxgloveClient& client, const json& answer) {
       json parameters = json::array();
@@ -227,7 +230,7 @@ void FoxgloveClient::get_parameters(const json& message) {
         parameters.push_back({{"name", row.value("component", "") + "." + row.value("param", "")},
                               {"value", value_of(row.value("value", ""))}});
       json values{{"op", "parameterValues"}, {"parameters", std::move(parameters)}};
-      if (id.is_string()) values["id"] = id;
+      if (!id.empty()) values["id"] = id;
       client.say(values);
     });
 }

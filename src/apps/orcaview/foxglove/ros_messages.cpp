@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "answers.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -88,7 +89,7 @@ std::vector<double> numbers_of(const Kind& kind, bool is_cdr, const std::string&
     for (std::size_t i = 0; i < kind.paths.size(); ++i) numbers.push_back(cdr.number());
     return numbers;
   }
-  const json message = json::parse(bytes, nullptr, false);
+  const json message = read_json(bytes);
   for (const char* const path : kind.paths) {
     const json::json_pointer place(path);
     const bool is_there = message.is_object() && message.contains(place) && message.at(place).is_number();
@@ -145,6 +146,8 @@ Result<Published> read_ros_message(std::string_view type, std::string_view encod
         Code::unimplemented,
         "a robot takes geometry_msgs PoseStamped, PoseWithCovarianceStamped, Twist and TwistStamped, not " +
             std::string(type));
+  if (encoding == "cdr" && !bytes.starts_with(std::string_view("\0\1", 2)))
+    return fail(Code::data_loss, "the bytes are no plain CDR with the least byte first");
   const std::vector<double> numbers = numbers_of(kind->second, encoding == "cdr", bytes);
   for (const double number : numbers)
     if (!std::isfinite(number))
