@@ -144,6 +144,7 @@ TEST_CASE("orcactl sees the world and changes it, and is refused with the reason
   INFO(put.err);
   CHECK(put.exit_code() == 0);
   CHECK_THAT(Scout::scene(), Contains("name=\"crate\"") && Contains("crate comes to (14, 2) m"));
+  CHECK_THAT(Scout::scene(), Contains("mission=\"0\""));  // It answers nobody.
   const Run again = Scout::change(crate);
   CHECK(again.exit_code() == 1);
   CHECK_THAT(again.err, Contains("there is a 'crate' already; choose another name"));

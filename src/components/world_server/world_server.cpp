@@ -78,11 +78,13 @@ class WorldServer final : public orca::Component {
     return plan;
   }
 
+  // A change that is done is over: the scenes that come are no answers to it.
   orca::Status on_change(const orca::ObjectPtr<orca::idl::WorldChange>& change) {
     return in_world([&](Surroundings& world) -> orca::Status {
       const orca::Result<std::string> changed = world.change(*change);
       if (!changed) return changed.error();
       log_info("by order of " + change->origin() + ": " + *changed);
+      end_mission();
       return orca::ok();
     });
   }

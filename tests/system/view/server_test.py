@@ -91,6 +91,17 @@ class View(ViewCase):
         self.assertTrue(all(abs(t - time.time()) < 10 for t in times))
         self.assertEqual(len({payload for _, payload in found}), 20)
 
+    def test_a_page_sees_the_simulated_world_and_changes_it(self):
+        page = self.page()
+        page.send(op="look", id=7, port="world.ScenePush")
+        self.assertEqual(page.answer(7)["type"], "WorldScene")
+        crate = '<WorldChange kind="PUT_OBSTACLE" name="crate" x="14" y="2" length="0.5" width="0.5"/>'
+        page.send(op="send", id=8, port="world.ChangeSend", xml=crate)
+        self.assertTrue(page.answer(8)["ok"])
+        self.assertIn(b"crate\0", self.objects(page, 7, 5)[-1][1])
+        page.send(op="send", id=9, port="world.ChangeSend", xml=crate)
+        self.assertIn("there is a 'crate' already", page.answer(9)["error"])
+
     def test_a_rate_thins_out(self):
         page = self.page()
         page.send(op="look", id=6, port=POSE, rate=5)
