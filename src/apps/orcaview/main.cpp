@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -122,6 +123,15 @@ class Loop final : public boost::asio::io_context {
   void clear() { shutdown(); }
 };
 
+// A lack of memory or descriptors ends what needs them; everything else goes on.
+void run_contained(Loop& loop) {
+  try {
+    loop.run();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "orcaview: %s\n", error.what());
+  }
+}
+
 ExitCode run(const apps::Call& call) {
   const std::variant<std::string, ExitCode> system = system_of(call);
   if (const auto* const code = std::get_if<ExitCode>(&system)) return *code;
@@ -153,7 +163,7 @@ ExitCode run(const apps::Call& call) {
   desk.start();
   boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
   stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
-  loop.run();
+  while (!loop.stopped()) run_contained(loop);
   loop.clear();
   return ExitCode::ended;
 }

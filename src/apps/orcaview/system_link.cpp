@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "orca/base/exhaustion.hpp"
 #include "orca/supervisor/control_socket.hpp"
 
 namespace orca::view {
@@ -25,7 +26,8 @@ SystemLink::~SystemLink() {
 }
 
 void SystemLink::start() {
-  Result<Descriptor> socket = supervisor::connect_to_system(system_);
+  Result<Descriptor> socket =
+      contain_exhaustion([this]() -> Result<Descriptor> { return supervisor::connect_to_system(system_); });
   wire_ = socket ? Wire::make(loop_, std::move(socket).value()) : nullptr;
   if (!wire_) return try_later();
   wire_->start([this](supervisor::Message message) { take(std::move(message)); },

@@ -6,6 +6,8 @@
 
 #include <optional>
 
+#include "orca/base/exhaustion.hpp"
+
 namespace orca::view {
 
 using boost::asio::posix::stream_descriptor;
@@ -35,7 +37,8 @@ void Wire::receive_all() {
   constexpr int kMostAtOnce = 200;  // the pages want to be served, too
   const Taker take = take_;         // which may close this wire
   for (int i = 0; i < kMostAtOnce && waiting_.is_open(); ++i) {
-    Result<std::optional<supervisor::Message>> message = channel_.receive();
+    using Received = Result<std::optional<supervisor::Message>>;
+    Received message = contain_exhaustion([this]() -> Received { return channel_.receive(); });
     if (!message) return end(message.error());
     if (!message->has_value()) break;
     take(std::move(**message));

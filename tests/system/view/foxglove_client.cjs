@@ -45,6 +45,5 @@ client.on("message", ({ subscriptionId, timestamp, data }) => {
   seen.messages[topic] = entry;
 });
 setTimeout(() => {
-  console.log(JSON.stringify(seen));
-  process.exit(0);
+  process.stdout.write(JSON.stringify(seen), () => process.exit(0));
 }, SECONDS * 1000);
