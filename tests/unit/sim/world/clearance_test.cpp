@@ -25,8 +25,8 @@ double distance_in_room(Vec2 place) {
 }
 
 // A world with a Scout there, after a tick.
-struct Standing {
-  explicit Standing(Vec2 place, WorldModel model = test_room()) : world(std::move(model), {}) {
+struct StandingRobot {
+  explicit StandingRobot(Vec2 place, WorldModel model = test_room()) : world(std::move(model), {}) {
     robot = *world.add_robot("dewey", scout(), {place.x, place.y, 0.3});
     world.step();
   }
@@ -43,7 +43,7 @@ TEST_CASE("the clearance is the distance to the nearest wall or post, up to the 
     const Vec2 place{random.uniform(-4.7, 4.7), random.uniform(-4.7, 4.7)};
     const double expected = distance_in_room(place) - kRadius;
     if (expected < 0.01) continue;
-    const Standing standing(place);
+    const StandingRobot standing(place);
     CHECK(standing.world.clearance(standing.robot, kLimit) ==
           Approx(std::min(expected, kLimit)).margin(1e-9));
     far += expected > kLimit ? 1 : 0;
@@ -52,7 +52,7 @@ TEST_CASE("the clearance is the distance to the nearest wall or post, up to the 
 }
 
 TEST_CASE("other robots and obstacles that come and go count too", "[sim][clearance]") {
-  Standing standing({-2.0, 0.0});
+  StandingRobot standing({-2.0, 0.0});
   World& world = standing.world;
   const RobotId other = *world.add_robot("huey", scout(), {-1.0, 0.0, 0.0});
   world.step();
@@ -71,15 +71,15 @@ TEST_CASE("what the robot passes under or over does not count", "[sim][clearance
   model.obstacles.push_back(
       {.name = "shelf", .shape = Box{{-2, 0.5, 0}, {0.2, 0.2}}, .height = 2.0, .bottom = 1.0});
   model.obstacles.push_back({.name = "doormat", .shape = Box{{-2, -0.5, 0}, {0.2, 0.2}}, .height = 0.02});
-  const Standing standing({-2.0, 0.0}, model);
+  const StandingRobot standing({-2.0, 0.0}, model);
   CHECK(standing.world.clearance(standing.robot, 1.0) == 1.0);
 }
 
 TEST_CASE("a look changes nothing", "[sim][clearance]") {
-  Standing watched({2.0, 0.5});
-  Standing alone({2.0, 0.5});
+  StandingRobot watched({2.0, 0.5});
+  StandingRobot alone({2.0, 0.5});
   for (int i = 0; i < 500; ++i) {
-    for (Standing* one : {&watched, &alone}) {
+    for (StandingRobot* one : {&watched, &alone}) {
       REQUIRE(one->world.set_velocity_command(one->robot, 0.5, 0.4));
       one->world.step();
     }
