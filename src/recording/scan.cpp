@@ -84,29 +84,34 @@ class Scan {
       note(record.offset, chunk.error().message);
       return ok();
     }
-    found_.summary.chunks.push_back({chunk->start,
-                                     chunk->end,
-                                     record.offset,
-                                     record.end() - record.offset,
-                                     {},
-                                     0,
-                                     chunk->compression,
-                                     chunk->compressed_size,
-                                     chunk->content.size()});
-    ++found_.summary.statistics.chunks;
-    ChunkIndex& index = found_.summary.chunks.back();
+    ChunkIndex index{chunk->start,
+                     chunk->end,
+                     record.offset,
+                     record.end() - record.offset,
+                     {},
+                     0,
+                     chunk->compression,
+                     chunk->compressed_size,
+                     chunk->content.size()};
     bool is_first = true;
     RecordWalk walk(chunk->content);
     while (const std::optional<Record> inner = walk.next()) {
       if (inner->op == Op::message) {
         if (take_message({inner->op, record.offset, inner->content}))
           widen(index, read_message(inner->content)->log_time, std::exchange(is_first, false));
-      } else if (!found_.summary.take(*inner)) {
+      } else if (!take_definition(*inner)) {
         note(record.offset, "a schema or channel in a chunk is damaged");
       }
     }
+    found_.summary.chunks.push_back(std::move(index));
+    ++found_.summary.statistics.chunks;
     if (!walk.is_at_end()) note(record.offset, "a chunk ends in the middle of a record");
     return pass_on(record, &*chunk);
+  }
+
+  // Takes a record in a chunk, where nothing but schemas and channels counts besides messages. Returns false if it is damaged.
+  bool take_definition(const Record& inner) {
+    return (inner.op != Op::schema && inner.op != Op::channel) || found_.summary.take(inner);
   }
 
   // The times of a chunk are those of its messages, whatever it says of itself.

@@ -32,6 +32,18 @@ test::Bytes foreign_beginning() {
   return bytes;
 }
 
+// Appends a chunk without compression and checksum, which says of itself that it is of the times 10 to 10.
+void put_plain_chunk(test::Bytes& bytes, const test::Bytes& inner) {
+  test::Bytes content;
+  for (const std::uint64_t number : {std::uint64_t{10}, std::uint64_t{10}, std::uint64_t{inner.size()}})
+    put(content, number);
+  put(content, std::uint32_t{0});
+  put(content, std::string_view());
+  put(content, std::uint64_t{inner.size()});
+  put(content, inner);
+  put_record(bytes, Op::chunk, content);
+}
+
 }  // namespace
 
 TEST_CASE("messages come in the order of their times, however they were written", "[recording][reader]") {
@@ -109,6 +121,26 @@ TEST_CASE(
   const Result<Reader> reader = Reader::of(bytes);
   CHECK(all_messages(*reader) == std::vector<Seen>{{"/x", 10, 10, 1, "x"}, {"/x", 20, 20, 1, "x"}});
   CHECK(reader->findings().size() == 3);  // two messages, and the missing end
+}
+
+TEST_CASE("what belongs into a summary counts for nothing in a chunk", "[recording][reader][fault]") {
+  test::Bytes index;  // of a chunk that is not there
+  for (int i = 0; i < 4; ++i) put(index, std::uint64_t{7});
+  put(index, std::uint32_t{0});
+  put(index, std::uint64_t{0});
+  put(index, std::string_view());
+  put(index, std::uint64_t{0});
+  put(index, std::uint64_t{0});
+  test::Bytes inner;
+  for (int i = 0; i < 10; ++i) put_record(inner, Op::chunk_index, index);
+  put_record(inner, Message{3, 1, 20, 20, bytes_of("x")});
+  test::Bytes bytes = foreign_beginning();
+  put_plain_chunk(bytes, inner);
+  const Result<Reader> reader = Reader::of(bytes);
+  REQUIRE(reader);
+  REQUIRE(reader->chunks().size() == 1);
+  CHECK(reader->chunks()[0].start == 20);
+  CHECK(all_messages(*reader) == std::vector<Seen>{{"/x", 20, 20, 1, "x"}});
 }
 
 TEST_CASE("bytes that are no MCAP file are refused with the reason", "[recording][reader]") {
