@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -215,6 +216,52 @@ TEST_CASE("a process that is started again is recorded again", "[system][recordi
   CHECK(numbers.front() == 1);
   CHECK(std::count_if(numbers.begin() + 1, numbers.end(), [](int number) { return number <= 5; }) >= 1);
   CHECK(numbers.back() < static_cast<int>(numbers.size()));
+}
+
+TEST_CASE("a recording goes on when the graph loses a component", "[system][recording]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  const int guests = GENERATE(1, 2);
+  ShippedGraph graph("scout_goto_processes");
+  const std::string less = folder.write("less.xml", graph.text());
+  graph.add("  <process name=\"guests\"/>\n");
+  for (int i = 0; i < guests; ++i)
+    graph.add("  <component name=\"guest" + std::to_string(i) +
+              "\" type=\"orca.AlarmCentral\" process=\"guests\" autonomous=\"true\"/>\n");
+  Subprocess system(deployer({folder.write("start.xml", graph.text())}));
+  Subprocess recorder(orcactl({"--system", "scout_goto_processes", "record", file, "--wait", "20s"}));
+  const auto records = [&] {
+    return std::filesystem::exists(file) && std::filesystem::file_size(file) > 30'000;
+  };
+  for (int i = 0; i < 200 && !records(); ++i) std::this_thread::sleep_for(100ms);
+  const Run applied = run_orcactl({"apply", less}, Seconds(40));
+  INFO(applied.err);
+  REQUIRE(applied.exit_code() == 0);
+  CHECK_FALSE(recorder.wait(Seconds(2)));  // it records
+  recorder.send(SIGINT);
+  const Run run = finish(recorder, Seconds(10));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(count_in(info_of(file), "/base/OdometryPush") >= 30);
+  CHECK(bag({"check", file}).exit_code() == 0);
+  system.send(SIGTERM);
+  CHECK(finish(system, Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE("a port that there is not is refused when a recording begins, also among others",
+          "[system][recording][fault]") {
+  const TempFolder folder;
+  Subprocess system(deployer({kProcesses, "--until", "60s"}));
+  for (const Words& ports : {Words{"base.Nothing"}, Words{"base.OdometryPush", "base.Nothing"}}) {
+    Subprocess recorder(orcactl(Words{"--system", "scout_goto_processes", "record",
+                                      folder.file(std::to_string(ports.size()) + ".mcap")} +
+                                ports + Words{"--wait", "20s"}));
+    const Run run = finish(recorder, Seconds(20));
+    CHECK(run.exit_code() == 1);
+    CHECK(run.says("there is no port \"base.Nothing\""));
+  }
+  system.send(SIGTERM);
+  CHECK(finish(system, Seconds(10)).exit_code() == 0);
 }
 
 TEST_CASE("sensors of real drivers that were recorded drive GridPlanner to the same commands each time",

@@ -183,10 +183,19 @@ class Recording {
       for (const std::string& port : line->ports) missing_.erase(port);
       lines_.emplace_back(std::move(*line));
     }
+    if (const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer))
+      note_absence(cell(record->record, "missing"));
     const auto* const end = std::get_if<supervisor::EndAnswer>(&answer);
     if (end == nullptr) return;
+    if (!end->outcome.ok() && end->outcome.error().code == Code::not_found)
+      note_absence(end->outcome.error().message);
     is_searching_ = false;
-    if (!end->outcome.ok() && end->outcome.error().code == Code::not_found) note(end->outcome);
+    has_searched_ = true;
+  }
+
+  // A port that there has never been is a mistake of whoever named it; one that has left the graph may come back.
+  void note_absence(const std::string& reason) {
+    if (!has_searched_) note(fail(Code::not_found, reason));
   }
 
   // ---- Turns
@@ -279,6 +288,7 @@ class Recording {
   bool is_connected_ = true;
   bool has_begun_ = false;
   bool is_searching_ = false;
+  bool has_searched_ = false;  // once at least
   std::uint64_t last_request_ = 0;
   std::map<std::uint64_t, Taker> takers_;  // by request
   std::string graph_;

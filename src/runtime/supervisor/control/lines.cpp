@@ -52,17 +52,20 @@ Result<Wish> read(const std::vector<std::string>& words) {
 
 using Ports = std::vector<const graph::ListedPort*>;
 
-// Returns the ports that can be reached, by their processes.
-Result<std::map<std::string, Ports>> find(const Wish& wish, const SystemNames& names) {
+// Returns the ports that can be reached, by their processes. Of several, the answer names those that there are not.
+Result<std::map<std::string, Ports>> find(const Wish& wish, const SystemNames& names, Reply& reply) {
   std::map<std::string, Ports> found;
+  const bool is_alone = wish.ports.size() == 1;
   for (const std::string& path : wish.ports) {
     const Result<const graph::ListedPort*> port = names.port(path);
-    if (!port) return port.error();
-    const Result<const graph::ComponentNode*> component = names.component((*port)->ref.component);
-    if (!component) return component.error();
-    if (const Result<Member*> built = names.built_member_of(**component); built) {
+    const Result<const graph::ComponentNode*> component =
+        port ? names.component((*port)->ref.component) : Result<const graph::ComponentNode*>(port.error());
+    if (!component) {
+      if (is_alone) return component.error();
+      reply.add(Record{{"port", path}, {"missing", component.error().message}});
+    } else if (const Result<Member*> built = names.built_member_of(**component); built) {
       found[(*component)->process].push_back(*port);
-    } else if (wish.ports.size() == 1) {
+    } else if (is_alone) {
       return built.error();
     }
   }
@@ -91,7 +94,7 @@ bool open_lines(const std::vector<std::string>& words, const SystemNames& names,
                 Reply& reply) {
   const Result<Wish> wish = read(words);
   if (!wish) return reply.refuse(wish.error()), false;
-  const Result<std::map<std::string, Ports>> found = find(*wish, names);
+  const Result<std::map<std::string, Ports>> found = find(*wish, names, reply);
   if (!found) return reply.refuse(found.error()), false;
   for (const auto& [process, ports] : *found) {
     // It may have ended while another one was asked.
@@ -99,8 +102,9 @@ bool open_lines(const std::vector<std::string>& words, const SystemNames& names,
     const Result<Member*> member =
         component ? names.built_member_of(**component) : Result<Member*>(component.error());
     if (!member) continue;
-    if (const Status opened = open_line(**member, ports, *wish, conductor, reply); !opened.ok())
-      return reply.refuse(opened.error()), false;
+    const Status opened = open_line(**member, ports, *wish, conductor, reply);
+    if (opened.ok() || (wish->ports.size() > 1 && opened.error().code == Code::not_found)) continue;
+    return reply.refuse(opened.error()), false;
   }
   return wish->bound > 0 && !found->empty();
 }

@@ -12,7 +12,8 @@
 namespace orca::supervisor {
 
 /// Joins a client to the host processes of the ports that it names; the supervisor itself keeps no end. Ports of a process
-/// that does not have them at present are left out, unless only one is named.
+/// that does not have them at present are left out, unless only one is named; so are ports that there are not, each with a record
+/// of its own: "port", and "missing", the reason.
 /// @param words  PORT... [--tap] [--objects] [--bound BYTES]: with the objects that pass, or their times only; what may wait
 ///               for the client in each process.
 /// @return whether there are lines now with a bound of their own.
