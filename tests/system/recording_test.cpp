@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "process_table.hpp"
 #include "shipped_graph.hpp"
 #include "temp_folder.hpp"
 
@@ -246,6 +247,44 @@ TEST_CASE("a recording goes on when the graph loses a component", "[system][reco
   CHECK(bag({"check", file}).exit_code() == 0);
   system.send(SIGTERM);
   CHECK(finish(system, Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE("ports whose process does not end its line are named, and the recording is no success",
+          "[system][recording][fault]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  Subprocess system(deployer({kProcesses, "--until", "60s"}));
+  Subprocess recorder(
+      orcactl({"--system", "scout_goto_processes", "record", file, "base.OdometryPush", "--wait", "20s"}));
+  const auto records = [&] {
+    return std::filesystem::exists(file) && std::filesystem::file_size(file) > 20'000;
+  };
+  for (int i = 0; i < 200 && !records(); ++i) std::this_thread::sleep_for(100ms);
+  const pid_t base = children_of(system.pid()).at("base");
+  system.send(SIGSTOP);  // it would end the process that does not answer
+  kill(base, SIGSTOP);
+  recorder.send(SIGINT);
+  const Run run = finish(recorder, Seconds(10));
+  system.send(SIGCONT);
+  kill(base, SIGCONT);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("the recording may lack the last objects of ports whose processes did not end their lines"));
+  CHECK(run.says("base.OdometryPush"));
+  CHECK(bag({"check", file}).exit_code() == 0);
+  system.send(SIGTERM);
+  (void)finish(system, Seconds(10));
+}
+
+TEST_CASE("ports of a process that never ran are named at the end, and in the recording",
+          "[system][recording]") {
+  const TempFolder folder;
+  const std::string file = folder.file("run.mcap");
+  const Run run = run_deployer(Words{system_graph("visit.xml"), "--profile", "cold_process", "--set",
+                                     "plan=send 30", "--until", "1s", "--record", file} +
+                               with_test_plugins());
+  INFO(run.err);
+  CHECK(run.says("never reached, so nothing of them is recorded: visited.out visited.ask"));
+  CHECK(cell_of(info_of(file), "unreached", "unreached") == "visited.out visited.ask");
 }
 
 TEST_CASE("a port that there is not is refused when a recording begins, also among others",

@@ -84,6 +84,7 @@ Record summary_of(const recording::Reader& file, const recording::Values& facts)
           {"clock", value(facts, "clock")},
           {"begun", value(facts, "begun")},
           {"trace_hash", value(facts, "trace-hash")},
+          {"unreached", value(facts, "unreached")},
           {"library", file.library()}};
 }
 

@@ -77,6 +77,25 @@ class Recording {
 
   // Returns when the system has ended, or when everything that had passed before the end is written.
   Status run(std::optional<Duration> whole) {
+    record(whole);
+    close_lines();
+    return status_;
+  }
+
+  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost() const { return lost_; }
+  [[nodiscard]] std::size_t count_ports() const { return wanted_.size(); }
+  // Returns the ports of which nothing could be recorded, because their processes were not reached.
+  [[nodiscard]] std::string unreached() const {
+    std::string ports;
+    for (const std::string& port : wanted_)
+      if (!reached_.contains(port)) ports += (ports.empty() ? "" : " ") + port;
+    return ports;
+  }
+
+ private:
+  using Taker = std::function<void(supervisor::ControlAnswer&)>;
+
+  void record(std::optional<Duration> whole) {
     ask("graph", {}, [this](supervisor::ControlAnswer& answer) { take_graph(answer); });
     ask("sources", {}, [this](supervisor::ControlAnswer& answer) { take_source(answer); });
     ask("log", {"--follow", "--level", "debug"},
@@ -86,21 +105,15 @@ class Recording {
       const auto now = Clock::now();
       const bool is_over = whole && now - begin >= std::chrono::duration_cast<Clock::duration>(*whole);
       if (is_over || g_is_to_end) ask_for_end(now);
-      if (is_done(now)) return status_;
+      if (is_done(now)) return;
       go_on(now);
       wait();
       take_control();
       for (auto line = lines_.begin(); line != lines_.end();)
         line = serve(*line) ? std::next(line) : lose(line);
-      if (!status_.ok()) return status_;
+      if (!status_.ok()) return;
     }
   }
-
-  [[nodiscard]] const std::map<std::string, std::uint64_t>& lost() const { return lost_; }
-  [[nodiscard]] std::size_t count_ports() const { return wanted_.size(); }
-
- private:
-  using Taker = std::function<void(supervisor::ControlAnswer&)>;
 
   void ask(const std::string& command, std::vector<std::string> words, Taker taker) {
     const std::uint64_t request = ++last_request_;
@@ -181,6 +194,7 @@ class Recording {
   void take_line(supervisor::ControlAnswer& answer) {
     if (auto* const line = std::get_if<supervisor::LineAnswer>(&answer)) {
       for (const std::string& port : line->ports) missing_.erase(port);
+      reached_.insert(line->ports.begin(), line->ports.end());
       lines_.emplace_back(std::move(*line));
     }
     if (const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer))
@@ -266,6 +280,18 @@ class Recording {
     return lines_.erase(line);
   }
 
+  // What a line that is still open has not brought is missing, and nobody knows how much that is.
+  void close_lines() {
+    std::string ports;
+    for (auto line = lines_.begin(); line != lines_.end(); line = lose(line))
+      for (const std::string& port : line->ports) ports += (ports.empty() ? "" : ", ") + port;
+    if (!ports.empty())
+      note(fail(
+          Code::deadline_exceeded,
+          "the recording may lack the last objects of ports whose processes did not end their lines within " +
+              std::to_string(kEndLimit.count()) + " s: " + ports));
+  }
+
   void ask_for_end(Clock::time_point now) {
     if (!ending_since_) ending_since_ = now;
     for (Line& line : lines_)
@@ -295,6 +321,7 @@ class Recording {
   std::vector<std::string> sources_;
   TimePoint start_{};              // of the run
   std::set<std::string> missing_;  // ports without a line
+  std::set<std::string> reached_;  // ports that have had a line
   std::list<Line> lines_;
   std::map<std::pair<const Line*, std::string>, std::uint64_t> lost_by_line_;
   std::map<std::string, std::uint64_t> lost_;  // by port, on lines that have ended
@@ -324,7 +351,10 @@ ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const 
                 const Status& done) {
   std::uint64_t lost = 0;
   for (const auto& [port, count] : recording.lost()) lost += count;
-  const Status closed = writer.close(recording.lost(), {});
+  const std::string unreached = recording.unreached();
+  const Status closed =
+      writer.close(recording.lost(),
+                   unreached.empty() ? recording::Values{} : recording::Values{{"unreached", unreached}});
   std::fprintf(
       stderr, "orcactl: %s: %llu messages of %zu ports, %.1f MB%s\n", file.c_str(),
       static_cast<unsigned long long>(writer.statistics().messages), recording.count_ports(),
@@ -332,6 +362,8 @@ ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const 
       lost == 0
           ? ""
           : (", " + std::to_string(lost) + " objects LOST: orcactl bag info says of which ports").c_str());
+  if (!unreached.empty())
+    std::fprintf(stderr, "orcactl: never reached, so nothing of them is recorded: %s\n", unreached.c_str());
   if (!done.ok()) return report({done.error()});
   return closed.ok() ? ExitCode::done : report({closed.error()});
 }
