@@ -15,6 +15,9 @@ constexpr std::size_t kStep = std::size_t{1} << 20;           // [bytes] by whic
 constexpr std::uint64_t kLargest = std::uint64_t{512} << 20;  // [bytes] of a chunk's content
 constexpr int kLevel = 1;
 
+Error no_memory() {
+  return fail(Code::unavailable, "there is no memory to compress a chunk, or to open one");
+}
 Error damaged(const std::string& what) { return fail(Code::data_loss, "a chunk is damaged: " + what); }
 
 // Gives `out` room for more, up to the size that is claimed. Returns false if there is none.
@@ -30,6 +33,7 @@ struct ZstdDeleter {
 
 Result<Bytes> unpack_zstd(std::span<const std::byte> frame, std::uint64_t size) {
   const std::unique_ptr<ZSTD_DCtx, ZstdDeleter> context(ZSTD_createDCtx());
+  if (!context) return no_memory();
   Bytes out;
   std::size_t used = 0;
   ZSTD_inBuffer in{frame.data(), frame.size(), 0};
@@ -54,8 +58,7 @@ struct Lz4Deleter {
 
 Result<Bytes> unpack_lz4(std::span<const std::byte> frame, std::uint64_t size) {
   LZ4F_dctx* made = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0)
-    return damaged("no memory for it");
+  if (LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)) != 0) return no_memory();
   const std::unique_ptr<LZ4F_dctx, Lz4Deleter> context(made);
   Bytes out;
   std::size_t used = 0;
@@ -78,10 +81,11 @@ Result<Bytes> unpack_lz4(std::span<const std::byte> frame, std::uint64_t size) {
 
 }  // namespace
 
-Bytes compress(std::span<const std::byte> bytes) {
+Result<Bytes> compress(std::span<const std::byte> bytes) {
   Bytes out(ZSTD_compressBound(bytes.size()));
   const std::size_t size = ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), kLevel);
-  out.resize(ZSTD_isError(size) != 0 ? 0 : size);  // it has room, so it does not fail
+  if (ZSTD_isError(size) != 0) return no_memory();  // it has room, so nothing else is in its way
+  out.resize(size);
   return out;
 }
 

@@ -12,6 +12,18 @@
 namespace orca::recording {
 namespace {
 
+// Returns whether chunks lie in the file one after the other. Whoever names one of them again and again makes a small file a
+// large one.
+bool lie_apart(const std::vector<ChunkIndex>& chunks, std::uint64_t size) {
+  std::uint64_t end = 0;
+  for (const ChunkIndex& chunk : chunks) {
+    if (chunk.offset < end || chunk.offset > size || chunk.length == 0 || chunk.length > size - chunk.offset)
+      return false;
+    end = chunk.offset + chunk.length;
+  }
+  return true;
+}
+
 // Reads the summary at the end of a file; nothing if there is none, or if it is damaged.
 std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
   constexpr std::size_t kEnd = kRecordHead + kFooterBytes + sizeof kMagic;
@@ -32,7 +44,8 @@ std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
   RecordWalk walk(bytes.first(footer_at), footer->summary_start);
   while (const std::optional<Record> part = walk.next())
     if (!summary.take(*part)) return std::nullopt;
-  const bool is_of_use = walk.is_at_end() && (!summary.chunks.empty() || summary.statistics.messages == 0);
+  const bool is_of_use = walk.is_at_end() && lie_apart(summary.chunks, footer_at) &&
+                         (!summary.chunks.empty() || summary.statistics.messages == 0);
   return is_of_use ? std::optional(std::move(summary)) : std::nullopt;
 }
 
@@ -40,13 +53,26 @@ std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
 struct Piece {
   Stamp start = 0;
   std::uint64_t offset = 0;
+  std::uint64_t end = 0;
 };
+
+constexpr std::size_t kMostKept = std::size_t{512} << 20;  // [bytes] that wait when another chunk is opened
 
 // Messages on their way into the order of time.
 class Sorter {
  public:
   Sorter(std::set<std::uint16_t> channels, const std::function<bool(const Message&)>& take)
       : channels_(std::move(channels)), take_(take) {}
+
+  // Takes over the content of a chunk, which is kept until its last message is passed on.
+  std::shared_ptr<const Bytes> keep(Bytes content) {
+    kept_ += content.size();
+    return {new Bytes(std::move(content)), [this](const Bytes* bytes) {
+              kept_ -= bytes->size();
+              delete bytes;
+            }};
+  }
+  [[nodiscard]] bool has_room() const { return kept_ + waiting_.size() * sizeof(Waiting) <= kMostKept; }
 
   void add(const std::shared_ptr<const Bytes>& content, std::span<const std::byte> record) {
     const std::optional<Message> message = read_message(record);
@@ -73,6 +99,7 @@ class Sorter {
   };
   const std::set<std::uint16_t> channels_;
   const std::function<bool(const Message&)>& take_;
+  std::size_t kept_ = 0;  // [bytes] of contents
   std::vector<Waiting> waiting_;
 };
 
@@ -80,15 +107,19 @@ class Sorter {
 
 struct Reader::Inside {
   Status add(const Piece& piece, Sorter& sorter) const {
-    const std::optional<Record> record = RecordWalk(bytes, piece.offset).next();
+    const std::optional<Record> record = RecordWalk(bytes.first(piece.end), piece.offset).next();
     if (record && record->op == Op::message) return sorter.add(nullptr, record->content), ok();
     if (!record || record->op != Op::chunk)
       return fail(Code::data_loss,
                   "the index names a chunk at byte " + std::to_string(piece.offset) +
                       ", and there is none; read the file without its index: orcactl bag recover");
+    if (!sorter.has_room())
+      return fail(Code::data_loss,
+                  "the chunk at byte " + std::to_string(piece.offset) + " is of the same time as more than " +
+                      std::to_string(kMostKept >> 20) + " MiB before it, which is too much to sort");
     Result<OpenChunk> chunk = open_chunk(record->content);
     if (!chunk) return chunk.error();
-    const auto content = std::make_shared<const Bytes>(std::move(chunk->content));
+    const std::shared_ptr<const Bytes> content = sorter.keep(std::move(chunk->content));
     RecordWalk walk(*content);
     while (const std::optional<Record> inner = walk.next())
       if (inner->op == Op::message) sorter.add(content, inner->content);
@@ -101,9 +132,10 @@ struct Reader::Inside {
       const auto& in_it = chunk.message_index_offsets;
       const bool is_wanted = channels.empty() || in_it.empty() ||
                              std::ranges::any_of(channels, [&](auto id) { return in_it.contains(id); });
-      if (is_wanted) all.push_back({chunk.start, chunk.offset});
+      if (is_wanted) all.push_back({chunk.start, chunk.offset, chunk.offset + chunk.length});
     }
-    for (const Record& record : loose) all.push_back({read_message(record.content)->log_time, record.offset});
+    for (const Record& record : loose)
+      all.push_back({read_message(record.content)->log_time, record.offset, record.end()});
     std::ranges::stable_sort(all, {}, &Piece::start);
     return all;
   }

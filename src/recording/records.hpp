@@ -103,7 +103,7 @@ struct OpenChunk {
 };
 
 /// Opens a chunk, and checks its CRC.
-/// @errors  data_loss; unimplemented for another compression.
+/// @errors  data_loss; unimplemented for another compression; unavailable without memory.
 [[nodiscard]] Result<OpenChunk> open_chunk(std::span<const std::byte> content);
 
 }  // namespace orca::recording

@@ -231,8 +231,10 @@ void ChunkBuilder::add(const Message& message) {
   recording::put_record(content_, message);
 }
 
-ChunkIndex ChunkBuilder::close(Bytes& out, std::uint64_t offset) {
-  const Bytes frame = compress(content_);
+Result<ChunkIndex> ChunkBuilder::close(Bytes& out, std::uint64_t offset) {
+  const Result<Bytes> compressed = compress(content_);
+  if (!compressed) return compressed.error();
+  const Bytes& frame = *compressed;
   ChunkIndex index{start_,       end_,           offset + out.size(), 0, {}, 0, std::string(kZstd),
                    frame.size(), content_.size()};
   Bytes head;

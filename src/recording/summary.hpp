@@ -44,7 +44,8 @@ class ChunkBuilder {
   /// Appends the chunk and its message indexes, and empties itself.
   /// @param offset  [bytes] at which `out` begins in the file.
   /// @return where what is.
-  ChunkIndex close(Bytes& out, std::uint64_t offset);
+  /// @errors  as compress(); nothing is appended then.
+  Result<ChunkIndex> close(Bytes& out, std::uint64_t offset);
 
  private:
   Bytes content_;

@@ -84,8 +84,11 @@ Status Writer::note(const Metadata& metadata) {
 }
 
 Status Writer::flush() {
+  if (!inside_->status.ok()) return inside_->status;
   if (!inside_->chunk.is_empty()) {
-    inside_->summary.chunks.push_back(inside_->chunk.close(inside_->collected, inside_->offset));
+    Result<ChunkIndex> index = inside_->chunk.close(inside_->collected, inside_->offset);
+    if (!index) return inside_->status = index.error();
+    inside_->summary.chunks.push_back(*std::move(index));
     ++inside_->summary.statistics.chunks;
   }
   return inside_->write_out();

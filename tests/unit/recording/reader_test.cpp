@@ -8,6 +8,7 @@
 
 #include "memory_output.hpp"
 #include "records.hpp"
+#include "summary.hpp"
 
 using namespace orca;
 using namespace orca::recording;
@@ -141,6 +142,38 @@ TEST_CASE("what belongs into a summary counts for nothing in a chunk", "[recordi
   REQUIRE(reader->chunks().size() == 1);
   CHECK(reader->chunks()[0].start == 20);
   CHECK(all_messages(*reader) == std::vector<Seen>{{"/x", 20, 20, 1, "x"}});
+}
+
+TEST_CASE("an index that names a chunk more than once is not believed", "[recording][reader][fault]") {
+  test::Bytes inner;
+  put_record(inner, Message{3, 1, 10, 10, bytes_of("x")});
+  test::Bytes bytes = foreign_beginning();
+  put_plain_chunk(bytes, inner);
+  Summary summary;
+  summary.channels[3] = Channel{3, 0, "/x", "json", {}};
+  summary.chunks.assign(100'000, Reader::of(bytes)->chunks().at(0));
+  put(bytes, summary.encode(bytes.size()));
+  const Result<Reader> reader = Reader::of(bytes);
+  REQUIRE(reader);
+  CHECK_FALSE(reader->has_index());
+  CHECK(all_messages(*reader) == std::vector<Seen>{{"/x", 10, 10, 1, "x"}});
+}
+
+TEST_CASE("chunks of one time that are too large to be sorted in memory end the reading with an error",
+          "[recording][reader][fault]") {
+  Memory memory;
+  Writer writer(to(memory), "", "orca");
+  const std::uint16_t channel = writer.add_channel(0, "/x", "json", {});
+  const test::Bytes zeros(std::size_t{128} << 20);
+  for (int i = 0; i < 5; ++i) REQUIRE(writer.write({channel, 0, 10, 10, zeros}).ok());
+  REQUIRE(writer.close().ok());
+  CHECK(memory.bytes.size() < std::size_t{1} << 20);
+  int count = 0;
+  const Status read = Reader::of(memory.bytes)->messages({}, [&](const Message&) { return ++count, true; });
+  REQUIRE_FALSE(read.ok());
+  CHECK(read.error().code == Code::data_loss);
+  CHECK_THAT(read.error().message, Catch::EndsWith("which is too much to sort"));
+  CHECK(count == 4);
 }
 
 TEST_CASE("bytes that are no MCAP file are refused with the reason", "[recording][reader]") {

@@ -61,7 +61,8 @@ class Reader {
   /// Passes messages on in the order of log_time; those of one time in the order of the file.
   /// @param channels  which; empty: all.
   /// @param take      returns false to end.
-  /// @errors  data_loss if a chunk is damaged; what came before it was passed on.
+  /// @errors  data_loss if a chunk is damaged, or if chunks of more than 512 MiB are of the same time, for they are sorted in
+  ///          memory; unavailable without memory. What came before was passed on.
   Status messages(const std::set<std::uint16_t>& channels,
                   const std::function<bool(const Message&)>& take) const;
 

@@ -39,7 +39,7 @@ class Writer {
   std::uint16_t add_channel(std::uint16_t schema, const std::string& topic,
                             const std::string& message_encoding, const Values& metadata);
   /// Adds a message. @pre  its channel was added.
-  /// @errors  as Output::append().
+  /// @errors  as Output::append(); unavailable without memory to compress.
   Status write(const Message& message);
   Status attach(const Attachment& attachment);
   Status note(const Metadata& metadata);
