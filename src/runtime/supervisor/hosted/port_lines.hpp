@@ -14,7 +14,8 @@ namespace orca::supervisor {
 
 /// The lines between operators' programs and ports of this process: objects that pass a port go out, objects for a server
 /// come in. A thread of its own encodes and sends, as long as there are lines, so a component that is looked at does
-/// nothing more than put a view of each object into a queue. A client that does not read loses objects, and is told how
+/// nothing more than put a view of each object into a queue; where a line has a bound of its own, it measures the object
+/// before. A client that does not read loses objects, and is told how
 /// many; a line may have a bound of its own for what waits, as a recorder needs. One that sends rubbish is cut off.
 ///
 /// Thread contract: open() from one thread at a time. Destroyed before the part.

@@ -2,12 +2,74 @@
 #include "orca/host/port_taps.hpp"
 
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <future>
+#include <vector>
 
 #include "numbered_command.hpp"
+#include "pool.hpp"
 
 using namespace orca;
 using namespace orca::host;
 using namespace orca::test;
+
+namespace {
+
+// MotionCommands that are measured while another component passes an object, for which a second is more than enough.
+struct Measured {
+  static inline PortTaps* taps = nullptr;
+  static inline int count = 0;
+  static inline bool lets_others_pass = false;
+  static inline std::vector<std::future<void>> others;
+
+  static std::size_t write(const void* /*object*/, std::span<std::byte> /*to*/) {
+    ++count;
+    others.push_back(std::async(std::launch::async,
+                                [] { taps->pass(Flow::pushed, "avoid", "out", numbered_command(1)); }));
+    lets_others_pass = others.back().wait_for(std::chrono::seconds(1)) == std::future_status::ready;
+    return 10;
+  }
+
+  static const ObjectType& type();
+};
+
+const ObjectType& Measured::type() {
+  static const ObjectType& model = object_type<idl::MotionCommand>();
+  struct Own {
+    Own()
+        : type{model.name,        model.layout, model.layout_hash, model.parent,
+               model.size,        model.align,  model.construct,   model.destroy,
+               model.assign,      model.equal,  model.header,      model.stamp,
+               model.dump,        model.fields, Measured::write,   model.serialize,
+               model.deserialize, pool},
+          pool(type) {}
+    const ObjectType type;
+    detail::Pool pool;
+  };
+  static auto* const own = new Own;  // views may outlive all else
+  return own->type;
+}
+
+}  // namespace
+
+TEST_CASE("an object is measured once for all taps at its port, while those of other components pass",
+          "[host][taps]") {
+  const auto executive = std::move(make_executive({ClockKind::virtual_time, Backend::fiber})).value();
+  PortTaps taps(*executive);
+  Measured::taps = &taps;
+  Measured::count = 0;
+  const PortTap::Bounds bounds{.objects = 10, .bytes = 100};
+  const auto first = taps.open({{"goto", "out", Flow::pushed}}, bounds);
+  const auto second = taps.open({{"goto", "out", Flow::pushed}, {"goto", "in", Flow::delivered}}, bounds);
+  const auto elsewhere = taps.open({{"base", "out", Flow::pushed}}, bounds);
+  taps.pass(Flow::pushed, "goto", "out", make_object(Measured::type()).seal());
+  Measured::others.clear();  // waits for them
+  CHECK(Measured::count == 1);
+  CHECK(Measured::lets_others_pass);
+  CHECK(first->take().size() == 1);
+  CHECK(second->take().size() == 1);
+  CHECK(elsewhere->take().empty());
+}
 
 TEST_CASE("a tap sees what passes its port at the moment that fits the port, and nothing else",
           "[host][taps]") {

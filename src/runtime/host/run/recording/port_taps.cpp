@@ -27,12 +27,11 @@ bool PortTap::has_room(std::size_t bytes) const {
   return bounds_.bytes == 0 || waiting_.empty() || waiting_bytes_ + bytes <= bounds_.bytes;
 }
 
-void PortTap::put_if_at(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
-                        TimePoint time) {
+void PortTap::put(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
+                  std::size_t bytes, TimePoint time) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Place& place = places_[i];
     if (place.flow != flow || place.port != port || place.component != component) continue;
-    const std::size_t bytes = bounds_.bytes == 0 ? 0 : object.type().write(object.get(), {});
     const MutexLock lock(mutex_);
     if (!has_room(bytes)) {
       ++lost_[i];
@@ -75,19 +74,29 @@ bool PortTaps::are_at(Flow flow, std::string_view component, std::string_view po
   });
 }
 
-void PortTaps::pass_on(Flow flow, std::string_view component, std::string_view port,
-                       const ObjectRef& object) {
-  const TimePoint now = executive_.now();
+PortTaps::Taps PortTaps::taps_at(Flow flow, std::string_view component, std::string_view port) {
+  Taps found;
   const MutexLock lock(mutex_);
   bool has_expired = false;
   for (const auto& weak : taps_) {
-    const std::shared_ptr<PortTap> tap = weak.lock();
+    std::shared_ptr<PortTap> tap = weak.lock();
     has_expired = has_expired || !tap;
-    if (tap) tap->put_if_at(flow, component, port, object, now);
+    if (tap && tap->is_at(flow, component, port)) found.push_back(std::move(tap));
   }
-  if (!has_expired) return;
+  if (!has_expired) return found;
   std::erase_if(taps_, [](const auto& tap) { return tap.expired(); });
   count_.store(taps_.size(), std::memory_order_relaxed);
+  return found;
+}
+
+// An object is measured at most once, and without the lock, for other components pass theirs meanwhile.
+void PortTaps::pass_on(Flow flow, std::string_view component, std::string_view port,
+                       const ObjectRef& object) {
+  const TimePoint now = executive_.now();
+  const Taps taps = taps_at(flow, component, port);
+  const bool is_measured = std::ranges::any_of(taps, &PortTap::counts_bytes);
+  const std::size_t bytes = is_measured ? object.type().write(object.get(), {}) : 0;
+  for (const auto& tap : taps) tap->put(flow, component, port, object, bytes, now);
 }
 
 }  // namespace orca::host

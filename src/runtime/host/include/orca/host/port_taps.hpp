@@ -57,8 +57,9 @@ class PortTap {
   friend class PortTaps;
   PortTap(std::vector<Place> places, const Bounds& bounds);
   [[nodiscard]] bool is_at(Flow flow, std::string_view component, std::string_view port) const;
-  void put_if_at(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
-                 TimePoint time);
+  static bool counts_bytes(const std::shared_ptr<PortTap>& tap) { return tap->bounds_.bytes > 0; }
+  void put(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object,
+           std::size_t bytes, TimePoint time);
   [[nodiscard]] bool has_room(std::size_t bytes) const ORCA_REQUIRES(mutex_);
 
   const std::vector<Place> places_;
@@ -89,6 +90,9 @@ class PortTaps {
   }
 
  private:
+  using Taps = std::vector<std::shared_ptr<PortTap>>;
+
+  Taps taps_at(Flow flow, std::string_view component, std::string_view port);
   void pass_on(Flow flow, std::string_view component, std::string_view port, const ObjectRef& object);
 
   const Executive& executive_;
