@@ -24,6 +24,10 @@ bool lie_apart(const std::vector<ChunkIndex>& chunks, std::uint64_t size) {
   return true;
 }
 
+bool is_of_use(const Summary& summary, std::uint64_t size) {
+  return lie_apart(summary.chunks, size) && (!summary.chunks.empty() || summary.statistics.messages == 0);
+}
+
 // Reads the summary at the end of a file; nothing if there is none, or if it is damaged.
 std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
   constexpr std::size_t kEnd = kRecordHead + kFooterBytes + sizeof kMagic;
@@ -44,9 +48,8 @@ std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
   RecordWalk walk(bytes.first(footer_at), footer->summary_start);
   while (const std::optional<Record> part = walk.next())
     if (!summary.take(*part)) return std::nullopt;
-  const bool is_of_use = walk.is_at_end() && lie_apart(summary.chunks, footer_at) &&
-                         (!summary.chunks.empty() || summary.statistics.messages == 0);
-  return is_of_use ? std::optional(std::move(summary)) : std::nullopt;
+  if (!walk.is_at_end() || !is_of_use(summary, footer_at)) return std::nullopt;
+  return summary;
 }
 
 // A part of a file that is read as a whole: a chunk, or a message outside chunks.
