@@ -124,7 +124,7 @@ TEST_CASE("seeds matter at nominal and harsh; at ideal all seeds are one run", "
     ways[place].insert(cells.at(column("way")));
     hashes[place].insert(cells.at(column("trace_hash")));
   }
-  REQUIRE(ways.size() == 16);
+  REQUIRE(ways.size() == 20);
   for (const auto& [place, different] : ways) {
     CAPTURE(place);
     const bool is_ideal = place.find("ideal") != std::string::npos;

@@ -51,6 +51,8 @@ def experiment(level, pose, numbers, tuned):
     root.insert(0, ElementTree.Element("set", {"arg": "realism", "value": level}))
     if tuned:
         take_settings(root, tuned)
+    for control in [variant for variant in root.findall("variant") if variant.get("name").endswith("_truth")]:
+        root.remove(control)  # here the pose is the table's
     for element in root.iter():
         absolute(element.attrib, "graph")
     root.remove(root.find("tuning"))

@@ -19,6 +19,7 @@ import browser as chromium
 from view_case import BUILD, ViewCase
 
 chromium.need_browser()
+from selenium.common.exceptions import StaleElementReferenceException
 from selenium.webdriver import ActionChains  # noqa: E402
 from selenium.webdriver.common.by import By  # noqa: E402
 
@@ -102,10 +103,14 @@ class PageCase(ViewCase):
 
     def click(self, selector):
         def try_it():
-            found = [each for each in self.browser.find_elements(By.CSS_SELECTOR, selector) if each.is_displayed() and each.is_enabled()]
-            if found:
-                found[0].click()
-            return bool(found)
+            try:
+                found = [each for each in self.browser.find_elements(By.CSS_SELECTOR, selector)
+                         if each.is_displayed() and each.is_enabled()]
+                if found:
+                    found[0].click()
+                return bool(found)
+            except StaleElementReferenceException:  # the page has just drawn it anew
+                return False
         wait_for(f"{selector} to click", try_it)
 
     def mouse(self, *steps, down=True, up=True):
