@@ -39,6 +39,7 @@ std::vector<Usage> all_commands() {
       std::istringstream words(line.substr(2, end - 2));
       Usage usage;
       words >> usage.name;
+      if (line.starts_with("   ")) continue;  // the end of a long line
       bool is_optional = false;  // within [ and ]
       for (std::string word; words >> word;) {
         is_optional = is_optional || word.starts_with("[");

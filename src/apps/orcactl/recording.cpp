@@ -201,7 +201,8 @@ class Recording {
       note_absence(cell(record->record, "missing"));
     const auto* const end = std::get_if<supervisor::EndAnswer>(&answer);
     if (end == nullptr) return;
-    if (!end->outcome.ok() && end->outcome.error().code == Code::not_found)
+    const Code code = end->outcome.ok() ? Code::internal : end->outcome.error().code;
+    if (code == Code::not_found || code == Code::failed_precondition)  // it runs on another machine
       note_absence(end->outcome.error().message);
     is_searching_ = false;
     has_searched_ = true;
