@@ -296,7 +296,7 @@ TEMPLATE_TEST_CASE("a laser whose line is held back goes on to send scans", "[sy
   REQUIRE(tcflow(terminal.number(), TCOOFF) == 0);
   for (int i = 0; i < 4; ++i) {
     std::this_thread::sleep_for(500ms);
-    CHECK(at_work.driver.works());
+    CHECK(eventually([&] { return at_work.driver.works(); }));  // a busy machine may keep it waiting
   }
   REQUIRE(tcflow(terminal.number(), TCOON) == 0);
 }

@@ -40,7 +40,7 @@ std::vector<Usage> all_commands() {
       Usage usage;
       words >> usage.name;
       if (line.starts_with("   ")) continue;  // the end of a long line
-      bool is_optional = false;  // within [ and ]
+      bool is_optional = false;               // within [ and ]
       for (std::string word; words >> word;) {
         is_optional = is_optional || word.starts_with("[");
         if (!is_optional) usage.arguments.push_back(word);
