@@ -35,21 +35,6 @@ std::string offset_text(const recording::Finding& finding) {
   return "byte " + std::to_string(finding.offset) + ": " + finding.text;
 }
 
-std::string value(const recording::Values& values, const std::string& name) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : found->second;
-}
-
-// Returns the texts that Orca has put into a recording.
-recording::Values facts_of(const recording::Reader& file) {
-  recording::Values facts;
-  for (const recording::IndexEntry& entry : file.metadata())
-    if (entry.name == "orca.recording" || entry.name == "orca.end")
-      if (const auto metadata = file.metadata(entry))
-        facts.insert(metadata->values.begin(), metadata->values.end());
-  return facts;
-}
-
 std::vector<Record> topics_of(const recording::Reader& file, const recording::Values& facts) {
   const recording::Statistics& numbers = file.statistics();
   const double span = seconds(numbers.start, numbers.end);
@@ -58,8 +43,8 @@ std::vector<Record> topics_of(const recording::Reader& file, const recording::Va
     const auto count = numbers.by_channel.find(id);
     const std::uint64_t messages = count == numbers.by_channel.end() ? 0 : count->second;
     const auto schema = file.schemas().find(channel.schema);
-    const std::string port = value(channel.metadata, "orca.port");
-    const std::string lost = value(facts, "lost." + port);
+    const std::string port = recording::fact(channel.metadata, "orca.port");
+    const std::string lost = recording::fact(facts, "lost." + port);
     table.push_back({{"topic", channel.topic},
                      {"type", schema == file.schemas().end() ? "" : schema->second.name},
                      {"messages", messages},
@@ -80,18 +65,18 @@ Record summary_of(const recording::Reader& file, const recording::Values& facts)
           {"chunks", numbers.chunks},
           {"attachments", file.attachments().size()},
           {"whole", file.has_index()},
-          {"graph", value(facts, "graph")},
-          {"clock", value(facts, "clock")},
-          {"begun", value(facts, "begun")},
-          {"trace_hash", value(facts, "trace-hash")},
-          {"unreached", value(facts, "unreached")},
+          {"graph", recording::fact(facts, "graph")},
+          {"clock", recording::fact(facts, "clock")},
+          {"begun", recording::fact(facts, "begun")},
+          {"trace_hash", recording::fact(facts, "trace-hash")},
+          {"unreached", recording::fact(facts, "unreached")},
           {"library", file.library()}};
 }
 
 Status info(const Words& words, bool as_json) {
   const Result<recording::Reader> file = recording::Reader::open(words[0]);
   if (!file) return file.error();
-  const recording::Values facts = facts_of(*file);
+  const recording::Values facts = recording::facts_of(*file);
   const Record summary = summary_of(*file, facts);
   const std::vector<Record> topics = topics_of(*file, facts);
   if (as_json) {

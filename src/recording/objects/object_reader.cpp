@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::size_t kEncapsulation = 4;  // [bytes] in front of each object
 
-std::string value(const Values& values, const std::string& name) {
-  const auto found = values.find(name);
-  return found == values.end() ? "" : found->second;
-}
-
 Result<ObjectRef> object_of(const ObjectType& type, std::span<const std::byte> payload) {
   if (payload.size() < kEncapsulation) return fail(Code::data_loss, "an object is cut short");
   ObjectLoan object = make_object(type);
@@ -32,20 +27,20 @@ Result<ObjectReader> ObjectReader::open(const std::string& path) {
   ObjectReader reader(*std::move(file));
   if (const Status found = reader.find_rows(); !found.ok())
     return fail(found.error().code, found.error().message, path);
-  reader.read_facts();
+  reader.facts_ = facts_of(reader.file_);
   return reader;
 }
 
 Status ObjectReader::find_rows() {
   for (const auto& [id, channel] : file_.channels()) {
-    const std::string row = value(channel.metadata, "orca.port");
-    const std::string name = value(channel.metadata, "orca.type");
+    const std::string row = fact(channel.metadata, "orca.port");
+    const std::string name = fact(channel.metadata, "orca.type");
     if (row.empty() || name.empty()) continue;
     const ObjectType* const type = find_object_type(name);
     if (type == nullptr)
       return fail(Code::failed_precondition,
                   "objects of the type " + name + " of " + row + " are not known here");
-    if (std::strtoull(value(channel.metadata, "orca.layout").c_str(), nullptr, 16) != type->layout_hash)
+    if (std::strtoull(fact(channel.metadata, "orca.layout").c_str(), nullptr, 16) != type->layout_hash)
       return fail(Code::failed_precondition,
                   "objects of the type " + name + " of " + row +
                       " had other fields when they were recorded; read the file with the build of that time");
@@ -59,15 +54,22 @@ Status ObjectReader::find_rows() {
   return ok();
 }
 
-void ObjectReader::read_facts() {
-  for (const IndexEntry& entry : file_.metadata()) {
-    if (entry.name != "orca.recording" && entry.name != "orca.end") continue;
-    if (const Result<Metadata> metadata = file_.metadata(entry))
-      facts_.insert(metadata->values.begin(), metadata->values.end());
-  }
+std::string fact(const Values& facts, const std::string& name) {
+  const auto found = facts.find(name);
+  return found == facts.end() ? "" : found->second;
 }
 
-bool ObjectReader::is_virtual() const { return value(facts_, "clock") == "virtual"; }
+Values facts_of(const Reader& file) {
+  Values facts;
+  for (const IndexEntry& entry : file.metadata()) {
+    if (entry.name != "orca.recording" && entry.name != "orca.end") continue;
+    if (const Result<Metadata> metadata = file.metadata(entry))
+      facts.insert(metadata->values.begin(), metadata->values.end());
+  }
+  return facts;
+}
+
+bool ObjectReader::is_virtual() const { return fact(facts_, "clock") == "virtual"; }
 
 Status ObjectReader::objects(const std::set<std::string>& rows,
                              const std::function<bool(const RecordedObject&)>& take) const {

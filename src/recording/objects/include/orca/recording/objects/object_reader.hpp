@@ -29,6 +29,12 @@ struct RecordedObject {
   TimePoint passed;
 };
 
+/// Returns the texts that Orca has put into a recording, "orca.recording" and "orca.end", as far as they are there.
+/// @thread  any.
+[[nodiscard]] Values facts_of(const Reader& file);
+/// Returns one of them, or a value of the metadata of a channel; empty: it is not there.
+[[nodiscard]] std::string fact(const Values& facts, const std::string& name);
+
 /// A reader of the objects that an ObjectWriter has written. What others have written, and twins of objects, it passes over.
 ///
 /// Thread contract: constant; any thread.
@@ -42,7 +48,7 @@ class ObjectReader {
   [[nodiscard]] const Reader& file() const { return file_; }
   /// Returns the rows, by name.
   [[nodiscard]] const std::map<std::string, RecordedRow>& rows() const { return rows_; }
-  /// Returns the texts of "orca.recording" and "orca.end", as far as they are there.
+  /// Returns facts_of(file()).
   [[nodiscard]] const Values& facts() const { return facts_; }
   [[nodiscard]] bool is_virtual() const;
 
@@ -60,7 +66,6 @@ class ObjectReader {
   };
   explicit ObjectReader(Reader file) : file_(std::move(file)) {}
   Status find_rows();
-  void read_facts();
 
   Reader file_;
   std::map<std::uint16_t, Source> sources_;  // by channel
