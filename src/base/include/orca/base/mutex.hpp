@@ -17,7 +17,7 @@
 #define ORCA_REQUIRES(mutex) ORCA_THREAD_WORD(requires_capability(mutex))
 /// After a function that takes a mutex, tries to take it, or gives it back.
 #define ORCA_ACQUIRES(...) ORCA_THREAD_WORD(acquire_capability(__VA_ARGS__))
-#define ORCA_TRIES_TO_ACQUIRE(...) ORCA_THREAD_WORD(try_acquire_capability(true, ##__VA_ARGS__))
+#define ORCA_TRIES_TO_ACQUIRE(...) ORCA_THREAD_WORD(try_acquire_capability(true __VA_OPT__(, ) __VA_ARGS__))
 #define ORCA_RELEASES(...) ORCA_THREAD_WORD(release_capability(__VA_ARGS__))
 
 namespace orca {
