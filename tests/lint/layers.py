@@ -52,7 +52,7 @@ LAYERS = (
     Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
-    Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base")),
+    Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
     Layer("patterns_endpoints", ("src/patterns/endpoints",),
           ("orca/patterns/endpoints/", "orca/patterns/counters.hpp", "orca/patterns/request_id.hpp",

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/navigation/pose_graph.hpp"
+#include "orca/navigation/scan_match.hpp"
+#include "orca/navigation/surface.hpp"
+
+namespace orca::nav {
+
+/// How a map is made. The defaults are for lasers in buildings; those of the Intel log are the same.
+struct SlamOptions {
+  double node_way = 0.2;     ///< [m] after which a scan becomes a node.
+  double node_turn = 0.1;    ///< [rad] after which it does.
+  std::size_t submap = 8;    ///< nodes of a submap; the next one begins halfway.
+  double least_share = 0.5;  ///< of a scan's points on the map for a match to count.
+  double loop_share = 0.7;   ///< for a loop to count.
+  double loop_score = 0.6;   ///< the same before it is refined.
+  double loop_reach =
+      4.0;  ///< [m] from a submap's middle at which a loop is looked for, besides what may have drifted.
+  double drift = 0.05;         ///< [m] per m of way since the last loop.
+  std::size_t fit_every = 10;  ///< nodes after which loops are worked in.
+  MatchOptions match;
+};
+
+/// A scan and where it was taken.
+struct SlamNode {
+  Pose2 X_OR;                      ///< Odometry's.
+  Pose2 X_LR;                      ///< In the frame of the scans laid one upon the other, without loops.
+  Pose2 X_MR;                      ///< Map frame, as far as is known now.
+  std::vector<SurfacePoint> scan;  ///< Robot frame.
+};
+
+/// Finds where a robot is and what its map is, at once: each scan is laid into a submap of some nodes before it; a scan that comes by an older
+/// submap and fits there closes a loop; the poses of all nodes go where all these relations fit best.
+///
+/// Thread contract: one thread at a time.
+/// @source  the parts are those of Hess and others, "Real-time loop closure in 2D LIDAR SLAM", ICRA 2016; README.md says what differs.
+class Slam {
+ public:
+  explicit Slam(SlamOptions options = {});
+  ~Slam();
+
+  /// Takes the next scan.
+  /// @param X_OR    by odometry, when it was taken.
+  /// @param travel  how much is known of the way from the last scan by odometry alone; frame of the last scan.
+  /// @return where the robot is, map frame.
+  Pose2 see(std::span<const SurfacePoint> scan, const Pose2& X_OR, const PoseInformation& travel);
+
+  /// Looks once more for all places that were seen twice, and fits all poses: worth its time (about that of all so far) before a map is kept.
+  void finish();
+
+  [[nodiscard]] std::span<const SlamNode> nodes() const { return nodes_; }
+  [[nodiscard]] std::size_t loops() const { return loops_; }
+
+ private:
+  struct Submap;
+
+  [[nodiscard]] std::optional<ScanMatch> lay(std::span<const SurfacePoint> scan, const Pose2& X_LR,
+                                             const PoseInformation& travel) const;
+  void add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_LR,
+                const PoseInformation& travel, const std::optional<ScanMatch>& match);
+  void grow_submaps();
+  void complete_submaps();
+  void close_loops(std::size_t node);
+  bool close_loop(std::size_t node, const Submap& submap, double way, double turn);
+  void work_in();
+
+  SlamOptions options_;
+  std::vector<SlamNode> nodes_;
+  std::vector<std::unique_ptr<Submap>> submaps_;
+  std::vector<PoseRelation> relations_;
+  std::size_t loops_ = 0;
+  std::size_t fitted_ = 0;  // nodes at the last fit
+  std::size_t loops_fitted_ = 0;
+  double way_since_loop_ = 0.0;  // [m]
+};
+
+}  // namespace orca::nav

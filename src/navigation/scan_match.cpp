@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/navigation/scan_match.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+namespace orca::nav {
+namespace {
+
+constexpr int kLeastPoints = 10;
+constexpr double kCloser = 0.02;  // [1/m], [rad/m] of the reach: a smaller step lets it shrink
+
+/// The normal equations of one step of refine(), in the frame of the scan.
+struct Step {
+  Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  // By lines only: the nearest of some points that are far apart, as at the far end of a corridor, says nothing of the way along it.
+  Eigen::Matrix3d known = Eigen::Matrix3d::Zero();
+  int pulled = 0;
+  double squares = 0.0;
+  double fit = 0.0;
+
+  // A residual e [m] whose derivative by the place is `towards` and by the direction is `turned`; all in the scan's frame.
+  void add(double e, Vec2 towards, double turned, double weight) {
+    const Eigen::Vector3d j(towards.x, towards.y, turned);
+    h += weight * j * j.transpose();
+    b += weight * e * j;
+  }
+};
+
+void pull(Step& step, Vec2 point, const SurfacePoint& surface, const Pose2& X_MR, double reach) {
+  const Vec2 off = rotated(X_MR * point - surface.at, -X_MR.yaw);
+  // Half as strong at a third of the reach.
+  const auto weight = [&](double e) { return 1.0 / (1.0 + 9.0 * e * e / (reach * reach)); };
+  const auto along = [&](Vec2 axis) {
+    const double e = dot(off, axis);
+    step.add(e, axis, dot(axis, {-point.y, point.x}), weight(e));
+    step.squares += e * e;
+    step.fit += weight(e);
+  };
+  ++step.pulled;
+  if (surface.normal == Vec2{}) {
+    along({1.0, 0.0});
+    along({0.0, 1.0});
+  } else {
+    const Eigen::Matrix3d before = step.h;
+    along(rotated(surface.normal, -X_MR.yaw));
+    step.known += step.h - before;
+  }
+}
+
+Step step_at(std::span<const SurfacePoint> scan, const SurfaceMap& map, const Pose2& X_MR, double reach) {
+  Step step;
+  const Vec2 ahead = direction(X_MR.yaw);
+  for (const SurfacePoint& point : scan) {
+    const SurfacePoint* surface = map.nearest(X_MR.position() + rotated(point.at, ahead), reach);
+    if (surface == nullptr) continue;
+    // The other side of a thin wall is another surface.
+    const Vec2 seen = rotated(point.normal, ahead);
+    if (dot(seen, surface->normal) < 0.0) continue;
+    pull(step, point.at, *surface, X_MR, reach);
+  }
+  return step;
+}
+
+}  // namespace
+
+std::optional<ScanMatch> refine(std::span<const SurfacePoint> scan, const SurfaceMap& map, const Pose2& guess,
+                                const MatchOptions& options) {
+  ScanMatch match{guess, {}};
+  double reach = options.reach;
+  for (int i = 0; i < options.iterations; ++i) {
+    const Step step = step_at(scan, map, match.X_MR, reach);
+    if (step.pulled < kLeastPoints) return std::nullopt;
+    // A little stiffness keeps a direction that nothing holds where it is.
+    Eigen::Matrix3d h = step.h;
+    h.diagonal().array() += 1e-3;
+    const Eigen::Vector3d move = h.ldlt().solve(-step.b);
+    match.X_MR = match.X_MR * Pose2{move[0], move[1], move[2]};
+    const double moved = move.cwiseAbs().maxCoeff();
+    if (moved < options.still && reach <= options.inlier) break;
+    // Only from a place that holds still: else points that were drawn to a wrong surface would stay there.
+    if (moved < kCloser * reach) reach = std::max(options.inlier, reach * 0.7);
+  }
+  const Step last = step_at(scan, map, match.X_MR, options.inlier);
+  if (last.pulled < kLeastPoints) return std::nullopt;
+  match.share = last.pulled / static_cast<double>(scan.size());
+  match.fit = last.fit / static_cast<double>(scan.size());
+  match.spread = std::sqrt(last.squares / last.pulled);
+  const Eigen::Matrix3d known = last.known / (options.error * options.error * options.together);
+  match.information = {known(0, 0), known(0, 1), known(1, 1), known(0, 2), known(1, 2), known(2, 2)};
+  return match;
+}
+
+}  // namespace orca::nav

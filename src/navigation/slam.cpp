@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/navigation/slam.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace orca::nav {
+
+/// Some nodes that follow each other, as one rigid map in the frame of the first of them.
+struct Slam::Submap {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  SurfaceMap map;
+  Vec2 middle;                         // of the nodes, frame of the first
+  std::unique_ptr<ScanSearch> search;  // once it is complete
+};
+
+Slam::Slam(SlamOptions options) : options_(options) {}
+Slam::~Slam() = default;
+
+// The older of the submaps that grow knows more.
+std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pose2& X_LR,
+                                   const PoseInformation& travel) const {
+  const Submap& older = submaps_.size() > 1 && !submaps_[submaps_.size() - 2]->search
+                            ? *submaps_[submaps_.size() - 2]
+                            : *submaps_.back();
+  const Pose2& X_LA = nodes_[older.first].X_LR;
+  const Pose2 guess = seen_from(X_LA, X_LR);
+  const double way = std::clamp(3.0 / std::sqrt(std::min(travel.xx, travel.yy)), 0.1, 1.0);
+  const double turn = std::clamp(3.0 / std::sqrt(travel.tt), 0.05, 0.6);
+  const ScanSearch search(older.map.points());
+  const auto found = search.best(scan, {guess, way, turn}, 0.0);
+  std::optional<ScanMatch> match = refine(scan, older.map, guess, options_.match);
+  const std::optional<ScanMatch> other =
+      found ? refine(scan, older.map, found->X_MR, options_.match) : std::nullopt;
+  if (other && (!match || other->fit > match->fit + 0.02)) match = other;
+  if (!match || match->share < options_.least_share) return std::nullopt;
+  match->X_MR = X_LA * match->X_MR;
+  return match;
+}
+
+Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR, const PoseInformation& travel) {
+  if (nodes_.empty()) {
+    add_node(scan, X_OR, {}, travel, std::nullopt);
+    return nodes_.back().X_MR;
+  }
+  const SlamNode& last = nodes_.back();
+  const Pose2 X_LR = last.X_LR * seen_from(last.X_OR, X_OR);
+  const Pose2 moved = seen_from(last.X_OR, X_OR);
+  const Pose2 by_odometry = last.X_MR * moved;
+  if (norm(moved.position()) < options_.node_way && std::fabs(moved.yaw) < options_.node_turn)
+    return by_odometry;
+  const std::optional<ScanMatch> match = lay(scan, X_LR, travel);
+  add_node(scan, X_OR, match ? match->X_MR : X_LR, travel, match);
+  close_loops(nodes_.size() - 1);
+  if (loops_ > loops_fitted_ && nodes_.size() >= fitted_ + options_.fit_every) work_in();
+  return nodes_.back().X_MR;
+}
+
+void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_LR,
+                    const PoseInformation& travel, const std::optional<ScanMatch>& match) {
+  const std::size_t node = nodes_.size();
+  if (node == 0) {
+    nodes_.push_back({X_OR, X_LR, X_LR, {scan.begin(), scan.end()}});
+  } else {
+    const SlamNode& last = nodes_.back();
+    const Pose2 moved = seen_from(last.X_LR, X_LR);
+    way_since_loop_ += norm(moved.position());
+    relations_.push_back({node - 1, node, seen_from(last.X_OR, X_OR), travel});
+    nodes_.push_back({X_OR, X_LR, last.X_MR * moved, {scan.begin(), scan.end()}});
+    for (const auto& submap : submaps_)
+      if (match && !submap->search)
+        relations_.push_back(
+            {submap->first, node, seen_from(nodes_[submap->first].X_LR, X_LR), match->information});
+  }
+  // A scan that fits on no submap must not bend one either.
+  if (!match) complete_submaps();
+  grow_submaps();
+}
+
+void Slam::complete_submaps() {
+  for (const auto& submap : submaps_)
+    if (!submap->search) submap->search = std::make_unique<ScanSearch>(submap->map.points());
+}
+
+void Slam::grow_submaps() {
+  const std::size_t node = nodes_.size() - 1;
+  if (submaps_.empty() || submaps_.back()->search || submaps_.back()->count >= options_.submap / 2) {
+    submaps_.push_back(std::make_unique<Submap>());
+    submaps_.back()->first = node;
+  }
+  for (const auto& submap : submaps_) {
+    if (submap->search) continue;
+    const Pose2 X_AR = seen_from(nodes_[submap->first].X_LR, nodes_[node].X_LR);
+    submap->map.add(nodes_[node].scan, X_AR);
+    submap->map.prepare();
+    submap->middle =
+        submap->middle + 1.0 / static_cast<double>(++submap->count) * (X_AR.position() - submap->middle);
+    if (submap->count >= options_.submap) submap->search = std::make_unique<ScanSearch>(submap->map.points());
+  }
+}
+
+bool Slam::close_loop(std::size_t node, const Submap& submap, double way, double turn) {
+  const Pose2 guess = seen_from(nodes_[submap.first].X_MR, nodes_[node].X_MR);
+  const auto found = submap.search->best(nodes_[node].scan, {guess, way, turn}, options_.loop_score);
+  if (!found) return false;
+  const std::optional<ScanMatch> match = refine(nodes_[node].scan, submap.map, found->X_MR, options_.match);
+  if (!match || match->share < options_.loop_share) return false;
+  relations_.push_back({submap.first, node, match->X_MR, match->information, true});
+  ++loops_;
+  return true;
+}
+
+void Slam::close_loops(std::size_t node) {
+  const double drift = options_.drift * way_since_loop_;
+  const double way = std::min(0.5 + drift, 7.0);
+  const double turn = std::min(0.2 + 0.02 * way_since_loop_, 0.8);
+  bool closed = false;
+  for (const auto& submap : submaps_) {
+    if (!submap->search || submap->first + 2 * options_.submap > node) continue;
+    const Vec2 middle = nodes_[submap->first].X_MR * submap->middle;
+    if (norm(middle - nodes_[node].X_MR.position()) > options_.loop_reach + drift) continue;
+    closed |= close_loop(node, *submap, way, turn);
+  }
+  if (closed) way_since_loop_ = 0.0;
+}
+
+void Slam::work_in() {
+  PoseGraph graph;
+  for (const SlamNode& node : nodes_) graph.poses.push_back(node.X_MR);
+  graph.relations = relations_;
+  if (fit(graph).solved)
+    for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].X_MR = graph.poses[i];
+  fitted_ = nodes_.size();
+  loops_fitted_ = loops_;
+}
+
+void Slam::finish() {
+  complete_submaps();
+  work_in();
+  std::erase_if(relations_, [](const PoseRelation& relation) { return relation.doubtful; });
+  for (std::size_t node = 0; node < nodes_.size(); ++node)
+    for (const auto& submap : submaps_) {
+      if (node >= submap->first && node < submap->first + submap->count) continue;
+      const Vec2 middle = nodes_[submap->first].X_MR * submap->middle;
+      if (norm(middle - nodes_[node].X_MR.position()) <= options_.loop_reach)
+        (void)close_loop(node, *submap, 0.2, 0.05);
+    }
+  work_in();
+}
+
+}  // namespace orca::nav

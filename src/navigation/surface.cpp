@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/navigation/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "orca/base/portable_math.hpp"
+
+namespace orca::nav {
+namespace {
+
+constexpr std::ptrdiff_t kNeighbours = 15;  // on each side
+constexpr double kFlat = 0.25;              // Largest spread across a line, as a share of that along it.
+
+/// Sums over points, of which the main direction is found.
+struct Spread {
+  double count = 0.0;
+  Vec2 sum;
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+
+  void add(Vec2 p) {
+    count += 1.0;
+    sum = sum + p;
+    xx += p.x * p.x;
+    xy += p.x * p.y;
+    yy += p.y * p.y;
+  }
+};
+
+// Returns the normal of the line through the points, towards neither side; (0, 0) if they lie on none.
+Vec2 normal_of(const Spread& s) {
+  if (s.count < 3.0) return {};
+  const double xx = s.xx - s.sum.x * s.sum.x / s.count;
+  const double xy = s.xy - s.sum.x * s.sum.y / s.count;
+  const double yy = s.yy - s.sum.y * s.sum.y / s.count;
+  const double middle = (xx + yy) / 2.0;
+  const double apart = std::sqrt((xx - yy) * (xx - yy) / 4.0 + xy * xy);
+  if (!(middle - apart <= kFlat * kFlat * (middle + apart)) || middle + apart <= 0.0) return {};
+  return direction(portable::atan2(2.0 * xy, xx - yy) / 2.0 + std::numbers::pi / 2.0);
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_of(std::span<const Vec2> points, Vec2 sensor, double reach) {
+  std::vector<SurfacePoint> result;
+  result.reserve(points.size());
+  const auto count = static_cast<std::ptrdiff_t>(points.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    const Vec2 here = points[static_cast<std::size_t>(i)];
+    Spread spread;
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, i - kNeighbours);
+         j <= std::min(count - 1, i + kNeighbours); ++j) {
+      const Vec2 off = points[static_cast<std::size_t>(j)] - here;
+      if (norm(off) <= reach) spread.add(off);
+    }
+    const Vec2 normal = normal_of(spread);
+    result.push_back({here, dot(normal, sensor - here) < 0.0 ? -1.0 * normal : normal});
+  }
+  return result;
+}
+
+void SurfaceMap::add(std::span<const SurfacePoint> scan, const Pose2& X_MR) {
+  for (const SurfacePoint& point : scan)
+    points_.push_back({X_MR * point.at, rotated(point.normal, X_MR.yaw)});
+}
+
+void SurfaceMap::prepare() {
+  if (points_.empty()) return;
+  Vec2 low = points_.front().at;
+  Vec2 high = low;
+  for (const SurfacePoint& point : points_) {
+    low = {std::min(low.x, point.at.x), std::min(low.y, point.at.y)};
+    high = {std::max(high.x, point.at.x), std::max(high.y, point.at.y)};
+  }
+  lattice_.corner = low;
+  lattice_.columns = static_cast<int>((high.x - low.x) / lattice_.side) + 1;
+  lattice_.rows = static_cast<int>((high.y - low.y) / lattice_.side) + 1;
+  const auto cell = [&](const SurfacePoint& point) { return lattice_.index(lattice_.cell_at(point.at)); };
+  begin_.assign(lattice_.size() + 1, 0);
+  for (const SurfacePoint& point : points_) ++begin_[cell(point) + 1];
+  for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  std::vector<SurfacePoint> sorted(points_.size());
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (const SurfacePoint& point : points_) sorted[next[cell(point)]++] = point;
+  points_ = std::move(sorted);
+}
+
+const SurfacePoint* SurfaceMap::nearest(Vec2 place, double reach) const {
+  const SurfacePoint* best = nullptr;
+  double least = reach * reach;
+  const Cell low = lattice_.cell_at(place - Vec2{reach, reach});
+  const Cell high = lattice_.cell_at(place + Vec2{reach, reach});
+  for (int row = std::max(low.row, 0); row <= std::min(high.row, lattice_.rows - 1); ++row)
+    for (int column = std::max(low.column, 0); column <= std::min(high.column, lattice_.columns - 1);
+         ++column) {
+      const std::size_t at = lattice_.index({column, row});
+      for (std::uint32_t i = begin_[at]; i < begin_[at + 1]; ++i) {
+        const Vec2 off = points_[i].at - place;
+        const double squared = dot(off, off);
+        if (squared > least) continue;
+        least = squared;
+        best = &points_[i];
+      }
+    }
+  return best;
+}
+
+}  // namespace orca::nav

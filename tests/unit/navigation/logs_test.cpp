@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mapping on public data: pose graphs with published optima, and a log of a real robot (docs/validation.md has the figures).
+#include <zlib.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "orca/navigation/pose_graph.hpp"
+#include "orca/navigation/slam.hpp"
+#include "public_data.hpp"
+
+using namespace orca;
+using namespace orca::nav;
+
+namespace {
+
+// Returns the text of a compressed file of public data; none, if it is not there.
+std::string public_text(const std::string& file) {
+  const std::string path = test::public_data(file);
+  std::string text;
+  if (path.empty()) return text;
+  const gzFile in = gzopen(path.c_str(), "rb");
+  REQUIRE(in != nullptr);
+  std::vector<char> part(1 << 16);
+  for (int count = 0; (count = gzread(in, part.data(), static_cast<unsigned>(part.size()))) > 0;)
+    text.append(part.data(), static_cast<std::size_t>(count));
+  gzclose(in);
+  return text;
+}
+
+// Reads a graph as g2o writes it. The weights are those of the published optima: 2 / trace of the inverse for places, and for directions the
+// chord of matrices, whose square is twice that of unit vectors.
+PoseGraph read(const std::string& text) {
+  PoseGraph graph;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind != "EDGE_SE2") continue;
+    PoseRelation r;
+    PoseInformation i;
+    words >> r.from >> r.to >> r.measured.x >> r.measured.y >> r.measured.yaw >> i.xx >> i.xy >> i.xt >>
+        i.yy >> i.yt >> i.tt;
+    const double place = 2.0 * (i.xx * i.yy - i.xy * i.xy) / (i.xx + i.yy);
+    r.information = {place, 0.0, place, 0.0, 0.0, 2.0 * i.tt};
+    graph.relations.push_back(r);
+    graph.poses.resize(std::max(graph.poses.size(), std::max(r.from, r.to) + 1));
+  }
+  return graph;
+}
+
+/// One scan of the log of the Intel Research Lab.
+struct LogScan {
+  double stamp;  // [s]
+  Pose2 X_OR;
+  std::vector<SurfacePoint> scan;
+};
+
+std::vector<LogScan> read_log(const std::string& text) {
+  constexpr double kNothing = 20.0;  // [m] more is the laser's word for no echo
+  std::vector<LogScan> log;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    std::istringstream words(line);
+    LogScan scan{};
+    double reference = 0.0;  // GMapping's pose, which is not looked at
+    words >> scan.stamp >> scan.X_OR.x >> scan.X_OR.y >> scan.X_OR.yaw >> reference >> reference >> reference;
+    std::vector<Vec2> points;
+    double range = 0.0;
+    for (int i = 0; words >> range; ++i)
+      if (range < kNothing) points.push_back(range * direction((i - 90) * std::numbers::pi / 180.0));
+    scan.scan = surface_of(points, {});
+    log.push_back(std::move(scan));
+  }
+  return log;
+}
+
+// How much is known of a way by the odometry of an unknown robot: a tenth of it and 5 cm, a tenth of a turn and 2 degrees.
+PoseInformation guess_of(const Pose2& moved) {
+  const double way = norm(moved.position());
+  const double place = 0.05 + 0.1 * way + 0.05 * std::fabs(moved.yaw);
+  const double turn = 0.03 + 0.1 * std::fabs(moved.yaw) + 0.05 * way;
+  return {1.0 / (place * place), 0.0, 1.0 / (place * place), 0.0, 0.0, 1.0 / (turn * turn)};
+}
+
+/// Mean errors against relations that people have measured.
+struct Errors {
+  int count = 0, loops = 0;
+  double place = 0.0, turn = 0.0, of_loops = 0.0;  // [m], [rad], [m]
+};
+
+// Relations count whose two stamps are those of nodes within 1 ms; a loop lies more than 60 s apart.
+// The measure is that of Kuemmerle and others, "On measuring the accuracy of SLAM algorithms", Autonomous Robots 2009.
+Errors errors_of(const std::string& relations, std::span<const double> stamps,
+                 std::span<const SlamNode> nodes) {
+  Errors errors;
+  const auto node_at = [&](double stamp) -> const SlamNode* {
+    const auto found = std::ranges::lower_bound(stamps, stamp - 1e-3);
+    return found != stamps.end() && std::fabs(*found - stamp) <= 1e-3
+               ? &nodes[static_cast<std::size_t>(found - stamps.begin())]
+               : nullptr;
+  };
+  std::istringstream lines(relations);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    double begin = 0.0;
+    double end = 0.0;
+    double unused = 0.0;
+    Pose2 right;
+    words >> begin >> end >> right.x >> right.y >> unused >> unused >> unused >> right.yaw;
+    const SlamNode* const a = node_at(begin);
+    const SlamNode* const b = node_at(end);
+    if (a == nullptr || b == nullptr) continue;
+    const Pose2 off = seen_from(right, seen_from(a->X_MR, b->X_MR));
+    ++errors.count;
+    errors.place += norm(off.position());
+    errors.turn += std::fabs(off.yaw);
+    if (std::fabs(end - begin) <= 60.0) continue;
+    ++errors.loops;
+    errors.of_loops += norm(off.position());
+  }
+  errors.place /= errors.count;
+  errors.turn /= errors.count;
+  errors.of_loops /= errors.loops;
+  return errors;
+}
+
+void check(const char* when, const Errors& errors) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  std::cout << when << ": " << errors.count << " relations, " << errors.place << " m, "
+            << errors.turn / kDegree << " degrees; " << errors.loops << " of loops, " << errors.of_loops
+            << " m\n";
+  CHECK(errors.count == 97);
+  CHECK(errors.place <= 0.026);
+  CHECK(errors.turn <= 0.50 * kDegree);
+  CHECK(errors.of_loops <= 0.035);
+}
+
+}  // namespace
+
+TEST_CASE("published pose graphs come out at their published optima", "[navigation]") {
+  struct Published {
+    std::string file;
+    std::size_t poses, relations;
+    double optimum;  // Rosen and others, "SE-Sync", IJRR 2019, table 1
+  };
+  for (const auto& [file, poses, relations, optimum] :
+       {Published{"posegraphs/intel.g2o.gz", 1728, 2512, 5.235e1},
+        {"posegraphs/manhattan.g2o.gz", 3500, 5453, 6.432e3}}) {
+    const std::string text = public_text(file);
+    if (text.empty()) continue;
+    PoseGraph graph = read(text);
+    REQUIRE(graph.poses.size() == poses);
+    REQUIRE(graph.relations.size() == relations);
+    REQUIRE(begin_anew(graph));
+    const PoseGraphFit result = fit(graph);
+    CHECK(result.solved);
+    CHECK(result.misfit == Approx(optimum).epsilon(0.001));
+  }
+}
+
+TEST_CASE("the log of the Intel lab becomes a map as right as people have measured it", "[navigation]") {
+  const std::string text = public_text("slam/intel_scans.txt.gz");
+  const std::string relations = public_text("slam/intel.relations.gz");
+  if (text.empty() || relations.empty()) return;
+  const std::vector<LogScan> log = read_log(text);
+  REQUIRE(log.size() == 910);
+  Slam slam;
+  std::vector<double> stamps;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    const Pose2 moved = i > 0 ? seen_from(log[i - 1].X_OR, log[i].X_OR) : Pose2();
+    (void)slam.see(log[i].scan, log[i].X_OR, guess_of(moved));
+    if (slam.nodes().size() > stamps.size()) stamps.push_back(log[i].stamp);
+  }
+  check("as it drives", errors_of(relations, stamps, slam.nodes()));
+  slam.finish();
+  check("at the end", errors_of(relations, stamps, slam.nodes()));
+}
