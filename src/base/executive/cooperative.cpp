@@ -141,14 +141,19 @@ void CooperativeExecutive::ReadyQueue::remove(Fiber& fiber) {
 }
 
 CooperativeExecutive::CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts,
-                                           Duration spin, DoorbellWord* doorbell)
+                                           Duration spin, DoorbellWord* doorbell, Pace* pace)
     : clock_(clock),
       contexts_(std::move(contexts)),
       doorbell_(doorbell),
+      pace_(pace),
       ready_(clock == ClockKind::virtual_time),
-      inbox_changed_(spin, doorbell) {}
+      inbox_changed_(spin, doorbell) {
+  if (pace_ != nullptr) pace_->on_change([this] { inbox_changed_.notify(); });
+}
 
-CooperativeExecutive::~CooperativeExecutive() = default;
+CooperativeExecutive::~CooperativeExecutive() {
+  if (pace_ != nullptr) pace_->on_change(nullptr);
+}
 
 TimePoint CooperativeExecutive::now() const {
   return is_virtual() ? TimePoint(Duration(virtual_now_ns_.load(std::memory_order_relaxed))) : steady_now();
@@ -226,10 +231,10 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
       return *main_;
     }
     if (!ready_.empty()) return ready_.pop();
-    if (is_virtual()) {
-      advance_virtual_time();
-    } else {
+    if (!is_virtual()) {
       wait_for_work();
+    } else if (pace_ == nullptr || !holds_time()) {
+      advance_virtual_time();
     }
   }
 }
@@ -305,6 +310,17 @@ void CooperativeExecutive::advance_virtual_time() {
   virtual_now_ns_.store(std::get<TimePoint>(*timers_.begin()).time_since_epoch().count(),
                         std::memory_order_relaxed);
   fire_timers();
+}
+
+// Waits if the pace does not let virtual time pass yet: until it does, or somebody outside notifies an event. Returns whether
+// it has waited.
+bool CooperativeExecutive::holds_time() {
+  if (timers_.empty()) return false;
+  const std::optional<TimePoint> until = pace_->hold_before(std::get<TimePoint>(*timers_.begin()));
+  if (!until) return false;
+  running_.store(nullptr, std::memory_order_release);  // the task that ran last is not stuck
+  (void)inbox_changed_.wait_until(*until);
+  return true;
 }
 
 void CooperativeExecutive::wait_for_work() {

@@ -12,6 +12,7 @@
 #include "context.hpp"
 #include "futex_event.hpp"
 #include "orca/base/executive.hpp"
+#include "orca/base/pace.hpp"
 
 namespace orca::detail {
 
@@ -21,8 +22,9 @@ class CooperativeEvent;
 /// same way, so the order of tasks is the same.
 class CooperativeExecutive final : public Executive {
  public:
+  /// @param pace  of virtual time; null: as fast as it can.
   CooperativeExecutive(ClockKind clock, std::unique_ptr<ContextMaker> contexts, Duration spin,
-                       DoorbellWord* doorbell);
+                       DoorbellWord* doorbell, Pace* pace = nullptr);
   ~CooperativeExecutive() override;
 
   [[nodiscard]] TimePoint now() const override;
@@ -81,11 +83,13 @@ class CooperativeExecutive final : public Executive {
   void notify_rung();
   void fire_timers();
   void wait_for_work();
+  [[nodiscard]] bool holds_time();
   void advance_virtual_time();
 
   const ClockKind clock_;
   const std::unique_ptr<ContextMaker> contexts_;
   DoorbellWord* const doorbell_;
+  Pace* const pace_;
   std::atomic<std::int64_t> virtual_now_ns_{0};
 
   // Touched only by the thread that schedules or holds the baton.

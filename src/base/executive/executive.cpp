@@ -5,6 +5,7 @@
 
 #include "cooperative.hpp"
 #include "futex_event.hpp"
+#include "orca/base/pace.hpp"
 #include "task_thread.hpp"
 #include "thread_executive.hpp"
 
@@ -22,7 +23,9 @@ void Executive::sleep_until(TimePoint time) {
   while (now() < time) alarm->wait_until(time);
 }
 
-Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options) {
+namespace {
+
+Result<std::unique_ptr<Executive>> make(const ExecutiveOptions& options, Pace* pace) {
   if (options.doorbell != nullptr && options.clock == ClockKind::virtual_time)
     return fail(Code::invalid_argument,
                 "virtual time does not wait for other processes, so it has no doorbell");
@@ -38,7 +41,19 @@ Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& option
   auto contexts =
       options.backend == Backend::fiber ? detail::make_fiber_contexts() : detail::make_baton_contexts();
   return std::unique_ptr<Executive>(std::make_unique<detail::CooperativeExecutive>(
-      options.clock, std::move(contexts), detail::useful_spin(options.spin), options.doorbell));
+      options.clock, std::move(contexts), detail::useful_spin(options.spin), options.doorbell, pace));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Executive>> make_executive(const ExecutiveOptions& options) {
+  return make(options, nullptr);
+}
+
+Result<std::unique_ptr<Executive>> make_paced_executive(const ExecutiveOptions& options, Pace& pace) {
+  if (options.clock != ClockKind::virtual_time)
+    return fail(Code::invalid_argument, "only virtual time has a pace");
+  return make(options, &pace);
 }
 
 }  // namespace orca
