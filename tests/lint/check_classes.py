@@ -26,7 +26,7 @@ DEBTS = {
     ("World", "functions"): 38,
     ("SupervisedRun", "collaborators"): 20, ("WatchedSystem", "collaborators"): 13, ("Applying", "collaborators"): 8,
     ("ControlDesk", "collaborators"): 12, ("HostedPart", "collaborators"): 11, ("Robot", "collaborators"): 11,
-    ("OrderDesk", "collaborators"): 10, ("Run", "collaborators"): 11, ("Swap", "collaborators"): 11, ("Life", "collaborators"): 8,
+    ("OrderDesk", "collaborators"): 10, ("Run", "collaborators"): 10, ("Swap", "collaborators"): 11, ("Life", "collaborators"): 8,
     ("PortSet", "collaborators"): 8, ("QuietRun", "collaborators"): 8, ("Reporter", "collaborators"): 8,
     ("Shadow", "collaborators"): 8, ("System", "collaborators"): 8, ("Renewal", "collaborators"): 9,
 }

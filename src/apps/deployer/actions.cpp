@@ -10,17 +10,20 @@
 #include <vector>
 
 #include "codes.hpp"
+#include "companion.hpp"
 #include "console.hpp"
 #include "describe.hpp"
 #include "laps.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
+#include "orca/base/system/pace.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/diff.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/graph/plan.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
+#include "orca/supervisor/attendance.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "processes.hpp"
 #include "progress.hpp"
@@ -190,15 +193,35 @@ ExitCode check(const Options& options) {
 
 // Runs everything in this process.
 ExitCode run_here(Loaded& loaded, const Options& options, const host::RunOptions& run, host::StopSignal& stop,
-                  Console& console) {
+                  host::RunListener& listener) {
   OutputFile laps("the time of laps");
   if (run.measures_laps)
     if (const Status opened = laps.open(options.laps_file); !opened.ok())
       return refuse_option(codes::kOptionValue, opened.error());
-  const host::RunResult result = host::run_system(*loaded.graph, loaded.catalogue, run, stop, console);
+  const host::RunResult result = host::run_system(*loaded.graph, loaded.catalogue, run, stop, listener);
   const Status written = run.measures_laps ? write_laps(laps, *loaded.graph, result) : ok();
   if (!written.ok()) log::error("deployer", written.error().text());
   return written.ok() ? exit_code_of(result.outcome) : ExitCode::failed_running;
+}
+
+// Runs everything in this process, in virtual time, for people who look on and command it.
+ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions run, host::StopSignal& stop,
+                      Console& console) {
+  if (!run.changes.empty())
+    return refuse_option(codes::kExcluding,
+                         fail(Code::invalid_argument,
+                              "a change at a given time (--change, <change>) excludes --view and --pace"));
+  constexpr double kAsTheClock = 1.0;
+  Pace pace(options.pace.value_or(kAsTheClock));
+  const auto attendance = supervisor::Attendance::open(
+      {*loaded.graph, supervisor::facts_of(*loaded.graph, loaded.catalogue), run.log_name}, pace, console);
+  if (!attendance) {
+    log::error(run.log_name, attendance.error().text());
+    return ExitCode::could_not_start;
+  }
+  run.visitors = attendance->get();
+  const std::optional<Companion> viewer = options.view ? start_viewer(loaded.graph->name) : std::nullopt;
+  return run_here(loaded, options, run, stop, **attendance);
 }
 
 ExitCode run(const Options& options) {
@@ -237,11 +260,12 @@ ExitCode run(const Options& options) {
         fail(
             Code::invalid_argument,
             "--watch: code is exchanged in host processes only; leave out --in-process and --clock virtual"));
-  if (options.view)
+  const bool is_virtual = run.executive.clock == ClockKind::virtual_time;
+  if (options.view && !is_virtual)
     return refuse_option(codes::kExcluding,
                          fail(Code::invalid_argument,
-                              "--view: the page reaches host processes only; leave out --in-process and "
-                              "--clock virtual"));
+                              "--view: in real time the page reaches host processes only; leave out "
+                              "--in-process"));
   if (options.hold)
     return refuse_option(codes::kExcluding,
                          fail(Code::invalid_argument,
@@ -251,6 +275,7 @@ ExitCode run(const Options& options) {
     return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
                                                  "--machine: here everything runs in this process; leave it "
                                                  "out"));
+  if (options.view || options.pace) return run_attended(loaded, options, std::move(run), stop, console);
   return run_here(loaded, options, run, stop, console);
 }
 

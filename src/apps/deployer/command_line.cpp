@@ -60,7 +60,11 @@ std::vector<OptionSpec> running_options() {
        "starts"},
       {"--view", "",
        "a page in the browser that shows the system and commands it; its address is printed (see orcaview "
-       "--help)"},
+       "--help). In virtual time it implies --pace 1"},
+      {"--pace", "FACTOR",
+       "with --clock virtual: how fast time passes by the clock, from 0.01 to 1000; 0: paused; fast: as fast "
+       "as it "
+       "can; orcactl pace, pause and step change it. The result is the same at any pace"},
       {"--watch", "",
        "while you develop: when the plugin of a component is built anew, its code is exchanged while the "
        "system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph "

@@ -107,11 +107,24 @@ Status set_computing(Options& options, const std::string& value) {
   return ok();
 }
 
+Status set_pace(Options& options, const std::string& value) {
+  constexpr xml::ValueRule kFactor{.form = xml::ValueRule::Form::number, .min = 0.0, .max = Pace::kFastest};
+  xml::ValueFault fault;
+  options.pace = value == "fast" ? Pace::kFast : xml::read_number(value, kFactor, fault);
+  if (!options.pace) return wrong("--pace: " + fault.message + "; or write \"fast\"");
+  const Status fits = Pace(1.0).set(*options.pace);
+  return fits.ok() ? fits : wrong("--pace: " + fits.error().message);
+}
+
 // Options whose values the table does not describe.
 using Setter = Status (*)(Options&, const std::string&);
-constexpr std::pair<const char*, Setter> kOfOwnForm[] = {
-    {"--computing", set_computing}, {"--fail", add_failure},    {"--change", add_change},
-    {"--record", add_recording},    {"--picture", set_picture}, {"--hide", hide}};
+constexpr std::pair<const char*, Setter> kOfOwnForm[] = {{"--computing", set_computing},
+                                                         {"--pace", set_pace},
+                                                         {"--fail", add_failure},
+                                                         {"--change", add_change},
+                                                         {"--record", add_recording},
+                                                         {"--picture", set_picture},
+                                                         {"--hide", hide}};
 
 const char* code_of(apps::Problem::Kind kind) {
   switch (kind) {
@@ -212,6 +225,8 @@ class Reader {
     if (call_.has("--computing") && options_.run.executive.clock != ClockKind::virtual_time)
       report(codes::kExcluding,
              wrong("--computing goes with --clock virtual: in real time the machine computes"));
+    if (options_.pace && options_.run.executive.clock != ClockKind::virtual_time)
+      report(codes::kExcluding, wrong("--pace goes with --clock virtual: real time has its own"));
     if (options_.run.trace_values && options_.run.trace_file.empty())
       report(codes::kExcluding, wrong("--values goes with --trace FILE"));
     if (call_.has("--progress") && call_.has("--no-progress"))

@@ -28,6 +28,7 @@ struct Options {
   bool watch = false;                       ///< Code that is built anew takes the place of the old one.
   bool hold = false;                        ///< Nothing moves before an operator releases it.
   bool view = false;                        ///< orcaview is started beside the system.
+  std::optional<double> pace;               ///< Of virtual time, see Pace; nothing: not given.
   bool in_process = false;                  ///< No host processes, whatever the graph says.
   bool chooses_executor = false;            ///< --executor was given.
   std::string laps_file;                    ///< Where the time of laps is written; empty: nowhere.

@@ -80,6 +80,13 @@ constexpr std::string_view kRewireDetails =
     "started again has the same connections; orcactl graph shows the graph with them. Connections over DDS, "
     "and those of processes that run on demand, cannot change while the system runs.";
 
+constexpr const char* kPaceDetails =
+    "Only a run in virtual time has a pace: deployer --clock virtual --pace 1, or --view. 2 is twice as fast "
+    "as the "
+    "clock, 0.1 a tenth, 0 a pause; fast is as fast as the machine can. A step of 100ms moves the time by "
+    "exactly "
+    "that, and answers when it is over. What the system does, and its trace hash, are the same at any pace.";
+
 // What a system is and does.
 std::vector<Command> showing_commands() {
   return {
@@ -263,6 +270,22 @@ std::vector<Command> exchanging_commands() {
   };
 }
 
+// The time of a simulation.
+std::vector<Command> pacing_commands() {
+  return {
+      {.name = "pace",
+       .arguments = {{"FACTOR|fast", Names::none, true}},
+       .watches = true,
+       .text = "how fast the time of a simulation passes; show it, or set it",
+       .details = kPaceDetails},
+      {.name = "pause", .text = "let the time of a simulation stand", .details = kPaceDetails},
+      {.name = "step",
+       .arguments = {{"DURATION"}},
+       .text = "let a time pass in a simulation, and pause",
+       .details = kPaceDetails},
+  };
+}
+
 // For shells and people.
 std::vector<Command> shell_commands() {
   return {
@@ -297,7 +320,7 @@ const apps::Program& program() {
             "system\n"
             "has the name of its graph.\n"};
     for (const auto& group : {showing_commands(), port_commands(), history_commands(), operating_commands(),
-                              exchanging_commands(), shell_commands()})
+                              pacing_commands(), exchanging_commands(), shell_commands()})
       program.commands.insert(program.commands.end(), group.begin(), group.end());
     return program;
   }();

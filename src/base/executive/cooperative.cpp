@@ -231,10 +231,10 @@ CooperativeExecutive::Fiber& CooperativeExecutive::next_to_run() {
       return *main_;
     }
     if (!ready_.empty()) return ready_.pop();
-    if (!is_virtual()) {
-      wait_for_work();
-    } else if (pace_ == nullptr || !holds_time()) {
+    if (is_virtual()) {
       advance_virtual_time();
+    } else {
+      wait_for_work();
     }
   }
 }
@@ -301,26 +301,22 @@ void CooperativeExecutive::fire_timers() {
   }
 }
 
+// Lets virtual time pass on to the next moment. If its pace does not allow that yet, it waits until it does, or somebody
+// outside notifies an event.
 void CooperativeExecutive::advance_virtual_time() {
   if (!restless_) busy_.clear();
   if (timers_.empty()) {
     make_ready(*main_);  // no task can ever run again, so main's wait ends
     return;
   }
-  virtual_now_ns_.store(std::get<TimePoint>(*timers_.begin()).time_since_epoch().count(),
-                        std::memory_order_relaxed);
+  const TimePoint next = std::get<TimePoint>(*timers_.begin());
+  if (const auto until = pace_ != nullptr ? pace_->hold_before(next) : std::nullopt) {
+    running_.store(nullptr, std::memory_order_release);  // the task that ran last is not stuck
+    (void)inbox_changed_.wait_until(*until);
+    return;
+  }
+  virtual_now_ns_.store(next.time_since_epoch().count(), std::memory_order_relaxed);
   fire_timers();
-}
-
-// Waits if the pace does not let virtual time pass yet: until it does, or somebody outside notifies an event. Returns whether
-// it has waited.
-bool CooperativeExecutive::holds_time() {
-  if (timers_.empty()) return false;
-  const std::optional<TimePoint> until = pace_->hold_before(std::get<TimePoint>(*timers_.begin()));
-  if (!until) return false;
-  running_.store(nullptr, std::memory_order_release);  // the task that ran last is not stuck
-  (void)inbox_changed_.wait_until(*until);
-  return true;
 }
 
 void CooperativeExecutive::wait_for_work() {

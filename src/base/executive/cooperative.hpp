@@ -12,7 +12,7 @@
 #include "context.hpp"
 #include "futex_event.hpp"
 #include "orca/base/executive.hpp"
-#include "orca/base/pace.hpp"
+#include "orca/base/system/pace.hpp"
 
 namespace orca::detail {
 
@@ -83,7 +83,6 @@ class CooperativeExecutive final : public Executive {
   void notify_rung();
   void fire_timers();
   void wait_for_work();
-  [[nodiscard]] bool holds_time();
   void advance_virtual_time();
 
   const ClockKind clock_;

@@ -5,7 +5,7 @@
 
 #include "cooperative.hpp"
 #include "futex_event.hpp"
-#include "orca/base/pace.hpp"
+#include "orca/base/system/pace.hpp"
 #include "task_thread.hpp"
 #include "thread_executive.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/base/pace.hpp"
+#include "orca/base/system/pace.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "executive_kinds.hpp"
-#include "orca/base/pace.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/base/system/pace.hpp"
 
 using namespace orca;
 using namespace orca::test;

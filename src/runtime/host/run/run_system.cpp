@@ -20,6 +20,7 @@
 #include "orca/host/idleness.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/host/robot_finder.hpp"
+#include "part/open_run.hpp"
 #include "recording/run_files.hpp"
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
@@ -55,7 +56,6 @@ class Run {
       : graph_(graph),
         catalogue_(catalogue),
         options_(options),
-        executive_(executive),
         stop_(stop),
         listener_(listener),
         files_(executive),
@@ -79,16 +79,23 @@ class Run {
                                                    : graph::list_ports(graph_, catalogue_);
     if (const Status opened = files_.open(options_, ports, bag_origin()); !opened.ok())
       return refuse_output(opened.error());
-    if (options_.looks_on) reporter().look_on(sightings_);
+    if (options_.visitors != nullptr) make_door();
+    if (options_.looks_on) reporter().look_on(view_.sightings());
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
     if (const Status built = watched_.build(); !built.ok()) return conclusion_.report_failure(built.error());
     reporter().introduce(find_robots(graph_, system().robots()));
-    if (options_.looks_on)
-      listener_.built(view_.emplace(executive_, start_, system(), reporter(), sightings_));
+    if (options_.looks_on) listener_.built(view_);
+    if (door_) door_->open();
     watched_.run([this] { main(); }, [this](const std::string& component,
                                             const std::string& text) { stand_still(component, text); });
+    if (door_) door_->leave();
     if (!options_.picture.file.empty()) draw();
     if (options_.keeps_motion) scene_ = watched_.scene();
+  }
+
+  void make_door() {
+    door_.emplace(OpenRun::Parts{graph_, watched_, changes_.swaps(), [this] { stop_motors(); }},
+                  *options_.visitors);
   }
 
   [[nodiscard]] BagOrigin bag_origin() const {
@@ -102,7 +109,7 @@ class Run {
   }
 
   void close_outputs() {
-    if (executive_.is_virtual())
+    if (executive().is_virtual())
       files_.recorder().conclude({{"trace-hash", hash_text(files_.trace().hash())}});
     for (const Error& error : files_.close()) fail_output(error);
   }
@@ -125,7 +132,9 @@ class Run {
       const bool opens = up.ok() && !stop_.requested();
       if (opens) conclusion_.came_up();
       if (opens) system().open_gates();
+      if (opens && door_) door_->came_up();
       supervise();
+      if (door_) door_->hurry();  // what ends takes time
       if (conclusion_.has_closing_phase() && !stop_.requested()) wait_for_rest();
       if (opens) sum_up();
     }
@@ -136,7 +145,7 @@ class Run {
 
   Status bring_up() {
     try {
-      return system().bring_up(watched_.changed(), executive_.now() + kStartLimit);
+      return system().bring_up(watched_.changed(), executive().now() + kStartLimit);
     } catch (...) {
       const char* const text = exhaustion_text(std::current_exception());
       if (text == nullptr) throw;
@@ -151,15 +160,16 @@ class Run {
   }
 
   void supervise() {
-    const TimePoint end = options_.until ? executive_.now() + *options_.until : kForever;
+    const TimePoint end = options_.until ? executive().now() + *options_.until : kForever;
     changes_.begin();
     bool all_wait = false;
-    while (!stop_.requested() && executive_.now() < end && !has_ended() && !report_standstill(all_wait)) {
+    while (!stop_.requested() && executive().now() < end && !has_ended() && !report_standstill(all_wait)) {
+      if (door_ && door_->obey()) return conclusion_.stop("");
       choose_edges();
       const Result<TimePoint> next = changes_.go_on();
       if (!next) return conclusion_.report_failure(next.error());
       const TimePoint until = std::min(end, *next);
-      all_wait = !watched_.changed().wait_until(until) && until == kForever && executive_.is_virtual();
+      all_wait = !watched_.changed().wait_until(until) && until == kForever && executive().is_virtual();
     }
     if (has_ended()) return;
     stop_.requested() ? conclusion_.stop(stop_.failure()) : conclusion_.run_out_of_time();
@@ -177,11 +187,11 @@ class Run {
   // Reports that virtual time cannot pass any more, and returns whether that is so.
   // @param all_wait  no component can ever run again.
   bool report_standstill(bool all_wait) {
-    const std::vector<std::string> restless = executive_.restless_tasks();
+    const std::vector<std::string> restless = executive().restless_tasks();
     stands_still_ = all_wait;
     if (!restless.empty()) {
       conclusion_.report_failure(
-          fail(Code::deadline_exceeded, restless_text(restless, executive_.now() - start_)));
+          fail(Code::deadline_exceeded, restless_text(restless, executive().now() - start_)));
     } else if (all_wait) {
       conclusion_.report_failure(
           fail(Code::internal, "nothing can ever happen again: all components wait for each other"));
@@ -201,7 +211,7 @@ class Run {
     counters_ = collect_counters(graph_, system());
     if (const Status changed = changes_.finish(); !changed.ok() && !conclusion_.has_failed())
       conclusion_.report_failure(changed.error());
-    if (stands_still_ || (!conclusion_.has_failed() && executive_.now() - start_ >= kShortRun))
+    if (stands_still_ || (!conclusion_.has_failed() && executive().now() - start_ >= kShortRun))
       report_idleness();
     conclusion_.judge();
   }
@@ -213,18 +223,19 @@ class Run {
 
   // Waits for the closing phase: the last client has gone, and connections close down to the hardware.
   void wait_for_rest() {
-    const TimePoint limit = executive_.now() + kRestLimit;
-    while (!system().at_rest() && executive_.now() < limit && !stop_.requested() &&
-           executive_.restless_tasks().empty())
+    const TimePoint limit = executive().now() + kRestLimit;
+    while (!system().at_rest() && executive().now() < limit && !stop_.requested() &&
+           executive().restless_tasks().empty())
       watched_.changed().wait_until(limit);
   }
 
   // Whatever the connections refuse and leave behind from here on is no trouble, and is not counted.
   void take_down() {
-    end_ = executive_.now();
+    end_ = executive().now();
+    if (door_) door_->close();
     reporter().ignore_trouble();
     if (!counters_) counters_ = collect_counters(graph_, system());
-    const std::vector<std::string> stuck = system().take_down(executive_.now() + kTakeDownLimit);
+    const std::vector<std::string> stuck = system().take_down(executive().now() + kTakeDownLimit);
     changes_.give_up();
     if (stuck.empty()) return take_lap_times();
     for (const std::string& name : stuck)
@@ -265,6 +276,7 @@ class Run {
             .computing = options_.computing,
             .measures_laps = options_.measures_laps};
   }
+  [[nodiscard]] Executive& executive() const { return watched_.executive(); }
   [[nodiscard]] System& system() { return watched_.system(); }
   [[nodiscard]] Reporter& reporter() { return watched_.reporter(); }
 
@@ -273,10 +285,10 @@ class Run {
     conclusion_.fill(result);
     // Without a start there is nothing to compare.
     const bool ran = result.outcome != RunOutcome::not_started && result.outcome != RunOutcome::bad_options;
-    if (ran && executive_.is_virtual()) result.trace_hash = files_.trace().hash();
+    if (ran && executive().is_virtual()) result.trace_hash = files_.trace().hash();
     watched_.reporter().fill(result);
-    result.end = end_.value_or(executive_.now());
-    result.ways = sightings_.ways();
+    result.end = end_.value_or(executive().now());
+    result.ways = view_.sightings().ways();
     result.scene = scene_;
     result.lap_times = lap_times_;
     if (ran) result.counters = counters_ ? *counters_ : collect_counters(graph_, watched_.system());
@@ -286,22 +298,21 @@ class Run {
   graph::Graph graph_;  // as it is now
   PluginCatalogue& catalogue_;
   const RunOptions& options_;
-  Executive& executive_;
   StopSignal& stop_;
   RunListener& listener_;
   RunFiles files_;
-  Sightings sightings_;
   WatchedSystem watched_;
   const TimePoint start_ = watched_.start();
+  LiveView view_{executive(), start_, watched_.system(), watched_.reporter()};
   const Reports reports_ = [this](const std::string& name) { return system().component(name)->report(); };
   Conclusion conclusion_{graph_, reports_, options_.log_name,
                          [this](log::Level level, const std::string& who, const std::string& text) {
                            reporter().log(level, who, text);
                          }};
   EdgeChoice choice_{graph_};
-  TimedChanges changes_{graph_, watched_, catalogue_, executive_, options_.changes};
+  TimedChanges changes_{graph_, watched_, catalogue_, executive(), options_.changes};
+  std::optional<OpenRun> door_;                // for visitors, if there are any
   std::optional<Scene> scene_;                 // after the end
-  std::optional<LiveView> view_;               // of the system
   std::optional<TimePoint> end_;               // when the taking down began
   std::optional<RunCounters> counters_;        // of the run until it was taken down
   std::map<std::string, LapTimes> lap_times_;  // of components whose strands have ended
@@ -321,7 +332,9 @@ RunResult refuse_options(const Error& error, const RunOptions& options) {
 RunResult run_system(const graph::Graph& graph, PluginCatalogue& catalogue, const RunOptions& options,
                      StopSignal& stop, RunListener& listener) {
   if (options.measures_laps) tell_tasks_apart();
-  Result<std::unique_ptr<Executive>> executive = make_executive(options.executive);
+  Result<std::unique_ptr<Executive>> executive =
+      options.visitors != nullptr ? make_paced_executive(options.executive, options.visitors->pace())
+                                  : make_executive(options.executive);
   if (!executive) return refuse_options(executive.error(), options);
   const TimePoint start = (*executive)->now();
   log::set_clock([clock = executive->get(), start] { return TimePoint(clock->now() - start); });

@@ -96,7 +96,11 @@ void Applying::carry_out_saved(const std::string& file) {
 Status Applying::can_change() const {
   if (change_ != nullptr)
     return fail(Code::unavailable, "another graph is being compared or applied; try again when that is done");
-  if (!levers_.read) return fail(Code::unimplemented, "this supervisor reads no graphs");
+  if (!levers_.read)
+    return fail(Code::unimplemented,
+                "a run in virtual time takes no other graph from an operator; give it to the deployer, with "
+                "its time: "
+                "--change GRAPH.xml@TIME");
   if (place_.graph.machines.size() < 2) return ok();
   std::vector<std::string> machines;
   for (const graph::MachineNode& node : place_.graph.machines) machines.push_back(node.name);

@@ -14,6 +14,7 @@
 #include "members/member.hpp"
 #include "members/reply.hpp"
 #include "orca/base/result.hpp"
+#include "orca/base/system/pace.hpp"
 #include "orca/host/component_report.hpp"
 #include "orca/supervisor/system_facts.hpp"
 
@@ -25,6 +26,7 @@ struct RunLevers {
   std::function<Status(Member&)> restart;  ///< Ends a process and starts it again.
   /// Returns the edges in use of those that ports choose from.
   std::function<std::vector<const graph::Edge*>()> edges_in_use;
+  Pace* pace = nullptr;  ///< Of virtual time; null: the run is in real time.
 };
 
 /// Carries out what an operator orders: pauses, new parameters, restarts, the end. Jobs of the conductor call whatever says
@@ -72,6 +74,8 @@ class Operating {
   [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
   /// Starts a process again, which is named by itself or by one of its components. It waits until it is back.
   void restart(const std::string& name, const ReplyPtr& reply);
+  /// Returns the pace of the run, which an operator may set; null: it is in real time.
+  [[nodiscard]] Pace* pace() const { return levers_.pace; }
   /// Ends the run. The answer does not end before.
   void stop(const ReplyPtr& reply);
 

@@ -78,7 +78,7 @@ host::PartOrder arrival_order(AddComponent& added) {
 
 }  // namespace
 
-OrderDesk::OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports,
+OrderDesk::OrderDesk(std::shared_ptr<Channel> channel, host::PartAccess& part, ReportSender& reports,
                      Site site)
     : channel_(std::move(channel)),
       part_(part),

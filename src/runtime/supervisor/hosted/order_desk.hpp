@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "orca/base/descriptor.hpp"
-#include "orca/host/hosted_part.hpp"
+#include "orca/host/part_access.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/supervisor/moment.hpp"
@@ -43,7 +43,7 @@ class OrderDesk {
     std::function<void(const NoteProcess&)> learn_process;
   };
 
-  OrderDesk(std::shared_ptr<Channel> channel, host::HostedPart& part, ReportSender& reports, Site site);
+  OrderDesk(std::shared_ptr<Channel> channel, host::PartAccess& part, ReportSender& reports, Site site);
   ~OrderDesk();
   OrderDesk(const OrderDesk&) = delete;
   OrderDesk& operator=(const OrderDesk&) = delete;
@@ -71,7 +71,7 @@ class OrderDesk {
   [[noreturn]] void leave(const Error& reason);
 
   std::shared_ptr<Channel> channel_;  // null: there is no supervisor
-  host::HostedPart& part_;
+  host::PartAccess& part_;
   ReportSender& reports_;
   const Site site_;
   bool wants_lines_ = false;  // as the supervisor knows it

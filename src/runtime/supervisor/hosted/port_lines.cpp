@@ -90,7 +90,7 @@ OfferOutcome to_word(const Result<ObjectRef>& answer) {
 // One client.
 class PortLines::Line {
  public:
-  Line(host::HostedPart& part, OpenLine order, std::shared_ptr<host::PortTap> tap)
+  Line(host::PartAccess& part, OpenLine order, std::shared_ptr<host::PortTap> tap)
       : part_(part),
         port_(std::move(order.ports.front())),
         objects_(order.objects),
@@ -166,7 +166,7 @@ class PortLines::Line {
     if (!given.ok()) answer(given.error());
   }
 
-  host::HostedPart& part_;
+  host::PartAccess& part_;
   const graph::PortRef port_;  // for which offers are
   const bool objects_;
   const bool is_bounded_;
@@ -176,7 +176,7 @@ class PortLines::Line {
   bool is_to_end_ = false;                    // the client wants to know that it has everything
 };
 
-PortLines::PortLines(host::HostedPart& part) : part_(part) {}
+PortLines::PortLines(host::PartAccess& part) : part_(part) {}
 
 PortLines::~PortLines() {
   {

@@ -7,7 +7,7 @@
 
 #include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
-#include "orca/host/hosted_part.hpp"
+#include "orca/host/part_access.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 
 namespace orca::supervisor {
@@ -23,7 +23,7 @@ class PortLines {
  public:
   static constexpr std::size_t kMost = 64;  ///< Lines at a time: a page has one for each port that it shows.
 
-  explicit PortLines(host::HostedPart& part);
+  explicit PortLines(host::PartAccess& part);
   ~PortLines();
   PortLines(const PortLines&) = delete;
   PortLines& operator=(const PortLines&) = delete;
@@ -36,7 +36,7 @@ class PortLines {
   class Line;
   void serve();
 
-  host::HostedPart& part_;
+  host::PartAccess& part_;
   std::thread thread_;  // runs, or has ended
 
   Mutex mutex_;

@@ -6,7 +6,6 @@
 
 #include "agreed/tallying.hpp"
 #include "orca/base/log.hpp"
-#include "orca/base/steady_clock.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/passed_on.hpp"
@@ -26,17 +25,23 @@ Result<T> read(const ObjectReport<kind>& report) {
 }
 
 // Returns an alarm of the supervisor itself.
-idl::Alarm own_alarm(host::AlarmKind kind, const std::string& source, const std::string& text) {
+idl::Alarm own_alarm(host::AlarmKind kind, const std::string& source, const std::string& text,
+                     TimePoint now) {
   idl::Alarm alarm = host::make_alarm(kind, source, "", text);
-  alarm.creation_time(to_time_value(steady_now()));
+  alarm.creation_time(to_time_value(now));
   alarm.stamp(alarm.creation_time());
   return alarm;
 }
 
 }  // namespace
 
-Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start, std::string log_name)
-    : graph_(graph), listener_(listener), start_(start), log_name_(std::move(log_name)) {
+Ledger::Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start, std::string log_name,
+               std::function<TimePoint()> clock)
+    : graph_(graph),
+      listener_(listener),
+      start_(start),
+      log_name_(std::move(log_name)),
+      clock_(std::move(clock)) {
   for (const graph::ComponentNode& node : graph.components) components_[node.name] = {};
   go_over();
   so_far_.start = start;
@@ -151,7 +156,7 @@ void Ledger::note(idl::Alarm alarm, const std::string& process, const std::strin
 void Ledger::raise(host::AlarmKind kind, const std::string& process, const std::string& text,
                    const std::string& source) {
   log::error(log_name_, "alarm " + kind_text(kind) + ": " + text);
-  note(own_alarm(kind, source, text), process, "");
+  note(own_alarm(kind, source, text, clock_()), process, "");
 }
 
 bool Ledger::is_active(host::AlarmKind kind, const std::string& source) const {
@@ -163,7 +168,7 @@ bool Ledger::is_active(host::AlarmKind kind, const std::string& source) const {
 
 void Ledger::settle(host::AlarmKind kind, const std::string& source, const std::string& text) {
   if (!is_active(kind, source)) return;
-  idl::Alarm settled = own_alarm(kind, source, text);
+  idl::Alarm settled = own_alarm(kind, source, text, clock_());
   settled.active(false);
   note(std::move(settled), "", "");
 }
@@ -219,7 +224,7 @@ void Ledger::settle_holds_of(const std::string& process, const std::string& why)
   std::vector<idl::Alarm> over;
   for (const host::KeptAlarm& kept : alarms_.kept())
     if (kept.process == process && kept.alarm.active() && kept.alarm.kind() == idl::ESTOP)
-      over.push_back(own_alarm(idl::ESTOP, kept.alarm.source(), why));
+      over.push_back(own_alarm(idl::ESTOP, kept.alarm.source(), why, clock_()));
   for (idl::Alarm& alarm : over) {
     alarm.active(false);
     note(std::move(alarm), process, "");
@@ -264,7 +269,7 @@ std::optional<host::RunCounters> Ledger::counters() const {
 
 host::RunGlance Ledger::look() const {
   host::RunGlance glance;
-  glance.time = steady_now() - start_;
+  glance.time = clock_() - start_;
   const MutexLock lock(mutex_);
   for (const std::string& name : names_) {
     const host::ComponentReport& report = components_.at(name);

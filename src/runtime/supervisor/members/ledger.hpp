@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include "alarm_relay.hpp"
 #include "mission_book.hpp"
 #include "orca/base/mutex.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/alarm_store.hpp"
@@ -31,8 +33,9 @@ class Ledger final : public host::RunView {
  public:
   /// @param start  time of the run's clock, which all stamps refer to.
   /// @param log_name  name in the log for what concerns the run as a whole.
+  /// @param clock  that of the run.
   Ledger(const graph::Graph& graph, host::RunListener& listener, TimePoint start,
-         std::string log_name = kLogName);
+         std::string log_name = kLogName, std::function<TimePoint()> clock = steady_now);
 
   /// Takes a report of a host process.
   /// @errors  data_loss if it cannot be: the process is not to be trusted any more.
@@ -107,6 +110,7 @@ class Ledger final : public host::RunView {
   host::RunListener& listener_;
   const TimePoint start_;
   const std::string log_name_;
+  const std::function<TimePoint()> clock_;
   std::map<std::string, std::string> robots_by_hardware_;
   std::set<std::string> restless_;  // processes
   host::RobotNames robots_;

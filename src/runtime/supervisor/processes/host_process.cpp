@@ -59,6 +59,11 @@ std::unique_ptr<HostProcess> HostProcess::adopt(AdoptedProcess process) {
   return std::unique_ptr<HostProcess>(new HostProcess(std::move(parts)));
 }
 
+std::unique_ptr<HostProcess> HostProcess::here(std::string name, Descriptor channel) {
+  return adopt(
+      {std::move(name), getpid(), {}, {}, std::move(channel)});  // without a pidfd nobody can signal it
+}
+
 HostProcess::HostProcess(Parts parts)
     : name_(std::move(parts.name)),
       pid_(parts.launched.pid),
@@ -70,7 +75,7 @@ HostProcess::HostProcess(Parts parts)
       oom_kills_before_(oom_kills()) {}
 
 HostProcess::~HostProcess() {
-  if (exit()) return;
+  if (!pidfd_ || exit()) return;
   send(SIGKILL);
   pollfd end{pidfd_.number(), POLLIN, 0};
   poll(&end, 1, kKillMs);

@@ -11,6 +11,7 @@
 
 #include "control/alarm_desk.hpp"
 #include "control/lines.hpp"
+#include "control/pacing.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/log_name.hpp"
 
@@ -24,7 +25,7 @@ const std::set<std::string, std::less<>> kOfThisMachine{"ps",     "plugins",  "c
 
 // These wait for the system, so each is a job of its own.
 const std::set<std::string, std::less<>> kJobs{"suspend",    "resume", "swap", "diff",    "apply", "connect",
-                                               "disconnect", "move",   "set",  "restart", "line"};
+                                               "disconnect", "move",   "set",  "restart", "line",  "step"};
 
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
@@ -166,6 +167,11 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"move", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.rewire(ask, r, &Applying::move); }},
       {"get", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.get(word(ask, 0), r); }},
       {"set", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.set(ask.words, r); }},
+      {"pace", [](ControlDesk& d, const Ask& ask,
+                  const ReplyPtr& r) { set_pace(ask.words, d.operating_.pace(), *r); }},
+      {"pause", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { pause(d.operating_.pace(), *r); }},
+      {"step", [](ControlDesk& d, const Ask& ask,
+                  const ReplyPtr& r) { step(ask.words, d.operating_.pace(), d.conductor_, *r); }},
       {"sources",
        [](ControlDesk& d, const Ask&, const ReplyPtr& r) { list_sources(d.names_, d.ledger_.start(), *r); }},
       {"line",

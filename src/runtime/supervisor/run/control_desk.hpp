@@ -23,7 +23,6 @@
 #include "members/ledger.hpp"
 #include "members/member.hpp"
 #include "orca/base/result.hpp"
-#include "orca/base/steady_clock.hpp"
 #include "orca/supervisor/system_facts.hpp"
 
 namespace orca::supervisor {
@@ -104,7 +103,7 @@ class ControlDesk {
   const Showing showing_;
   MotorHold motors_;
   SystemHold hold_{motors_};
-  LogBook log_{[this] { return TimePoint(steady_now() - ledger_.start()); }};
+  LogBook log_{[this] { return TimePoint(ledger_.look().time); }};
   Moment socket_seen_{};
   std::size_t recorders_ = 0;
   std::optional<ControlServer> server_;  // the last member: its clients are gone first

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <deque>
-#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -15,8 +13,9 @@
 #include "orca/graph/placement.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/host/last_words.hpp"
+#include "order_box.hpp"
 #include "outer_edges.hpp"
-#include "outer_offers.hpp"
+#include "outer_ports.hpp"
 #include "part_changes.hpp"
 #include "run/recording/run_files.hpp"
 #include "run/reporting/sightings.hpp"
@@ -56,15 +55,14 @@ class HostedPart::Inside {
         hang_limit_(options.hang_limit),
         outputs_(options.outputs),
         files_(place.executive),
-        taps_(place.executive),
-        offers_(place.executive, options.missions),
+        ports_(place.executive, options.missions),
         outer_(whole_, process, options.doorbell, options.run),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
-                 system_options(options, place.listener), [this] { return is_to_end_.load(); }),
+                 system_options(options, place.listener), [this] { return orders_.is_to_end(); }),
         swaps_(
             whole_, watched_.context(), place.catalogue, watched_.system(),
             [this](const std::string& component, const std::string& text) { stand_still(component, text); }) {
-    watched_.reporter().tap(taps_);
+    watched_.reporter().tap(ports_.taps());
   }
 
   WatchedSystem& watched() { return watched_; }
@@ -76,24 +74,14 @@ class HostedPart::Inside {
 
   Result<std::shared_ptr<PortTap>> tap(const std::vector<graph::PortRef>& ports,
                                        const PortTap::Bounds& bounds) {
-    std::vector<PortTap::Place> places;
     const MutexLock lock(graph_mutex_);
-    for (const graph::PortRef& port : ports) {
-      const Endpoint* const endpoint = watched_.system().endpoint(port);
-      if (endpoint == nullptr) return no_such(port);
-      places.push_back({port.component, endpoint->contract().name, flow_of(endpoint->contract())});
-    }
-    std::shared_ptr<PortTap> tap = taps_.open(std::move(places), bounds);
-    for (const graph::PortRef& port : ports) watched_.system().endpoint(port)->home().strand.wake();
-    return tap;
+    return ports_.tap(watched_.system(), ports, bounds, [](const graph::PortRef&) { return true; });
   }
 
   Status offer(const graph::PortRef& port, ObjectLoan object,
                std::function<void(Result<ObjectRef>)> answered) {
     const MutexLock lock(graph_mutex_);
-    Endpoint* const endpoint = watched_.system().endpoint(port);
-    if (endpoint == nullptr) return no_such(port);
-    return offers_.offer(*endpoint, std::move(object), std::move(answered));
+    return ports_.offer(watched_.system(), port, std::move(object), std::move(answered));
   }
 
   Status build(std::map<std::string, Descriptor> memory) {
@@ -136,27 +124,9 @@ class HostedPart::Inside {
     return glance;
   }
 
-  void order(PartOrder order) {
-    {
-      const MutexLock lock(mutex_);
-      if (order.kind == PartOrder::Kind::take_down) is_to_end_ = true;
-      if (!closed_) {
-        orders_.push_back(std::move(order));
-        watched_.changed().notify();
-        return;
-      }
-    }
-    refuse(order);
-  }
+  void order(PartOrder order) { orders_.put(std::move(order)); }
 
  private:
-  // To end is what happens already: whoever else orders that gets the same answer. A signal may have come before the order.
-  void refuse(const PartOrder& order) const {
-    const Error ends = fail(Code::failed_precondition, "the process is being taken down");
-    if (order.done) order.done(order.kind == PartOrder::Kind::take_down ? end_ : Status(ends));
-    if (order.swapped) order.swapped(ends);
-  }
-
   Status open_outputs() {
     const auto ports = outputs_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(whole_, place_.catalogue);
@@ -178,7 +148,7 @@ class HostedPart::Inside {
   void obey() {
     while (!taken_down_) {
       report_changes();
-      if (std::optional<PartOrder> order = next_order()) {
+      if (std::optional<PartOrder> order = orders_.take()) {
         carry_out(*order);
       } else {
         const TimePoint next = swaps_.go_on();
@@ -187,23 +157,7 @@ class HostedPart::Inside {
       }
     }
     report_changes();
-    refuse_the_rest();
-  }
-
-  std::optional<PartOrder> next_order() {
-    const MutexLock lock(mutex_);
-    if (orders_.empty()) return std::nullopt;
-    PartOrder order = std::move(orders_.front());
-    orders_.pop_front();
-    return order;
-  }
-
-  void refuse_the_rest() {
-    {
-      const MutexLock lock(mutex_);
-      closed_ = true;
-    }
-    while (const std::optional<PartOrder> order = next_order()) refuse(*order);
+    orders_.close(end_);
   }
 
   void carry_out(const PartOrder& order) {
@@ -314,23 +268,18 @@ class HostedPart::Inside {
   const RunOutputs outputs_;
   RunFiles files_;
   Sightings sightings_;
-  PortTaps taps_;
-  OuterOffers offers_;  // the system's ports answer to it
+  OuterPorts ports_;  // the system's ports answer to it
   OuterEdges outer_;
+  OrderBox orders_{[this] { watched_.changed().notify(); }};
   WatchedSystem watched_;
   Swaps swaps_;
-  PartChanges changes_{process_, {whole_, graph_mutex_}, place_.catalogue, watched_, outer_, offers_, swaps_};
+  PartChanges changes_{process_, {whole_, graph_mutex_}, place_.catalogue, watched_, outer_, ports_.offers(),
+                       swaps_};
   bool is_open_ = false;  // its components may work
   bool taken_down_ = false;
   Status end_;  // what has become of that
   std::map<std::string, ComponentReport> reported_;
   bool at_rest_ = true;
-
-  // Whether take_down is ordered: what comes before it waits for nothing any more.
-  std::atomic<bool> is_to_end_{false};
-  Mutex mutex_;
-  std::deque<PartOrder> orders_ ORCA_GUARDED_BY(mutex_);
-  bool closed_ ORCA_GUARDED_BY(mutex_) = false;
 };
 
 HostedPart::HostedPart(const graph::Graph& whole, const std::string& process, const PartPlace& place,
@@ -388,7 +337,7 @@ void HostedPart::forget_alarm(const std::string& kind, const std::string& source
   inside_->watched().reporter().alarm_news().acknowledge(kind, source, process);
 }
 
-void HostedPart::open_descriptors(const std::function<void()>& open) {
+void PartAccess::open_descriptors(const std::function<void()>& open) {
   const struct Opening {
     Opening() { Environment::of_process().begin_own_opening(); }
     ~Opening() { Environment::of_process().end_own_opening(); }

@@ -9,11 +9,10 @@
 #include "orca/idl/time.hpp"
 #include "orca/patterns/endpoints/query_server_endpoint.hpp"
 #include "orca/patterns/endpoints/send_server_endpoint.hpp"
+#include "run/recording/trace.hpp"
 
 namespace orca::host {
 namespace {
-
-constexpr const char* kOrigin = "orcactl";
 
 Result<ObjectRef> with_object(const Status& outcome) {
   if (!outcome.ok()) return outcome.error();
@@ -74,7 +73,7 @@ Result<OuterOffers::Edge*> OuterOffers::edge_at(Endpoint& port) {
   if (known != edges_.end()) return known->second.get();
   std::unique_ptr<Edge> made;
   if (auto* const server = dynamic_cast<SendServerEndpoint*>(&port))
-    made = std::make_unique<EdgeOf<Status>>(server->connect(kOrigin, port.contract().queue));
+    made = std::make_unique<EdgeOf<Status>>(server->connect(std::string(kOutside), port.contract().queue));
   if (auto* const server = dynamic_cast<QueryServerEndpoint*>(&port))
     made = std::make_unique<EdgeOf<Result<ObjectRef>>>(server->connect());
   if (!made)
@@ -87,7 +86,7 @@ Result<OuterOffers::Edge*> OuterOffers::edge_at(Endpoint& port) {
 void OuterOffers::stamp(ObjectLoan& object, Pattern pattern) {
   idl::OrcaObject& header = object.header();
   header.creation_time(to_time_value(executive_.now()));
-  header.origin() = kOrigin;
+  header.origin() = kOutside;
   header.seq(++last_seq_);
   if (missions_ != nullptr && pattern == Pattern::send) header.mission(++*missions_);
 }

@@ -55,7 +55,8 @@ void Trace::delivered(std::string_view component, std::string_view port, const O
   if (!executive_.is_virtual() && !writes_) return;
   const std::lock_guard lock(mutex_);
   const idl::OrcaObject& header = object.header();
-  if (executive_.is_virtual()) {
+  const bool only_asks = header.origin() == kOutside && header.mission() == 0;
+  if (executive_.is_virtual() && !only_asks) {
     serialize(object);
     hash_.add_u64(static_cast<std::uint64_t>(executive_.now().time_since_epoch().count()));
     hash_.add_text(component);

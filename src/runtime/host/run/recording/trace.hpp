@@ -18,8 +18,12 @@
 
 namespace orca::host {
 
+/// The origin of what comes from outside the graph, from an operator.
+inline constexpr std::string_view kOutside = "orcactl";
+
 /// A recorder of what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in
-/// ns, component, port, seq, XCDR1 payload) of every delivery, in delivery order.
+/// ns, component, port, seq, XCDR1 payload) of every delivery, in delivery order. Questions from outside, which are nobody's
+/// mission, are not among them.
 ///
 /// The file has one line per event: time [s], what, who, details; a delivery's last words are the object itself
 /// as text (docs/objects.md) if values are wanted.

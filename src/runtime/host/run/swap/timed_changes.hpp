@@ -37,6 +37,8 @@ class TimedChanges {
   Status finish();
   /// Ends everything as it is. @pre  the system has been taken down.
   void give_up() { swaps_.give_up(); }
+  /// Returns the swaps, to which others may add; go_on() goes on with them, too.
+  [[nodiscard]] Swaps& swaps() { return swaps_; }
 
  private:
   Status carry_out(const TimedChange& change);

@@ -14,18 +14,20 @@ namespace orca::host {
 /// Thread contract: as RunView, from the time when the system is built until it is destroyed.
 class LiveView final : public RunView {
  public:
-  LiveView(const Executive& executive, TimePoint start, const System& system, const Reporter& reporter,
-           const Sightings& sightings)
-      : executive_(executive), start_(start), system_(system), reporter_(reporter), sightings_(sightings) {}
+  LiveView(const Executive& executive, TimePoint start, const System& system, const Reporter& reporter)
+      : executive_(executive), start_(start), system_(system), reporter_(reporter) {}
 
   [[nodiscard]] RunGlance look() const override;
+  /// Returns what it knows of robots and goals, which the reporter is to fill.
+  [[nodiscard]] Sightings& sightings() { return sightings_; }
+  [[nodiscard]] const Sightings& sightings() const { return sightings_; }
 
  private:
   const Executive& executive_;
   const TimePoint start_;
   const System& system_;
   const Reporter& reporter_;
-  const Sightings& sightings_;
+  Sightings sightings_;
 };
 
 }  // namespace orca::host

@@ -99,6 +99,7 @@ class WatchedSystem {
   /// Returns the event that is notified whenever an instance has changed its state.
   [[nodiscard]] Event& changed() { return *changed_; }
   [[nodiscard]] TimePoint start() const { return start_; }
+  [[nodiscard]] Executive& executive() const { return place_.executive; }
 
  private:
   void raise(idl::Alarm alarm);

@@ -9,6 +9,7 @@
 #include "orca/base/executive.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/host/part_access.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_outputs.hpp"
@@ -29,6 +30,9 @@ struct RunOptions : RunOutputs {
   bool measures_laps = false;     ///< The result has the processor time of each component's laps.
   bool keeps_motion = false;      ///< The result has a Scene with the true motion of simulated robots.
   std::string log_name = "orca";  ///< Name in the log for what concerns the run as a whole.
+  /// Who look at the run and give it orders, from enter() to leave(); null: nobody does.
+  /// @pre  in virtual time; `changes` is empty.
+  RunVisitors* visitors = nullptr;
 };
 
 /// Runs a checked graph in this process: brings everything up, watches it, stops the robot and takes

@@ -54,6 +54,9 @@ class HostProcess {
   [[nodiscard]] static Result<std::unique_ptr<HostProcess>> start(const HostStart& start);
   /// Takes over a process that runs already. It is no child of this one, so the way in which it ends is a guess.
   [[nodiscard]] static std::unique_ptr<HostProcess> adopt(AdoptedProcess process);
+  /// Returns this process itself, for a supervisor of what runs in it. It prints by itself, and cannot be ended.
+  /// @param channel  to the desk that takes its orders.
+  [[nodiscard]] static std::unique_ptr<HostProcess> here(std::string name, Descriptor channel);
   ~HostProcess();
   HostProcess(const HostProcess&) = delete;
   HostProcess& operator=(const HostProcess&) = delete;
