@@ -6,6 +6,7 @@ import { ComponentView } from "./component_view.js";
 import { askApply } from "./dialogs.js";
 import { byId, notify, setText } from "./dom.js";
 import { Inspector } from "./inspector.js";
+import { Pacing } from "./pacing.js";
 import { SystemModel } from "./system_model.js";
 import { SystemView } from "./system_view.js";
 import { Teleoperation } from "./teleoperation.js";
@@ -26,6 +27,7 @@ const inspector = new Inspector(byId("inspector"), connection, system, (choice) 
 systemView.addEventListener("chosen", () => inspector.show(systemView.choice));
 byId("graph-apply").addEventListener("click", () => askApply(connection, system));
 new Teleoperation(connection, system);
+new Pacing(connection, system);
 
 /** @type {Record<string, {show(on: boolean): void}>} */
 const views = { world: worldView, system: systemView, component: new ComponentView(connection, system), time: new TimeView(connection, system) };

@@ -13,6 +13,8 @@
  *   a connection of the graph
  * @typedef {{rate: number, lossRate: number, total: number, lost: number, queued: number, late: number}} Flow
  *   rates per second; lost: dropped, refused, failed or timed out since the beginning
+ * @typedef {{time: number, pace: number | null, paused: boolean}} PaceRow
+ *   virtual time: where it is [s], how fast it passes (null: as fast as it can), and whether it stands
  * @typedef {{number: number, time: number, severity: string, kind: string, source: string, active: boolean, text: string}} AlarmRow
  */
 
@@ -74,7 +76,7 @@ export function rowKey(row) {
   return row.from !== undefined ? `${row.from}>${row.to}` : String(row.server ?? row.client);
 }
 
-/** Events: `graph` when what runs, or how it is connected, has changed; `figures` when there are new numbers. */
+/** Events: `graph` when what runs, or how it is connected, has changed; `figures` when there are new numbers; `pace` after an order. */
 export class SystemModel extends EventTarget {
   /** @param {Connection} connection */
   constructor(connection) {
@@ -90,6 +92,10 @@ export class SystemModel extends EventTarget {
     this.flows = new Map();
     /** @type {AlarmRow[]} */
     this.alarms = [];
+    /** @type {PaceRow | null} null: it is in real time */
+    this.pace = null;
+    /** Whether it may be in virtual time, so that the pace is asked for. */
+    this.mayBeVirtual = true;
     /** @type {Map<string, Record<string, any>>} */
     this.rows = new Map();
     this.rowsAt = 0;
@@ -109,7 +115,25 @@ export class SystemModel extends EventTarget {
     return this.alarms.some((alarm) => alarm.kind === "ESTOP" && alarm.active);
   }
 
+  /**
+   * Returns whether a component may be asked without an order of a person. A question may change what a simulation does, unless the
+   * component is there for those who look on.
+   * @param {string} component
+   */
+  mayAsk(component) {
+    if (this.pace === null) return !this.mayBeVirtual;  // that is not known yet
+    return this.graph?.components.find((/** @type {any} */ each) => each.name === component)?.watchable === "true";
+  }
+
+  /** @param {PaceRow} row */
+  takePace(row) {
+    this.pace = row;
+    this.dispatchEvent(new Event("pace"));
+  }
+
   begin() {
+    this.pace = null;
+    this.mayBeVirtual = true;
     this.rows.clear();
     this.shape = "";
     return this.poll();
@@ -132,9 +156,14 @@ export class SystemModel extends EventTarget {
   async poll() {
     if (this.connection.hello === null || this.busy || document.hidden) return;
     this.busy = true;
-    const [ps, counters, alarms] = await Promise.all(["ps", "counters", "alarms"].map((command) => this.connection.ask(command)));
+    const commands = ["ps", "counters", "alarms", ...(this.mayBeVirtual ? ["pace"] : [])];
+    const [ps, counters, alarms, pace] = await Promise.all(commands.map((command) => this.connection.ask(command)));
     this.busy = false;
     if (!ps.ok || !counters.ok || !alarms.ok) return;
+    if (pace !== undefined) {
+      this.mayBeVirtual = pace.ok;
+      this.pace = pace.ok ? /** @type {any} */ (pace.records[0]) : null;
+    }
     this.components = new Map(ps.records.map((row) => [row.name, /** @type {any} */ (row)]));
     this.alarms = /** @type {any[]} */ (alarms.records);
     this.takeCounters(counters.records);

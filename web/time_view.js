@@ -110,6 +110,7 @@ export class TimeView {
   /** @returns {number} the run's clock [s], as far as it is known */
   get now() {
     const latest = Math.max(0, ...this.happenings.map(({ time, until }) => (until !== undefined && Number.isFinite(until) ? until : time)));
+    if (this.system.pace !== null) return Math.max(latest, this.system.pace.time);
     return Number.isFinite(this.zero) ? Math.max(latest, Date.now() / 1000 - this.zero) : latest;
   }
 

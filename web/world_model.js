@@ -467,7 +467,7 @@ export class WorldModel extends EventTarget {
 
   /** Asks for readings that nobody subscribes to, and that are not pushed therefore: a robot without a goal is still somewhere. */
   askSilent() {
-    if (!this.isWatching || this.connection.hello === null) return;
+    if (!this.isWatching || this.connection.hello === null || this.system.pace?.paused) return;
     const now = performance.now();
     for (const robot of this.robots.values()) {
       robot.forgetOld();
@@ -477,7 +477,7 @@ export class WorldModel extends EventTarget {
     for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server" && p.type === "AskReading")) {
       const pushed = port.port.replace(/Query$/, "Push");
       const source = this.looks.has(pushed) ? PUSHED[port.reply ?? ""] : undefined;
-      if (source === undefined || now - (this.heard.get(pushed) ?? 0) < SILENT || this.waiting.has(pushed)) continue;
+      if (source === undefined || !this.system.mayAsk(componentOf(port.port)) || now - (this.heard.get(pushed) ?? 0) < SILENT || this.waiting.has(pushed)) continue;
       this.waiting.add(pushed);
       this.connection.query(port.port, "<AskReading/>").then(({ ok, object }) => {
         this.waiting.delete(pushed);
@@ -502,7 +502,7 @@ export class WorldModel extends EventTarget {
 
   /** Asks once for what does not change: the robots' bodies, and maps. */
   askAbout() {
-    for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server")) {
+    for (const port of this.system.portsThat((p) => p.pattern === "Query" && p.role === "Server" && this.system.mayAsk(componentOf(p.port)))) {
       if (port.reply === "Robot" && !this.robotOf(port.port).outline.known) this.askOutline(port.port);
       if (port.reply === "OccupancyGrid" && this.grid === null) this.askGrid(port.port);
       if (port.reply === "WorldPlan" && this.plan === null) this.askPlan(port.port);

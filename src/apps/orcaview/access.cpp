@@ -82,7 +82,7 @@ std::string query_value(std::string_view target, std::string_view name) {
 bool only_shows(std::string_view command, bool has_words) {
   static const std::set<std::string_view> shows{"ps",       "graph", "ports", "plugins", "names",
                                                 "counters", "log",   "get",   "missions"};
-  return shows.contains(command) || (command == "alarms" && !has_words);
+  return shows.contains(command) || ((command == "alarms" || command == "pace") && !has_words);
 }
 
 }  // namespace orca::view

@@ -72,6 +72,7 @@ class Page(PageCase):
         wait_for("the robot is seen at another place", lambda: self.distance(before) > 0.3)
         self.assertEqual(self.text("#robot-name"), "Dewey")
         self.assertIn("live", self.text("#link"))
+        self.assertFalse(self.part("#pacing").is_displayed(), "real time has no pace")
         self.assertLess(self.distance(self.pose()), 0.5, "the page shows the robot where it is")
         colours = self.browser.execute_script("""
             const map = document.getElementById("map");

@@ -65,6 +65,8 @@ TEST_CASE("a reader may ask what is so, and change nothing", "[view]") {
     CHECK(only_shows(command, true));
   CHECK(only_shows("alarms", false));
   CHECK_FALSE(only_shows("alarms", true));  // alarms ack all
+  CHECK(only_shows("pace", false));
+  CHECK_FALSE(only_shows("pace", true));  // pace 0
   for (const char* const command : {"estop", "stop", "restart", "suspend", "resume", "swap", "apply",
                                     "connect", "disconnect", "move", "set", "line", "diff", "whatever"})
     CHECK_FALSE(only_shows(command, true));
