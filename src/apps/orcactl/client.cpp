@@ -58,7 +58,7 @@ Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limi
       if (message.error().code == Code::unavailable)
         return fail(Code::unavailable,
                     "the system has ended, or has closed the connection because it was asked more than 200 "
-                    "times in a second");
+                    "times in a second, or because its answers were not read");
       return message.error();
     }
     if (message->request != request) continue;  // the rest of an earlier answer

@@ -157,6 +157,14 @@ Channel::Channel(Descriptor socket, std::size_t bound, std::size_t longest)
 
 Channel::~Channel() = default;
 
+void Channel::shut_down() {
+  const MutexLock lock(mutex_);
+  (void)::shutdown(descriptor(), SHUT_RDWR);
+  broken_ = gone();
+  unsent_.clear();
+  unsent_bytes_ = 0;
+}
+
 Status Channel::post(Message message) {
   const MutexLock lock(mutex_);
   if (Status queued = enqueue(std::move(message)); !queued.ok()) return queued;

@@ -12,7 +12,8 @@
 namespace orca::supervisor {
 
 /// The way back to the client that has asked something. The answer ends when the object is destroyed, so whoever has
-/// something to add keeps a pointer to it. What a client does not read is left out and counted.
+/// something to add keeps a pointer to it. What a client does not read is left out and counted; the end of the answer says
+/// how much, unless somebody has asked. If there is no room for the end, the connection ends instead.
 ///
 /// Thread contract: the supervisor's thread.
 class Reply {

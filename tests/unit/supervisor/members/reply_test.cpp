@@ -25,6 +25,18 @@ class LazyClient {
   [[nodiscard]] const std::shared_ptr<Channel>& server() const { return server_; }
   void hang_up() { server_.reset(); }
 
+  // Reads what there is.
+  void read_some(std::vector<std::string>& texts) {
+    for (std::optional<Message> message = next(); message; message = next())
+      texts.push_back(std::get<TextAnswer>(decode_answer(std::move(*message)).value()).text);
+  }
+
+  // Reads until nothing more comes, and returns why.
+  Error end_of_connection() {
+    for (;;)
+      if (const Result<Message> message = client_->wait_for_message(1s); !message) return message.error();
+  }
+
   // Returns the texts of an answer, and its end.
   Status read(std::vector<std::string>& texts) {
     for (;;) {
@@ -38,6 +50,11 @@ class LazyClient {
   }
 
  private:
+  std::optional<Message> next() {
+    (void)server_->flush();
+    return std::move(client_->receive()).value();
+  }
+
   std::shared_ptr<Channel> server_;
   std::optional<Channel> client_;
 };
@@ -82,6 +99,29 @@ TEST_CASE("what a client does not read is left out and counted, until somebody a
   CHECK(reply.take_left_out() == 0);
   reply.add(std::string(32'000, 'x'));
   CHECK(reply.take_left_out() == 1);
+}
+
+TEST_CASE("a client that does not read the end of its answer learns that nothing more comes",
+          "[supervisor][reply]") {
+  LazyClient client(0);
+  {
+    Reply reply(client.server(), 7, false);
+    while (reply.take_left_out() == 0) reply.add(std::string(32'000, 'x'));
+  }
+  CHECK(client.end_of_connection().code == Code::unavailable);
+}
+
+TEST_CASE("an answer that is not complete says so at its end", "[supervisor][reply]") {
+  LazyClient client(0);
+  std::vector<std::string> texts;
+  auto reply = std::make_unique<Reply>(client.server(), 7, false);
+  while (reply->take_left_out() == 0) reply->add(std::string(32'000, 'x'));
+  reply->add(std::string(32'000, 'x'));
+  client.read_some(texts);  // too late for the last two
+  reply.reset();
+  const Status end = client.read(texts);
+  REQUIRE_FALSE(end.ok());
+  CHECK(end.error().message.find("left out: 1") != std::string::npos);
 }
 
 TEST_CASE("an answer to a client that has gone is in vain and costs nothing", "[supervisor][reply]") {

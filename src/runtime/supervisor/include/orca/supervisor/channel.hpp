@@ -52,6 +52,8 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
+  /// Ends the connection from this end: the peer reads what it has got, and then learns that nothing more comes.
+  void shut_down();
   /// Sends a message, or queues what the socket does not take now. Never waits.
   /// @errors  deadline_exceeded if more than the bound waits already: the peer does not read. unavailable if the peer is
   ///          gone. invalid_argument if the message is too long for any channel. In each case it is not sent.
