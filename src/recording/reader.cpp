@@ -52,6 +52,27 @@ std::optional<Summary> read_summary(std::span<const std::byte> bytes) {
   return summary;
 }
 
+// Returns the messages outside chunks of a file with an index. Where the index says that there is a chunk, or indexes of its
+// messages, nothing is looked at.
+std::vector<Record> loose_messages(std::span<const std::byte> bytes, const Summary& summary) {
+  std::vector<Record> loose;
+  std::uint64_t at = sizeof kMagic;
+  const auto look = [&](std::uint64_t end) {
+    RecordWalk walk(bytes.first(end), at);
+    while (const std::optional<Record> record = walk.next()) {
+      if (record->op == Op::data_end) break;
+      if (record->op == Op::message && read_message(record->content)) loose.push_back(*record);
+    }
+  };
+  for (const ChunkIndex& chunk : summary.chunks) {
+    if (chunk.offset > at) look(chunk.offset);
+    const std::uint64_t end = chunk.offset + chunk.length;
+    at = end + std::min(chunk.message_index_length, bytes.size() - end);
+  }
+  look(bytes.size());
+  return loose;
+}
+
 // A part of a file that is read as a whole: a chunk, or a message outside chunks.
 struct Piece {
   Stamp start = 0;
@@ -64,8 +85,8 @@ constexpr std::size_t kMostKept = std::size_t{512} << 20;  // [bytes] that wait 
 // Messages on their way into the order of time.
 class Sorter {
  public:
-  Sorter(std::set<std::uint16_t> channels, const std::function<bool(const Message&)>& take)
-      : channels_(std::move(channels)), take_(take) {}
+  Sorter(std::set<std::uint16_t> channels, Stamp from, const std::function<bool(const Message&)>& take)
+      : channels_(std::move(channels)), from_(from), take_(take) {}
 
   // Takes over the content of a chunk, which is kept until its last message is passed on.
   std::shared_ptr<const Bytes> keep(Bytes content) {
@@ -79,7 +100,8 @@ class Sorter {
 
   void add(const std::shared_ptr<const Bytes>& content, std::span<const std::byte> record) {
     const std::optional<Message> message = read_message(record);
-    if (message && channels_.contains(message->channel)) waiting_.push_back({*message, content});
+    if (message && message->log_time >= from_ && channels_.contains(message->channel))
+      waiting_.push_back({*message, content});
   }
 
   // Passes on what is earlier than a time. Returns false if no more is wanted.
@@ -101,6 +123,7 @@ class Sorter {
     std::shared_ptr<const Bytes> content;  // which it is in; null: the file itself
   };
   const std::set<std::uint16_t> channels_;
+  const Stamp from_;
   const std::function<bool(const Message&)>& take_;
   std::size_t kept_ = 0;  // [bytes] of contents
   std::vector<Waiting> waiting_;
@@ -129,13 +152,14 @@ struct Reader::Inside {
     return ok();
   }
 
-  [[nodiscard]] std::vector<Piece> pieces(const std::set<std::uint16_t>& channels) const {
+  [[nodiscard]] std::vector<Piece> pieces(const std::set<std::uint16_t>& channels, Stamp from) const {
     std::vector<Piece> all;
     for (const ChunkIndex& chunk : summary.chunks) {
       const auto& in_it = chunk.message_index_offsets;
       const bool is_wanted = channels.empty() || in_it.empty() ||
                              std::ranges::any_of(channels, [&](auto id) { return in_it.contains(id); });
-      if (is_wanted) all.push_back({chunk.start, chunk.offset, chunk.offset + chunk.length});
+      if (is_wanted && chunk.end >= from)
+        all.push_back({chunk.start, chunk.offset, chunk.offset + chunk.length});
     }
     for (const Record& record : loose)
       all.push_back({read_message(record.content)->log_time, record.offset, record.end()});
@@ -176,6 +200,7 @@ Result<Reader> Reader::of(std::span<const std::byte> bytes) {
       first && first->op == Op::header ? read_header(first->content) : std::nullopt;
   if (std::optional<Summary> summary = read_summary(bytes); summary && header) {
     inside->header = *std::move(header);
+    inside->loose = loose_messages(bytes, *summary);
     inside->summary = *std::move(summary);
     inside->has_index = true;
     return Reader(std::move(inside));
@@ -189,7 +214,6 @@ Result<Reader> Reader::of(std::span<const std::byte> bytes) {
   return Reader(std::move(inside));
 }
 
-const std::string& Reader::profile() const { return inside_->header.profile; }
 const std::string& Reader::library() const { return inside_->header.library; }
 std::uint64_t Reader::size() const { return inside_->bytes.size(); }
 bool Reader::has_index() const { return inside_->has_index; }
@@ -218,12 +242,12 @@ Result<Metadata> Reader::metadata(const IndexEntry& entry) const {
 }
 
 Status Reader::messages(const std::set<std::uint16_t>& channels,
-                        const std::function<bool(const Message&)>& take) const {
+                        const std::function<bool(const Message&)>& take, Stamp from) const {
   std::set<std::uint16_t> wanted = channels;
   if (channels.empty())
     for (const auto& [id, channel] : inside_->summary.channels) wanted.insert(id);
-  Sorter sorter(std::move(wanted), take);
-  for (const Piece& piece : inside_->pieces(channels)) {
+  Sorter sorter(std::move(wanted), from, take);
+  for (const Piece& piece : inside_->pieces(channels, from)) {
     if (!sorter.pass_on(piece.start)) return ok();
     if (Status added = inside_->add(piece, sorter); !added.ok()) {
       (void)sorter.pass_on_rest();

@@ -3,19 +3,11 @@
 #include "outbox.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace orca::view {
 namespace {
 
 constexpr double kNanoseconds = 1e9;
-
-template <class Number>
-void append(std::string& bytes, Number number) {
-  char raw[sizeof number];
-  std::memcpy(raw, &number, sizeof number);
-  bytes.append(raw, sizeof number);
-}
 
 std::uint32_t capped(std::uint64_t number) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(number, UINT32_MAX));

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <memory>
@@ -78,6 +79,14 @@ class Outbox {
   std::size_t object_bytes_ = 0;
   std::uint64_t dropped_ = 0;
 };
+
+/// Appends a number to the bytes of a frame, as it is in memory.
+template <class Number>
+void append(std::string& bytes, Number number) {
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
 
 /// Returns what stands before an object in a frame to a page: 32 bytes, little-endian (docs/orcaview.md).
 [[nodiscard]] std::string object_head(const Frame& frame);

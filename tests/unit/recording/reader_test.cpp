@@ -8,6 +8,7 @@
 
 #include "memory_output.hpp"
 #include "records.hpp"
+#include "scan.hpp"
 #include "summary.hpp"
 
 using namespace orca;
@@ -98,6 +99,41 @@ TEST_CASE("files of other writers are read: messages without chunks, and chunks 
   REQUIRE(reader);
   CHECK(reader->library() == "another");
   CHECK(all_messages(*reader) == std::vector<Seen>(3, Seen{"/x", 10, 10, 1, "one"}));
+}
+
+TEST_CASE("messages that lie outside of chunks are read from a file with an index, too",
+          "[recording][reader]") {
+  test::Bytes inner;
+  put_record(inner, Message{3, 1, 20, 20, bytes_of("in a chunk")});
+  test::Bytes bytes = foreign_beginning();
+  put_record(bytes, Message{3, 1, 10, 10, bytes_of("before")});
+  put_plain_chunk(bytes, inner);
+  put_record(bytes, Message{3, 1, 15, 15, bytes_of("between")});
+  put_plain_chunk(bytes, inner);
+  put_record(bytes, Message{3, 1, 30, 30, bytes_of("after")});
+  Result<Scanned> scanned = scan(bytes, {});
+  REQUIRE(scanned);
+  put(bytes, scanned->summary.encode(bytes.size()));
+  const Result<Reader> reader = Reader::of(bytes);
+  REQUIRE(reader);
+  CHECK(reader->has_index());
+  std::string order;
+  for (const Seen& seen : all_messages(*reader)) order += seen.payload + "; ";
+  CHECK(order == "before; between; in a chunk; in a chunk; after; ");
+}
+
+TEST_CASE("reading from a time on passes over what is earlier, and opens no chunk that ends before it",
+          "[recording][reader]") {
+  test::Bytes bytes = file_of(100);  // 10 ms apart
+  const std::uint64_t first = Reader::of(bytes)->chunks().at(0).offset;
+  bytes[first + kRecordHead + 60] ^= std::byte{0xFF};  // the first chunk is damaged
+  std::vector<Stamp> times;
+  REQUIRE(Reader::of(bytes)
+              ->messages(
+                  {}, [&](const Message& one) { return times.push_back(one.log_time), true; }, 750'000'000)
+              .ok());
+  REQUIRE(times.size() == 25);
+  CHECK(times.front() == 750'000'000);
 }
 
 TEST_CASE(

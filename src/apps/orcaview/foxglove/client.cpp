@@ -23,18 +23,11 @@ constexpr int kError = 2;
 constexpr std::size_t kMostChannels = 64;  // that a viewer publishes
 constexpr double kFrameRate = 30.0;        // [1/s] at which frames follow
 
-template <class Number>
-void append_number(std::string& bytes, Number number) {
-  char raw[sizeof number];
-  std::memcpy(raw, &number, sizeof number);
-  bytes.append(raw, sizeof number);
-}
-
 // Returns what stands before the payload of a message.
 std::string message_head(std::uint32_t subscription, std::uint64_t time_ns) {
   std::string head(1, '\x01');
-  append_number(head, subscription);
-  append_number(head, time_ns);
+  append(head, subscription);
+  append(head, time_ns);
   return head;
 }
 

@@ -40,7 +40,6 @@ class Reader {
   Reader(Reader&&) noexcept;
   Reader& operator=(Reader&&) noexcept;
 
-  [[nodiscard]] const std::string& profile() const;
   [[nodiscard]] const std::string& library() const;
   [[nodiscard]] std::uint64_t size() const;  ///< [bytes] of the file.
   /// Returns whether the file has an end with an index; without one, the file was read through to find what is in it.
@@ -61,10 +60,11 @@ class Reader {
   /// Passes messages on in the order of log_time; those of one time in the order of the file.
   /// @param channels  which; empty: all.
   /// @param take      returns false to end.
+  /// @param from      least log_time; chunks that end before it are not opened.
   /// @errors  data_loss if a chunk is damaged, or if chunks of more than 512 MiB are of the same time, for they are sorted in
   ///          memory; unavailable without memory. What came before was passed on.
-  Status messages(const std::set<std::uint16_t>& channels,
-                  const std::function<bool(const Message&)>& take) const;
+  Status messages(const std::set<std::uint16_t>& channels, const std::function<bool(const Message&)>& take,
+                  Stamp from = 0) const;
 
  private:
   struct Inside;
