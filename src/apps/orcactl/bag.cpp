@@ -14,6 +14,7 @@
 
 #include "asking.hpp"
 #include "bag_carmen.hpp"
+#include "bag_ring.hpp"
 #include "orca/base/text.hpp"
 #include "orca/recording/objects/object_reader.hpp"
 #include "orca/text/object_table.hpp"
@@ -60,6 +61,8 @@ Record summary_of(const recording::Reader& file, const recording::Values& facts)
   const recording::Statistics& numbers = file.statistics();
   return {{"messages", numbers.messages},
           {"begin_s", seconds(0, numbers.start), 6},
+          {"begin", recording::fact(facts, "clock") == "steady" ? local_time(numbers.start) : ""},
+          {"end", recording::fact(facts, "clock") == "steady" ? local_time(numbers.end) : ""},
           {"duration_s", seconds(numbers.start, numbers.end), 3},
           {"megabytes", static_cast<double>(file.size()) * 1e-6, 3},
           {"chunks", numbers.chunks},
@@ -74,6 +77,7 @@ Record summary_of(const recording::Reader& file, const recording::Values& facts)
 }
 
 Status info(const Words& words, bool as_json) {
+  if (const std::string folder = ring_folder(words[0]); !folder.empty()) return show_ring(folder, as_json);
   const Result<recording::Reader> file = recording::Reader::open(words[0]);
   if (!file) return file.error();
   const recording::Values facts = recording::facts_of(*file);
@@ -236,12 +240,15 @@ Status compare(const Words& words, bool /*as_json*/) {
   return ok();
 }
 
+Status cut_out(const Words& words, bool /*as_json*/) { return cut(words); }
+
 }  // namespace
 
 ExitCode handle_bag(const apps::Call& call) {
   using Way = Status (*)(const Words&, bool);
-  static const std::map<std::string, Way> ways{{"info", info}, {"check", check},   {"recover", recover},
-                                               {"csv", csv},   {"carmen", carmen}, {"diff", compare}};
+  static const std::map<std::string, Way> ways{{"info", info},  {"check", check},   {"recover", recover},
+                                               {"csv", csv},    {"carmen", carmen}, {"diff", compare},
+                                               {"cut", cut_out}};
   const auto way = ways.find(call.words.front());
   if (way == ways.end()) {
     std::vector<std::string> names;

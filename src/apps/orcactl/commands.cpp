@@ -32,6 +32,9 @@ constexpr std::string_view kLatencyDetails =
     "may lack their Push or Send: --from base.odometry.";
 
 constexpr std::string_view kRecordDetails =
+    "With --ring it goes on for ever, in a folder: the oldest files go when there is no more room, and half "
+    "of the "
+    "room is for objects of at most 1 KiB, which so reach back much further. "
     "It ends with the system, or at Ctrl-C. Without PORT it records all ports through which objects leave "
     "their "
     "component, the log and the alarms; the graph and the files that it names are in the recording as well. "
@@ -49,7 +52,10 @@ constexpr std::string_view kBagDetails =
     "every "
     "checksum, and says what is wrong at which byte; exit status 1 if anything is. recover FILE NEW: writes "
     "what is "
-    "whole into a new file with an index, after the recorder was killed or the disk was full. csv FILE "
+    "whole into a new file with an index, after the recorder was killed or the disk was full. cut FILE NEW "
+    "[FROM [TO]]: writes a span of time into a new file, such as cut nomad_scout noon.mcap 12:02 12:04; info "
+    "and cut take the folder of --ring, too, and the name of a system whose graph says record=always. csv "
+    "FILE "
     "[PORT...]: a "
     "table on stdout, as deployer --record FILE.csv writes it. carmen FILE [PORT...]: odometry and scans as "
     "a log for "
@@ -116,14 +122,15 @@ std::vector<Command> port_commands() {
            "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
            "that come faster than they can be printed are left out, and counted on stderr."},
       {.name = "record",
-       .arguments = {{"FILE.mcap", Names::file}, {"PORT", Names::port, true, true}},
-       .options = {{"--for", "DURATION", "end after this time"},
+       .arguments = {{"FILE.mcap|FOLDER", Names::file}, {"PORT", Names::port, true, true}},
+       .options = {{"--ring", "SIZE", "keep the newest in a folder, in so much room, such as \"2 GB\""},
+                   {"--for", "DURATION", "end after this time"},
                    {"--wait", "DURATION", "for a system that does not run yet"}},
        .text = "record everything, or what passes these ports, into an MCAP file",
        .details = kRecordDetails},
       {.name = "bag",
-       .arguments = {{"info|check|recover|csv|carmen|diff"},
-                     {"FILE.mcap", Names::file},
+       .arguments = {{"info|check|recover|cut|csv|carmen|diff"},
+                     {"FILE.mcap|FOLDER|SYSTEM", Names::file},
                      {"MORE", Names::port, true, true}},
        .text = "show, check, repair, convert or compare a recording; no system needs to run",
        .details = kBagDetails},

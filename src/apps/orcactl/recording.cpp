@@ -27,7 +27,9 @@
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/recording/objects/object_writer.hpp"
+#include "orca/recording/objects/ring_writer.hpp"
 #include "orca/supervisor/control_socket.hpp"
+#include "orca/xml/values.hpp"
 #include "tapping.hpp"
 
 namespace orca::orcactl {
@@ -72,7 +74,7 @@ struct Line {
 // A recording of a system that runs.
 class Recording {
  public:
-  Recording(Descriptor control, recording::ObjectWriter& writer, std::vector<std::string> ports)
+  Recording(Descriptor control, recording::ObjectSink& writer, std::vector<std::string> ports)
       : control_(std::move(control)), writer_(writer), wanted_(std::move(ports)) {}
 
   // Returns when the system has ended, or when everything that had passed before the end is written.
@@ -310,7 +312,7 @@ class Recording {
   }
 
   Channel control_;
-  recording::ObjectWriter& writer_;
+  recording::ObjectSink& writer_;
   std::vector<std::string> wanted_;  // ports
   bool is_connected_ = true;
   bool has_begun_ = false;
@@ -348,7 +350,7 @@ std::variant<Descriptor, Failure> wait_for_system(const apps::Call& call) {
   }
 }
 
-ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const Recording& recording,
+ExitCode finish(const std::string& file, recording::ObjectSink& writer, const Recording& recording,
                 const Status& done) {
   std::uint64_t lost = 0;
   for (const auto& [port, count] : recording.lost()) lost += count;
@@ -358,7 +360,7 @@ ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const 
                    unreached.empty() ? recording::Values{} : recording::Values{{"unreached", unreached}});
   std::fprintf(
       stderr, "orcactl: %s: %llu messages of %zu ports, %.1f MB%s\n", file.c_str(),
-      static_cast<unsigned long long>(writer.statistics().messages), recording.count_ports(),
+      static_cast<unsigned long long>(writer.messages()), recording.count_ports(),
       static_cast<double>(writer.size()) / 1e6,
       lost == 0
           ? ""
@@ -369,28 +371,51 @@ ExitCode finish(const std::string& file, recording::ObjectWriter& writer, const 
   return closed.ok() ? ExitCode::done : report({closed.error()});
 }
 
+using Sink = std::unique_ptr<recording::ObjectSink>;
+
+// Opens what a call names: a new file, or a folder with a ring of files.
+std::variant<Sink, Failure> open_sink(const apps::Call& call) {
+  const auto refuse = [](const std::string& why) {
+    return Failure{fail(Code::invalid_argument, why), ExitCode::usage};
+  };
+  const std::string& name = call.words.front();
+  const bool names_file = name.ends_with(".mcap");
+  const std::optional<std::string> room = call.text("--ring");
+  if (!room && !names_file) return refuse("name a file that ends in .mcap, not " + in_quotes(name));
+  if (room && names_file)
+    return refuse("--ring keeps several files; name a folder for them, not " + in_quotes(name));
+  if (!room) {
+    auto output = recording::open_file_in_background(name, kDiskBound);
+    if (!output) return Failure{output.error()};
+    return Sink(std::make_unique<recording::ObjectWriter>(*std::move(output)));
+  }
+  constexpr xml::ValueRule kRoom{
+      .form = xml::ValueRule::Form::number, .unit = "B", .min = recording::RingWriter::kLeast, .max = 1e15};
+  xml::ValueFault fault;
+  const std::optional<double> bytes = xml::read_number(*room, kRoom, fault);
+  if (!bytes) return refuse("--ring: " + fault.message);
+  return Sink(std::make_unique<recording::RingWriter>(name, static_cast<std::uint64_t>(*bytes)));
+}
+
 }  // namespace
 
 ExitCode record(const apps::Call& call) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { g_is_to_end = true; });
   std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file's size is like a full disk
   const std::string& file = call.words.front();
-  if (!file.ends_with(".mcap"))
-    return report({fail(Code::invalid_argument, "name a file that ends in .mcap, not " + in_quotes(file)),
-                   ExitCode::usage});
-  auto output = recording::open_file_in_background(file, kDiskBound);
-  if (!output) return report({output.error()});
-  recording::ObjectWriter writer(*std::move(output));
+  std::variant<Sink, Failure> opened = open_sink(call);
+  if (const auto* const failure = std::get_if<Failure>(&opened)) return report(*failure);
+  const Sink& writer = std::get<Sink>(opened);
   std::variant<Descriptor, Failure> socket = wait_for_system(call);
   if (const auto* const failure = std::get_if<Failure>(&socket)) {
-    (void)writer.close({}, {});
-    (void)std::remove(file.c_str());  // nothing is in it
+    (void)writer->close({}, {});
+    if (!call.text("--ring")) (void)std::remove(file.c_str());  // nothing is in it
     return report(*failure);
   }
-  Recording recording(std::get<Descriptor>(std::move(socket)), writer,
+  Recording recording(std::get<Descriptor>(std::move(socket)), *writer,
                       {call.words.begin() + 1, call.words.end()});
   const Status done = recording.run(call.duration("--for"));
-  return finish(file, writer, recording, done);
+  return finish(file, *writer, recording, done);
 }
 
 }  // namespace orca::orcactl

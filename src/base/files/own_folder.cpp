@@ -85,8 +85,25 @@ Status make_folder(int parent, const std::string& name, const std::string& path)
   return fail(Code::unavailable, "cannot make the folder " + path + ": " + std::strerror(reason));
 }
 
-Result<Descriptor> open_of_user(const std::string& path, bool makes) {
-  const Place place = place_of_user();
+// The place of what is to stay; its parent is empty if there is none.
+Place place_of_state() {
+  const char* const state = std::getenv("XDG_STATE_HOME");
+  const char* const home = std::getenv("HOME");
+  if (state != nullptr && state[0] == '/') return {state, "orca"};
+  if (home != nullptr && home[0] == '/') return {std::string(home) + "/.local/state", "orca"};
+  return {};
+}
+
+// Makes a folder and those above it, for this user alone.
+Status make_folders(const std::string& path) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    if (mkdir(part.c_str(), S_IRWXU) != 0 && errno != EEXIST) return refused("cannot make", part, errno);
+    if (end == std::string::npos) return ok();
+  }
+}
+
+Result<Descriptor> open_place(const Place& place, const std::string& path, bool makes) {
   const Result<Descriptor> parent = open_parent(place.parent);
   if (!parent) return parent.error();
   if (makes)
@@ -103,14 +120,30 @@ std::string OwnFolder::path_of_user() {
 
 Result<OwnFolder> OwnFolder::open() {
   std::string path = path_of_user();
-  Result<Descriptor> folder = open_of_user(path, false);
+  Result<Descriptor> folder = open_place(place_of_user(), path, false);
   if (!folder) return folder.error();
   return OwnFolder(std::move(folder).value(), std::move(path));
 }
 
 Result<OwnFolder> OwnFolder::make() {
   std::string path = path_of_user();
-  Result<Descriptor> folder = open_of_user(path, true);
+  Result<Descriptor> folder = open_place(place_of_user(), path, true);
+  if (!folder) return folder.error();
+  return OwnFolder(std::move(folder).value(), std::move(path));
+}
+
+std::string OwnFolder::path_for_state() {
+  const Place place = place_of_state();
+  return place.parent.empty() ? "" : place.parent + "/" + place.name;
+}
+
+Result<OwnFolder> OwnFolder::make_for_state() {
+  std::string path = path_for_state();
+  if (path.empty())
+    return fail(Code::unavailable,
+                "there is no folder for what is kept: neither XDG_STATE_HOME nor HOME is set");
+  if (Status made = make_folders(place_of_state().parent); !made.ok()) return made.error();
+  Result<Descriptor> folder = open_place(place_of_state(), path, true);
   if (!folder) return folder.error();
   return OwnFolder(std::move(folder).value(), std::move(path));
 }

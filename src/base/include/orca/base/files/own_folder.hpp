@@ -28,6 +28,12 @@ class OwnFolder {
   /// Makes the folder if necessary, opens it and proves it.
   /// @errors  unavailable, as open().
   [[nodiscard]] static Result<OwnFolder> make();
+  /// The same of the folder in which programs keep what is to be there after a restart of the machine: `$XDG_STATE_HOME/orca`, or
+  /// `~/.local/state/orca`.
+  /// @errors  unavailable, as open(), and if there is no home.
+  [[nodiscard]] static Result<OwnFolder> make_for_state();
+  /// Returns the path of that folder; empty: there is no home.
+  [[nodiscard]] static std::string path_for_state();
   /// Returns the number of the open folder, for openat() and its like.
   [[nodiscard]] int descriptor() const { return folder_.number(); }
   [[nodiscard]] const std::string& path() const { return path_; }

@@ -30,38 +30,55 @@ struct Origin {
   Values more;  ///< What else is known: "seed".
 };
 
+/// Where objects go that are recorded.
+///
+/// Thread contract: one thread at a time.
+class ObjectSink {
+ public:
+  ObjectSink() = default;
+  virtual ~ObjectSink() = default;
+  ObjectSink(const ObjectSink&) = delete;
+  ObjectSink& operator=(const ObjectSink&) = delete;
+
+  /// Says what the recording is of. The first call.
+  /// @errors  as Writer.
+  virtual Status begin(const Origin& origin) = 0;
+  /// Puts the text of the graph, and the files that its parameters name, into the recording; but no other recordings.
+  /// @param graph  as graph::print() writes it.
+  virtual Status attach_graph(const std::string& graph) = 0;
+  /// Adds an object.
+  /// @param row     "base.OdometryPush", or a row without a port.
+  /// @param passed  when it passed, by the run's clock.
+  /// @errors  as Writer.
+  virtual Status add(std::string_view row, const ObjectRef& object, TimePoint passed) = 0;
+  /// Writes what waits for its chunk.
+  virtual Status flush() = 0;
+  /// Ends the recording. The last call.
+  /// @param lost  objects that could not be recorded, by port; they are in the metadata "orca.end".
+  /// @param more  what else is known at the end: "trace-hash".
+  virtual Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more) = 0;
+  /// Returns how many messages were written, twins of objects included.
+  [[nodiscard]] virtual std::uint64_t messages() const = 0;
+  [[nodiscard]] virtual std::uint64_t size() const = 0;  ///< [bytes] written.
+};
+
 /// A writer of objects into a recording. Each port has a channel with the topic "/base/OdometryPush", and objects are written as
 /// they travel: CDR, with their layout as a "ros2msg" schema. What viewers of ROS 2 know is written a second time as they know it,
 /// under "/ros/base/OdometryPush", "/tf" and "/rosout".
 ///
 /// Thread contract: one thread at a time.
-class ObjectWriter {
+class ObjectWriter final : public ObjectSink {
  public:
   /// @param output  where to; see Output.
   explicit ObjectWriter(std::unique_ptr<Output> output);
 
-  /// Says what the recording is of. The first call.
-  /// @errors  as Writer.
-  Status begin(const Origin& origin);
-  /// Puts the text of the graph, and the files that its parameters name, into the recording; but no other recordings.
-  /// @param graph  as graph::print() writes it.
-  Status attach_graph(const std::string& graph);
-
-  /// Adds an object.
-  /// @param row     "base.OdometryPush", or a row without a port.
-  /// @param passed  when it passed, by the run's clock.
-  /// @errors  as Writer.
-  Status add(std::string_view row, const ObjectRef& object, TimePoint passed);
-
-  /// Writes what waits for its chunk.
-  Status flush() { return writer_.flush(); }
-  /// Ends the recording.
-  /// @param lost  objects that could not be recorded, by port; they are in the metadata "orca.end".
-  /// @param more  what else is known at the end: "trace-hash".
-  Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more);
-
-  [[nodiscard]] const Statistics& statistics() const { return writer_.statistics(); }
-  [[nodiscard]] std::uint64_t size() const { return writer_.size(); }  ///< [bytes] written.
+  Status begin(const Origin& origin) override;
+  Status attach_graph(const std::string& graph) override;
+  Status add(std::string_view row, const ObjectRef& object, TimePoint passed) override;
+  Status flush() override { return writer_.flush(); }
+  Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more) override;
+  [[nodiscard]] std::uint64_t messages() const override { return writer_.statistics().messages; }
+  [[nodiscard]] std::uint64_t size() const override { return writer_.size(); }
 
  private:
   struct Row {
