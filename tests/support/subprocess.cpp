@@ -44,11 +44,12 @@ Ending ending_from(int status, const rusage& usage, Clock::duration wall) {
   return ending;
 }
 
-// Gives the programs a folder for their sockets that no other test program has. Systems of one name would refuse to run
+// Gives the programs a folder for their sockets and their recordings that no other test program has. Systems of one name would refuse to run
 // beside each other.
 void prepare_runtime_folder() {
   static const TempFolder folder;
-  static const int set = setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+  static const int set = setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1) |
+                         setenv("XDG_STATE_HOME", (folder.path() / "state").c_str(), 1);
   checked(set, "setenv");
 }
 

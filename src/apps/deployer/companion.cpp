@@ -9,11 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
 
+#include "orca/base/files/own_folder.hpp"
 #include "orca/base/log.hpp"
 
 namespace orca::deployer {
@@ -22,6 +24,9 @@ namespace {
 constexpr int kPatienceMs = 10'000;            // until the first line
 constexpr std::chrono::milliseconds kLook{5};  // between two looks whether it has ended
 constexpr std::chrono::seconds kEndLimit{5};   // then it is killed
+constexpr std::chrono::seconds kProof{2};      // a recorder that runs for so long is well
+constexpr std::chrono::seconds kFirstPatience{1};
+constexpr std::chrono::seconds kLongestPatience{60};
 
 // Returns the words as execv() wants them.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
@@ -77,9 +82,20 @@ std::string Companion::first_line() const {
   return {};
 }
 
+std::optional<std::string> Companion::end_by_itself() {
+  int status = 0;
+  if (process_ != 0 && waitpid(process_, &status, WNOHANG) == process_) {
+    process_ = 0;
+    status_ = status;
+  }
+  if (!status_) return std::nullopt;
+  if (WIFSIGNALED(*status_)) return "signal " + std::to_string(WTERMSIG(*status_));
+  return "exit status " + std::to_string(WEXITSTATUS(*status_));
+}
+
 bool Companion::end() {
   const pid_t process = std::exchange(process_, 0);
-  if (process == 0) return true;
+  if (process == 0) return !status_;
   kill(process, SIGTERM);
   const auto limit = std::chrono::steady_clock::now() + kEndLimit;
   int status = -1;
@@ -101,7 +117,8 @@ std::optional<Companion> start_viewer(const std::string& system) {
   return std::move(viewer).value();
 }
 
-Status Recorders::start(const std::string& system, const std::vector<host::RecordingOptions>& recordings) {
+Status Recorders::start(const graph::Graph& graph, const std::string& machine,
+                        const std::vector<host::RecordingOptions>& recordings) {
   for (const host::RecordingOptions& recording : recordings) {
     if (!host::is_bag_file(recording.file)) continue;
     if (std::filesystem::exists(recording.file))
@@ -109,21 +126,78 @@ Status Recorders::start(const std::string& system, const std::vector<host::Recor
                   "there is something of this name already, and recordings overwrite nothing; "
                   "choose another name",
                   recording.file);
-    std::vector<std::string> words{"--system", system, "record", recording.file};
+    std::vector<std::string> words{"--system", graph.name, "record", recording.file};
     words.insert(words.end(), recording.ports.begin(), recording.ports.end());
     words.insert(words.end(), {"--wait", "30s"});
-    Result<Companion> recorder = Companion::start("orcactl", words, false);
-    if (!recorder) return recorder.error();
-    running_.emplace_back(std::move(recorder).value(), recording.file);
+    running_.push_back({recording.file, std::move(words), false});
   }
+  if (graph.records_always) keep_always(graph, graph.name + (machine.empty() ? "" : "@" + machine));
+  for (Recorder& recorder : running_)
+    if (Status started = start(recorder); !started.ok()) return started;
   return ok();
+}
+
+// A system runs without what it keeps, too.
+void Recorders::keep_always(const graph::Graph& graph, const std::string& name) {
+  const Result<OwnFolder> state = OwnFolder::make_for_state();
+  if (!state) {
+    unkept_ = "nothing is recorded, because there is no place for it: " + state.error().message;
+    return;
+  }
+  const std::string folder = state->path() + "/recordings/" + name;
+  running_.push_back({folder,
+                      {"--system", graph.name, "record", folder, "--ring",
+                       std::to_string(graph.record_space) + " B", "--wait", "30s"},
+                      true});
+  log::info("deployer", "what happens is kept in " + folder);
+}
+
+Status Recorders::start(Recorder& recorder) {
+  recorder.begun = std::chrono::steady_clock::now();
+  Result<Companion> companion = Companion::start("orcactl", recorder.words, false);
+  if (!companion) return companion.error();
+  recorder.companion.emplace(std::move(companion).value());
+  return ok();
+}
+
+std::map<std::string, std::string> Recorders::look() {
+  std::map<std::string, std::string> wrong;
+  if (!unkept_.empty()) wrong["always"] = unkept_;
+  for (Recorder& recorder : running_) {
+    look_at(recorder);
+    if (!recorder.fault.empty()) wrong[recorder.target] = recorder.fault;
+  }
+  return wrong;
+}
+
+void Recorders::look_at(Recorder& recorder) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::optional<std::string> end =
+      recorder.companion ? recorder.companion->end_by_itself() : std::optional<std::string>("not started");
+  if (!end) {
+    if (now - recorder.begun < kProof) return;
+    recorder.fault.clear();
+    recorder.patience = kFirstPatience;
+    return;
+  }
+  recorder.fault = "nothing is recorded into " + recorder.target +
+                   " any more, since its recorder has ended (" + *end + "); " +
+                   (recorder.is_renewed ? "it is started again; its own words are on stderr"
+                                        : "what it wrote is whole; go on with: orcactl record OTHER.mcap");
+  if (!recorder.is_renewed || now - recorder.begun < recorder.patience) return;
+  recorder.patience = std::min(2 * recorder.patience, kLongestPatience);
+  recorder.companion.reset();
+  (void)start(recorder);  // the next look sees whether it runs
 }
 
 // A system that did not start has no recording, so its recorder waits in vain.
 Status Recorders::finish() {
   Status outcome = ok();
-  for (auto& [recorder, file] : running_)
-    if (!recorder.end()) outcome = fail(Code::data_loss, "the recording is not complete", file);
+  for (Recorder& recorder : running_) {
+    const bool is_complete = recorder.companion && recorder.companion->end();
+    if (!is_complete && !recorder.is_renewed)
+      outcome = fail(Code::data_loss, "the recording is not complete", recorder.target);
+  }
   return outcome;
 }
 

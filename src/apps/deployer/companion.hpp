@@ -4,7 +4,9 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
+#include "orca/graph/graph.hpp"
 #include "orca/host/run_outputs.hpp"
 
 namespace orca::deployer {
@@ -30,7 +33,9 @@ class Companion {
                                                bool tells);
 
   Companion(Companion&& other) noexcept
-      : process_(std::exchange(other.process_, 0)), output_(std::move(other.output_)) {}
+      : process_(std::exchange(other.process_, 0)),
+        status_(other.status_),
+        output_(std::move(other.output_)) {}
   Companion& operator=(Companion&&) = delete;
   ~Companion() { (void)end(); }
 
@@ -40,34 +45,57 @@ class Companion {
   /// Asks it to end, and waits for that; after 5 s it is killed.
   /// @return whether it has ended with exit status 0.
   bool end();
+  /// Returns how it has ended although nobody has asked it to: "exit status 1" or "signal 9"; nothing while it runs.
+  [[nodiscard]] std::optional<std::string> end_by_itself();
 
  private:
   Companion(pid_t process, Descriptor output) : process_(process), output_(std::move(output)) {}
 
-  pid_t process_ = 0;  // 0: moved from, or ended
-  Descriptor output_;  // what it prints
+  pid_t process_ = 0;            // 0: moved from, or ended
+  std::optional<int> status_{};  // as waitpid() gives it, of one that has ended by itself
+  Descriptor output_;            // what it prints
 };
 
 /// Starts orcaview for a system, and prints its address on stderr.
 /// @return nothing if that fails, after it was said: a system runs without its page, too.
 [[nodiscard]] std::optional<Companion> start_viewer(const std::string& system);
 
-/// The processes that record a system of several processes into MCAP files: one `orcactl record` for each file, which waits for
-/// the system and ends with it.
+/// The processes that record a system of several processes: one `orcactl record` for each MCAP file, and one for the recording
+/// that its graph says is always made, in the user's state folder (docs/recordings.md). They wait for the system and end with it.
+/// The one that is always made is started again if it ends before.
 ///
 /// Thread contract: the main thread.
 class Recorders {
  public:
   /// Starts them.
+  /// @param machine  name of this one in the graph; empty: it declares none.
   /// @errors  already_exists if a file is there; as Companion::start().
-  Status start(const std::string& system, const std::vector<host::RecordingOptions>& recordings);
+  Status start(const graph::Graph& graph, const std::string& machine,
+               const std::vector<host::RecordingOptions>& recordings);
   [[nodiscard]] std::size_t count() const { return running_.size(); }
+  /// Looks after them. To be called now and then.
+  /// @return what is wrong, by file or folder.
+  std::map<std::string, std::string> look();
   /// Waits until they have written everything.
   /// @errors  data_loss if one of them says on stderr why it could not.
   Status finish();
 
  private:
-  std::vector<std::pair<Companion, std::string>> running_;  // with their files
+  struct Recorder {
+    std::string target;  // file or folder
+    std::vector<std::string> words;
+    bool is_renewed;                       // if it ends too early
+    std::optional<Companion> companion{};  // nothing: it could not be started
+    std::string fault{};                   // of the last one
+    std::chrono::steady_clock::time_point begun{};
+    std::chrono::seconds patience{1};  // until the next one
+  };
+  void keep_always(const graph::Graph& graph, const std::string& name);
+  Status start(Recorder& recorder);
+  void look_at(Recorder& recorder);
+
+  std::vector<Recorder> running_;
+  std::string unkept_;  // why nothing can be kept
 };
 
 }  // namespace orca::deployer

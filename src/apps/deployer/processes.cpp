@@ -196,9 +196,11 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
     return refuse(opened.error(), options.run.log_name, listener);
   const std::optional<Companion> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
   Recorders recorders;
-  if (const Status started = recorders.start(graph.name, options.run.recordings); !started.ok())
+  if (const Status started = recorders.start(graph, machine, options.run.recordings); !started.ok())
     return refuse(started.error(), options.run.log_name, listener);
   supervised.recorders = recorders.count();
+  if (recorders.count() > 0 || graph.records_always)
+    supervised.look_beside = [&recorders] { return recorders.look(); };
   host::RunResult result = supervisor::run_supervised(graph, supervised, stop, listener);
   if (const Status recorded = recorders.finish(); !recorded.ok()) {
     log::error(options.run.log_name, recorded.error().text());

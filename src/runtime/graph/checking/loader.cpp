@@ -2,6 +2,7 @@
 #include "orca/graph/loader.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "checking/checks.hpp"
 #include "endpoints.hpp"
@@ -12,6 +13,7 @@
 #include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
+#include "reading/values.hpp"
 #include "types.hpp"
 
 namespace orca::graph {
@@ -30,6 +32,9 @@ Graph read_root(const Node& root, Report& report) {
   graph.name = root.value("name");
   graph.default_profile = root.value("default_profile");
   graph.supervision = read_supervision(root, report);
+  graph.records_always = read_attribute<std::string>(root, "record", report) == "always";
+  if (const auto bytes = read_attribute<double>(root, "record_space", report))
+    graph.record_space = static_cast<std::uint64_t>(std::llround(*bytes));
   return graph;
 }
 

@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 3> kFuse{"any", "all", "stamps"};
 constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
 constexpr std::array<std::string_view, 2> kRestore{"last", "none"};
 constexpr std::array<std::string_view, 3> kStrategy{"one_for_one", "rest_for_one", "one_for_all"};
+constexpr std::array<std::string_view, 1> kRecord{"always"};
 constexpr std::array<std::string_view, 2> kSupervisorLoss{"stop", "continue"};
 constexpr std::array<std::string_view, 2> kMachineLoss{"stop", "go_on"};
 constexpr std::array<std::string_view, 2> kExecutor{"thread", "fiber"};
@@ -64,6 +65,12 @@ constexpr std::array kGraph{
     AttributeRule{"machine_wait", false,
                   "Longest time that a machine waits for the others at the start; 60 s if not given.",
                   seconds(0.1)},
+    AttributeRule{"record", false,
+                  "Whether a recording is always made of what runs in real time; none if not given.",
+                  one_of(kRecord)},
+    AttributeRule{"record_space", false,
+                  "Most room for that recording on the disk, for example 2 GB; 500 MB if not given.",
+                  bytes(20e6, 1e15)},
     AttributeRule{
         "expanded", false,
         "Whether the profiles and settings of a command line are merged into it already, as where Orca has "

@@ -61,6 +61,9 @@ Attributes attributes_of(const Graph& graph) {
   add(result, "default_profile", graph.default_profile);
   add(result, "plugins", joined(graph.plugin_dirs, ";"));
   add(result, graph.supervision);
+  if (graph.records_always) add(result, "record", "always");
+  if (graph.record_space != Graph{}.record_space)
+    add(result, "record_space", std::to_string(graph.record_space) + " B");
   return result;
 }
 

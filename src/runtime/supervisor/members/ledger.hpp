@@ -63,6 +63,11 @@ class Ledger final : public host::RunView {
   /// Returns whether there is such an alarm of the supervisor itself whose reason is not gone.
   [[nodiscard]] bool is_active(host::AlarmKind kind, const std::string& source) const;
 
+  /// Takes an alarm, raised or settled.
+  /// @param process   that it is about; empty: not one alone.
+  /// @param reporter  process that knows it already; empty: none.
+  void note(idl::Alarm alarm, const std::string& process, const std::string& reporter);
+
   /// Returns the alarms of all processes and of the supervisor that nobody has acknowledged yet, by number. They outlive
   /// their sources.
   [[nodiscard]] const std::vector<host::KeptAlarm>& alarms() const { return alarms_.kept(); }
@@ -104,7 +109,6 @@ class Ledger final : public host::RunView {
   Status take_change(const StateChange& change);
   Status take_figures(const Report& report, const std::string& process);
   Status take_object(const Report& report, const std::string& process);
-  void note(idl::Alarm alarm, const std::string& process, const std::string& reporter);
 
   const graph::Graph& graph_;
   host::RunListener& listener_;

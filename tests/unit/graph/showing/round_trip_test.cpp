@@ -54,7 +54,8 @@ class RandomGraph {
     return " strategy='" + choice({"one_for_one", "rest_for_one", "one_for_all"}) + "' restarts='" +
            integer(0, 9) + "' within='" + real(0.1, 99) + "' on_supervisor_loss='" +
            choice({"stop", "continue"}) + "'" + maybe(" machine_wait='" + real(0.1, 99) + "'") +
-           maybe(" adoption_wait='" + real(0.1, 99) + "'");
+           maybe(" adoption_wait='" + real(0.1, 99) + "'") + maybe(" record='always'") +
+           maybe(" record_space='" + integer(20, 99) + " MB'");
   }
 
   // Two processes beside "main", on a machine each if there are any.

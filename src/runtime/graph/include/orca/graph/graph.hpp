@@ -146,6 +146,8 @@ struct Graph {
   std::vector<std::string> plugin_dirs;  ///< Absolute; searched after Orca's own.
   std::string default_profile;           ///< Empty: none.
   Supervision supervision;
+  bool records_always = false;               ///< A recording of the system is always made.
+  std::uint64_t record_space = 500'000'000;  ///< Most room for it on the disk [byte].
   std::vector<MachineNode> machines;
   std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.
   std::vector<HardwareNode> hardware;
