@@ -55,13 +55,38 @@ int count_in(const std::string& info, const std::string& topic) {
 }
 
 // Replays a recording into GridPlanner, and records that. Returns the trace hash.
-std::string replay(const std::string& recording, const std::string& to) {
-  const Run run = run_deployer(
-      Words{kReplay, "--set", "recording=" + recording, "--until", "20s", "--record", to} + virtual_clock(),
-      Seconds(60));
+std::string replay(const std::string& recording, const std::string& to, const Words& program = deployer({})) {
+  Subprocess process(program +
+                     Words{kReplay, "--set", "recording=" + recording, "--until", "20s", "--record", to} +
+                     virtual_clock());
+  const Run run = finish(process, Seconds(60));
   INFO(run.err);
   REQUIRE(run.exit_code() == 0);
   return run.trace_hash().value_or("none");
+}
+
+// Returns a deployer whose plugins are those of this build, but for GridPlanner, which was built a second time.
+std::string with_rebuilt_planner(const TempFolder& folder) {
+  namespace fs = std::filesystem;
+  const fs::path root = folder.path() / "other";
+  for (const char* const name : {"bin", "plugins"}) fs::create_directories(root / name);
+  fs::copy_file(ORCA_BINARY_DIR "/bin/deployer", root / "bin/deployer");
+  fs::create_directory_symlink(ORCA_BINARY_DIR "/lib", root / "lib");
+  for (const fs::directory_entry& file : fs::directory_iterator(ORCA_BINARY_DIR "/plugins"))
+    if (file.path().stem() != "grid_planner")
+      fs::create_symlink(file.path(), root / "plugins" / file.path().filename());
+  for (const char* const extension : {".so", ".types"})
+    fs::copy_file(std::string(ORCA_BINARY_DIR "/tests/next_plugins/grid_planner_again") + extension,
+                  root / "plugins" / (std::string("grid_planner") + extension));
+  return (root / "bin/deployer").string();
+}
+
+std::string build_id_of(const std::string& plugin) {
+  Subprocess reader({"/usr/bin/env", "readelf", "-n", plugin});
+  const std::string shown = finish(reader, Seconds(20)).out;
+  const std::size_t at = shown.find("Build ID: ");
+  REQUIRE(at != std::string::npos);
+  return shown.substr(at, 50);
 }
 
 }  // namespace
@@ -303,8 +328,10 @@ TEST_CASE("a port that there is not is refused when a recording begins, also amo
   CHECK(finish(system, Seconds(10)).exit_code() == 0);
 }
 
-TEST_CASE("sensors of real drivers that were recorded drive GridPlanner to the same commands each time",
-          "[system][recording][replay]") {
+TEST_CASE(
+    "sensors of real drivers that were recorded drive GridPlanner to the same commands each time, also one "
+    "that was built anew",
+    "[system][recording][replay]") {
   const TempFolder folder;
   const std::string recording = folder.file("drivers.mcap");
   const Run run = run_deployer(Words{source_file("graphs/pioneer2dx_sick.xml"), "--profile", "emulate",
@@ -323,6 +350,16 @@ TEST_CASE("sensors of real drivers that were recorded drive GridPlanner to the s
   CHECK(count_in(info_of(once), "/planner/MotionCmdPush") > 100);
   // What the planner saw is what the drivers had read.
   CHECK(count_in(info_of(once), "/laser/LaserRangeReadingsPush") > 100);
+
+  // A planner that was built anew from the same source takes the place of the other one.
+  const std::string rebuilt = folder.file("rebuilt.mcap");
+  const std::string other_build = with_rebuilt_planner(folder);
+  CHECK(build_id_of(ORCA_BINARY_DIR "/plugins/grid_planner.so") !=
+        build_id_of(ORCA_BINARY_DIR "/tests/next_plugins/grid_planner_again.so"));
+  CHECK(replay(recording, rebuilt, {other_build}) == hash);
+  const Run same = bag({"diff", once, rebuilt, "planner.MotionCmdPush", "fuser.base"});
+  INFO(same.err);
+  CHECK(same.exit_code() == 0);
 }
 
 TEST_CASE(
