@@ -52,6 +52,7 @@ export class Inspector {
     this.shape = "";
     system.addEventListener("figures", () => this.refresh());
     system.addEventListener("graph", () => this.showPorts());
+    connection.addEventListener("hello", () => this.followLog());  // of another connection, perhaps of another run
     element.hidden = true;
   }
 
@@ -99,7 +100,6 @@ export class Inspector {
     const component = this.system.components.get(name);
     const section = (/** @type {string} */ title, /** @type {boolean} */ open, /** @type {Node[]} */ ...content) =>
       el("details", { class: "card", open }, el("summary", {}, title), ...content);
-    this.log.replaceChildren();
     this.watched.replaceChildren();
     this.element.replaceChildren(
       this.closing(),
@@ -112,7 +112,7 @@ export class Inspector {
     this.values.replaceChildren();
     this.showPorts();
     this.readValues(name);
-    this.followLog(name);
+    this.followLog();
   }
 
   /** @param {string} name */
@@ -235,11 +235,12 @@ export class Inspector {
 
   // ------------------------------------------------------------------------------------------------ its log
 
-  /**
-   * Shows the last lines of a component, and those that come. All lines are followed, and a line may come twice.
-   * @param {string} name
-   */
-  async followLog(name) {
+  /** Shows the last lines of the component, and those that come. All lines are followed, and a line may come twice. */
+  async followLog() {
+    if (this.choice === null || !("component" in this.choice)) return;
+    const name = this.choice.component;
+    this.endLog();
+    this.log.replaceChildren();
     this.lines.clear();
     const take = (/** @type {Record<string, any>} */ record) => {
       const key = `${record.time} ${record.text}`;
