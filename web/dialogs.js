@@ -15,22 +15,28 @@ import { byId, el, notify } from "./dom.js";
  * Opens a dialog. The verdict on what was ordered stays in it until it is closed.
  * @param {string} title
  * @param {HTMLElement[]} content
- * @param {{label: string, order: (say: (...parts: (Node | string)[]) => void) => Promise<boolean>}[]} orders  an order returns whether it is done
+ * @param {{label: string, order: (say: (...parts: (Node | string)[]) => void) => Promise<boolean>, isReady?: () => boolean}[]} orders
+ *   an order returns whether it is done; one that is not ready cannot be given
  */
 function ask(title, content, orders) {
   const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
   const verdict = el("div", { class: "verdict", "aria-live": "polite" });
   const say = (/** @type {(Node | string)[]} */ ...parts) => verdict.replaceChildren(...parts);
+  const enable = () => orders.forEach(({ isReady }, i) => {
+    buttons[i].disabled = isReady !== undefined && !isReady();
+  });
   const buttons = orders.map(({ label, order }) => {
     const button = el("button", { class: "primary", type: "button" }, label);
     button.addEventListener("click", async () => {
       for (const each of buttons) each.disabled = true;
       await order(say);
-      for (const each of buttons) each.disabled = false;
+      enable();
     });
     return button;
   });
   const close = el("button", { type: "button", click: () => dialog.close() }, "Close");
+  enable();
+  dialog.oninput = enable;
   dialog.close();
   dialog.replaceChildren(el("h2", {}, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
   dialog.show();  // not modal: STOP stays in reach
@@ -51,33 +57,61 @@ export function tableOf(rows) {
 }
 
 /**
- * Exchanges the code of a component: chosen, tried out, and its verdict shown.
+ * Exchanges the code of a component: chosen from what fits, tried out with its verdict shown, and only then put in its place.
  * @param {Connection} connection
  * @param {SystemModel} system
  * @param {Component} component
  */
 export async function askSwap(connection, system, component) {
-  const { records } = await connection.ask("plugins");
-  const file = el("input", { type: "text", id: "swap-file", value: component.plugin, list: "plugin-files", spellcheck: "false", size: 60 });
+  const { name } = component;
+  const file = el("input", { type: "text", id: "swap-file", value: component.plugin, spellcheck: "false", size: 60 });
   const type = el("input", { type: "text", id: "swap-type", value: component.type, spellcheck: "false" });
   const fresh = el("input", { type: "checkbox", id: "swap-fresh" });
   const untried = el("input", { type: "checkbox", id: "swap-untried" });
-  const order = async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
-    say("It is tried out with what reaches the component now, then it takes over between two laps, then it is on probation. That takes some seconds.");
-    const words = [component.name, `${file.value}:${type.value}`, ...(fresh.checked ? ["--fresh"] : []), ...(untried.checked ? ["--untried"] : [])];
-    const answer = await connection.ask("swap", ...words);
-    if (answer.ok) say(el("p", { class: "good" }, `${component.name} runs the code of ${file.value}.`), tableOf(answer.records), ...answer.notes.map((note) => el("p", {}, note)));
+  const choice = el("select", { id: "swap-choice", disabled: true }, el("option", {}, "looking for what fits …"));
+  const other = el("details", {}, el("summary", {}, "another file"), el("label", { for: "swap-file" }, "File on the robot's machine"), file, el("label", { for: "swap-type" }, "Type in it"), type);
+  choice.addEventListener("input", () => {
+    [file.value, type.value] = choice.value.split("\n");
+  });
+  const wanted = () => `${file.value}:${type.value}`;
+  let tried = "";
+  const attempt = async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+    say("It is tried out with what reaches the component now. That takes some seconds; nothing changes.");
+    const code = wanted();
+    const { ok, records, error } = await connection.ask("swap", name, code, "--only-try", ...(untried.checked ? ["--untried"] : []));
+    tried = ok ? code : "";
+    if (!ok) say(el("pre", { class: "bad" }, error));
+    else say(el("p", { class: "good" }, verdictOf(name, records[0])));
+    return ok;
+  };
+  const swap = async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+    say("It is tried out once more, then it takes over between two laps, then it is on probation. That takes some seconds.");
+    const answer = await connection.ask("swap", name, wanted(), ...(fresh.checked ? ["--fresh"] : []), ...(untried.checked ? ["--untried"] : []));
+    if (answer.ok) say(el("p", { class: "good" }, `${name} runs the code of ${file.value}.`), tableOf(answer.records), ...answer.notes.map((note) => el("p", {}, note)));
     else say(el("pre", { class: "bad" }, answer.error));
     await system.refresh();
     return answer.ok;
   };
-  ask(`Exchange the code of ${component.name}`, [
-    el("label", { for: "swap-file" }, "File on the robot's machine"), file,
-    el("datalist", { id: "plugin-files" }, ...records.map((row) => el("option", { value: row.plugin }, row.types))),
-    el("label", { for: "swap-type" }, "Type in it"), type,
+  ask(`Exchange the code of ${name}`, [
+    el("label", { for: "swap-choice" }, "Code whose ports fit"), choice, other,
     el("label", { class: "check" }, fresh, "begin without the old code's state"),
     el("label", { class: "check" }, untried, "take it even if it cannot be tried out"),
-  ], [{ label: "Try and swap", order }]);
+  ], [{ label: "Try", order: attempt }, { label: "Swap", order: swap, isReady: () => tried !== "" && tried === wanted() }]);
+  const { ok, records, error } = await connection.ask("fits", name);
+  if (!ok) choice.replaceChildren(el("option", {}, error));
+  else choice.replaceChildren(...records.map((row) => el("option", { value: `${row.plugin}\n${row.type}`, selected: row.plugin === file.value && row.type === type.value }, `${row.type} of ${row.plugin}`)));
+  choice.disabled = !ok || records.length === 0;
+  other.open = choice.disabled;
+}
+
+/**
+ * @param {string} name  of the component
+ * @param {Record<string, any>} tried  what a trial has answered
+ * @returns {string}
+ */
+function verdictOf(name, tried) {
+  if (tried.untried !== "") return `It could not be tried out: ${tried.untried}`;
+  return `${tried.type} can take the place of ${name}: it got ${tried.got} objects, pushed ${tried.pushed}, and did not fail.`;
 }
 
 /**

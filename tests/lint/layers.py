@@ -142,7 +142,7 @@ LAYERS = (
     Layer("host_swap", (f"{HOST}/run/swap",), ("orca/host/swap.hpp", "orca/host/timed_change.hpp"), ("host_trial",
           "host_system", "host_hardware", "host_component", "host_component_parts", "host_reporting", "host",
           "host_containment", "plugin", "graph", "hw_api", "patterns_local", "xml", "base"), module=HOST),
-    Layer("host_part", (f"{HOST}/run/part",), ("orca/host/hosted_part.hpp", "orca/host/part_access.hpp", "orca/host/shadow.hpp"), ("host_swap",
+    Layer("host_part", (f"{HOST}/run/part",), ("orca/host/fitting.hpp", "orca/host/hosted_part.hpp", "orca/host/part_access.hpp", "orca/host/shadow.hpp"), ("host_swap",
           "host_trial", "host_system", "host_reporting", "host_recording", "host", "host_containment", "plugin", "graph",
           "patterns_dds", "patterns_shm", "patterns_endpoints", "idl", "base"), module=HOST),
     Layer("host_judging", (f"{HOST}/run/judging",), ("orca/host/edge_choice.hpp", "orca/host/idleness.hpp",

@@ -239,7 +239,8 @@ std::vector<Command> exchanging_commands() {
                    {"--probation", "DURATION",
                     "time in which a failure brings the old code back (default 2 s)"},
                    kUntried,
-                   {"--fresh", "", "begin without the old code's state, which is not asked for it"}},
+                   {"--fresh", "", "begin without the old code's state, which is not asked for it"},
+                   {"--only-try", "", "try the new code out, say what came of it, and change nothing"}},
        .text = "exchange the code of a component, or a driver, while it runs",
        .details =
            "For two seconds, what reaches the component is collected; then the new code is tried with that "
@@ -253,6 +254,12 @@ std::vector<Command> exchanging_commands() {
            "hardware instead of a component, its driver is exchanged: the base stops and is held, the device "
            "is closed and opened anew, and the old driver is back if the new one is not ready within 5 s. "
            "There is no trial and no probation then."},
+      {.name = "fits",
+       .arguments = {kComponent},
+       .text = "the types of the plugin folders that could take a component's place",
+       .details = "Their ports are compared with those of the component, as swap does. For that, their "
+                  "constructors run in a copy of the deployer's process; a plugin that does not survive "
+                  "that is named on stderr."},
       {.name = "connect",
        .arguments = {kPort, kPort, {"ATTRIBUTE=VALUE", Names::none, true, true}},
        .text = "make a connection while the system runs, or give it another policy",

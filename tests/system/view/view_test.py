@@ -6,12 +6,11 @@
 """
 import math
 import re
-import shutil
 
 from page_case import PageCase, main, wait_for
 from selenium.webdriver import ActionChains
 from selenium.webdriver.common.keys import Keys
-from view_case import BUILD
+from selenium.webdriver.support.ui import Select
 
 KITCHEN = (4.2, 9.8)
 WAY_TO_KITCHEN = ((3.6, 6.0), (3.6, 7.6))
@@ -106,24 +105,34 @@ class Page(PageCase):
         self.assertIn("G021", refused)
         self.assertEqual(self.wires(), before)
 
+    def verdict(self, sign):
+        """Returns the part of the dialog's verdict that the sign finds."""
+        found = wait_for("the verdict", lambda: re.search(f"{sign}|refused|error", self.text("#dialog .verdict")), 60)
+        self.assertRegex(found[0], sign, self.text("#dialog .verdict"))
+        return found[0]
+
     def test_4_code_is_exchanged_by_mouse_while_it_drives(self):
-        copy = self.folder / "sonar_avoid.so"
-        shutil.copy(BUILD / "plugins" / "sonar_avoid.so", copy)
         self.click("#tab-world")
         wait_for("the robot drives", self.drives)
         self.open_graph()
         self.mouse(self.middle_of('#graph [data-component="avoid"] .name'))
         self.click("#inspector .row button:nth-child(2)")
-        file = wait_for("the question for the file", lambda: self.browser.find_elements("css selector", "#swap-file"))[0]
-        file.clear()
-        file.send_keys(str(copy))
+        choice = Select(wait_for("the code that fits", lambda: self.browser.find_elements("css selector", "#swap-choice:enabled"))[0])
+        offered = [option.text.split(" of ")[0] for option in choice.options]
+        self.assertIn("orca.SonarAvoid", offered)
+        self.assertNotIn("orca.Goto", offered, "its ports are others")
+        self.assertFalse(self.part("#dialog .end button:nth-child(2)").is_enabled(), "nothing was tried yet")
+        choice.select_by_index(offered.index("orca.SonarAvoid"))
+        self.click("#dialog .end button:nth-child(1)")
+        self.assertEqual(self.verdict("can take the place of avoid"), "can take the place of avoid")
+        swaps = lambda: next(row["swaps"] for row in self.rows_of("plugins") if "avoid" in row["used_by"].split())
+        self.assertEqual(swaps(), 0, "the trial has exchanged nothing")
         before = self.pose()
-        self.click("#dialog button.primary")
-        verdict = wait_for("the verdict", lambda: re.search("runs the code|refused|error", self.text("#dialog .verdict")), 60)
-        self.assertEqual(verdict[0], "runs the code", self.text("#dialog .verdict"))
+        self.click("#dialog .end button:nth-child(2)")
+        self.verdict("runs the code")
         self.assertGreater(math.dist(before, self.pose()), 0.2, "it drove meanwhile")
         self.picture("swap")
-        self.assertEqual(next(row["plugin"] for row in self.rows_of("ps") if row["name"] == "avoid"), str(copy))
+        self.assertEqual(swaps(), 1)
         self.click("#dialog .end button:last-child")
 
     def write(self, parameter, *words):

@@ -19,6 +19,7 @@ PluginFacts plugin_of(PluginKind kind, const std::string& type, host::PluginCata
 
 SystemFacts facts_of(const graph::Graph& graph, host::PluginCatalogue& catalogue) {
   SystemFacts facts;
+  facts.plugin_folders = catalogue.folders();
   facts.ports = graph::list_ports(graph, catalogue);
   for (const graph::HardwareNode& node : graph.hardware) {
     facts.plugins[node.type] = plugin_of(PluginKind::hardware, node.type, catalogue);

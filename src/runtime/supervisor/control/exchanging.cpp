@@ -7,6 +7,7 @@
 
 #include "orca/base/log.hpp"
 #include "orca/base/time.hpp"
+#include "orca/host/fitting.hpp"
 #include "orca/plugin/image.hpp"
 #include "orca/xml/quantity.hpp"
 
@@ -47,6 +48,7 @@ Status read_option(const std::string& option, const std::string& text, SwapWish&
 bool take_flag(const std::string& option, SwapWish& wish) {
   if (option == "--untried") return wish.untried = true;
   if (option == "--fresh") return wish.fresh = true;
+  if (option == "--only-try") return wish.only_tries = true;
   return false;
 }
 
@@ -129,8 +131,30 @@ void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& rep
   if (!wish) return reply->refuse(wish.error());
   const Result<Record> done = exchange(*wish);
   if (!done) return reply->refuse(done.error());
-  operating_.note_set(wish->component, wish->params);
+  if (!wish->only_tries) operating_.note_set(wish->component, wish->params);
   reply->add(*done);
+}
+
+void Exchanging::show_fitting(const std::string& component, const ReplyPtr& reply) {
+  const Result<const graph::ComponentNode*> node = names_.component(component);
+  if (!node) return reply->refuse(node.error());
+  if (!(*node)->hardware.empty())
+    return reply->refuse(fail(Code::failed_precondition,
+                              "it serves hardware, and cannot be exchanged while that runs; orcactl swap " +
+                                  (*node)->hardware + " exchanges the driver",
+                              component));
+  const graph::Graph graph = graph_;  // both may change meanwhile
+  const std::vector<PortContract> ports = ports_of(component);
+  const plugin::PluginIndex index(facts_.plugin_folders);
+  Result<std::vector<host::OfferedCode>> offers = std::vector<host::OfferedCode>{};
+  conductor_.run_aside("fitting", [&](const std::function<bool()>& give_up) {
+    offers = host::compare_offers(graph, component, ports, index, give_up);
+  });
+  if (!offers) return reply->refuse(offers.error());
+  for (const host::OfferedCode& code : *offers) {
+    if (code.misfit.empty()) reply->add(Record{{"type", code.type}, {"plugin", code.file}});
+    if (code.is_broken) reply->note(code.file + " could not be looked at: " + code.misfit);
+  }
 }
 
 void Exchanging::take_rebuilt(const std::string& file) {
@@ -165,6 +189,9 @@ Result<Record> Exchanging::exchange(const SwapWish& wish) {
   const Busy busy(busy_, wish.component);
   const graph::HardwareNode* const hardware = graph_.find_hardware(wish.component);
   const bool is_driver = hardware != nullptr && graph_.find_component(wish.component) == nullptr;
+  if (is_driver && wish.only_tries)
+    return fail(Code::failed_precondition, "a driver is not tried out", wish.component);
+  if (wish.only_tries) return only_try(wish);
   return is_driver ? exchange_driver(wish, *hardware) : exchange_component(wish);
 }
 
@@ -177,15 +204,13 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
   Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
   if (!image) return image.error();
   log::info(wish.component, "its code is to be exchanged for " + image->origin());
-  const host::ShadowOrder order{graph_,
-                                wish.component,
-                                wish.type.empty() ? code_of(**node).type : wish.type,
-                                ports_of(wish.component),
-                                operating_.params_of(**node),
-                                wish.params,
-                                wish.tryout};
-  const Result<bool> was_tried = wish.has_worked ? true : try_out(wish, order, **member, *image);
-  if (!was_tried) return was_tried.error();
+  const host::ShadowOrder order = trial_of(wish, **node);
+  bool was_tried = wish.has_worked;
+  if (!wish.has_worked) {
+    const Result<host::ShadowReport> tried = try_out(wish, order, **member, *image);
+    if (!tried) return tried.error();
+    was_tried = tried->untried.empty();
+  }
   node = find();
   if (!node) return node.error();  // it has gone meanwhile
   member = names_.ready_member_of(**node);
@@ -197,8 +222,38 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
                                static_cast<std::uint64_t>(wish.probation.count()),
                                file,
                                std::move(*image).take_bytes(),
-                               *was_tried,
+                               was_tried,
                                wish.fresh});
+}
+
+host::ShadowOrder Exchanging::trial_of(const SwapWish& wish, const graph::ComponentNode& node) const {
+  return {graph_,
+          wish.component,
+          wish.type.empty() ? code_of(node).type : wish.type,
+          ports_of(wish.component),
+          operating_.params_of(node),
+          wish.params,
+          wish.tryout};
+}
+
+Result<Record> Exchanging::only_try(const SwapWish& wish) {
+  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
+  if (!node) return node.error();
+  if (!(*node)->hardware.empty())
+    return fail(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs",
+                wish.component);
+  const Result<Member*> member = names_.ready_member_of(**node);
+  if (!member) return member.error();
+  Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
+  if (!image) return image.error();
+  const host::ShadowOrder order = trial_of(wish, **node);
+  const Result<host::ShadowReport> tried = try_out(wish, order, **member, *image);
+  if (!tried) return tried.error();
+  return Record{{"type", order.type},
+                {"plugin", image->origin()},
+                {"got", tried->given},
+                {"pushed", tried->pushed},
+                {"untried", tried->untried}};
 }
 
 // A new driver is not tried out in a shadow: the process tries the plugin as it does each time it loads one.
@@ -219,9 +274,9 @@ Result<Record> Exchanging::exchange_driver(const SwapWish& wish, const graph::Ha
                                false});
 }
 
-// Returns whether the code could be tried out. If it could not, the wish takes it all the same.
-Result<bool> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& order, Member& member,
-                                 plugin::PluginImage& image) {
+// If the code could not be tried out, the wish takes it all the same.
+Result<host::ShadowReport> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& order,
+                                               Member& member, plugin::PluginImage& image) {
   std::vector<WatchedPort> ports;
   if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, member);
   TryoutLines lines{std::move(ports), lines_to_servers_of(wish.component)};
@@ -245,7 +300,7 @@ Result<bool> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& 
                     "ends and begins anew",
                 wish.component);
   }
-  return tried->untried.empty();
+  return tried;
 }
 
 Result<Record> Exchanging::order_swap(Member& member, SwapCode swap) {

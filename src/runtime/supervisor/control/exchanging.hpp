@@ -40,6 +40,7 @@ struct SwapWish {
   bool has_worked = false;  ///< In this system before, so it is not tried out.
   bool untried = false;     ///< It is taken even if it cannot be tried out.
   bool fresh = false;       ///< It begins without the state of the old one, which is not asked for it.
+  bool only_tries = false;  ///< Nothing is exchanged.
 };
 
 /// Exchanges the code of components and drivers at an operator's word, and knows which code each of them runs.
@@ -54,9 +55,13 @@ class Exchanging {
 
   /// Exchanges a component's code, after it was tried out, or a driver. A job of the conductor waits until the old code, or
   /// the new one if it was refused, is gone.
+  /// With --only-try it is tried out and nothing else, and the answer says what came of it.
   /// @param words  COMPONENT PLUGIN.so[:TYPE] [--set PARAM=VALUE]... [--tryout DURATION] [--probation DURATION] [--untried]
-  ///               [--fresh].
+  ///               [--fresh] [--only-try].
   void swap(const std::vector<std::string>& words, const ReplyPtr& reply);
+  /// Answers with the types of the plugin folders whose ports fit a component, and notes those that could not be asked for
+  /// their ports. A job of the conductor waits for a copy of this process that looks at all of them.
+  void show_fitting(const std::string& component, const ReplyPtr& reply);
   /// Does the same for a wish that was read.
   /// @return what an operator is told of it.
   Result<Record> exchange(const SwapWish& wish);
@@ -95,8 +100,10 @@ class Exchanging {
   [[nodiscard]] std::vector<ServerLine> lines_to_servers_of(const std::string& component) const;
   [[nodiscard]] Result<Record> exchange_component(const SwapWish& wish);
   [[nodiscard]] Result<Record> exchange_driver(const SwapWish& wish, const graph::HardwareNode& hardware);
-  [[nodiscard]] Result<bool> try_out(const SwapWish& wish, const host::ShadowOrder& order, Member& member,
-                                     plugin::PluginImage& image);
+  [[nodiscard]] host::ShadowOrder trial_of(const SwapWish& wish, const graph::ComponentNode& node) const;
+  [[nodiscard]] Result<host::ShadowReport> try_out(const SwapWish& wish, const host::ShadowOrder& order,
+                                                   Member& member, plugin::PluginImage& image);
+  [[nodiscard]] Result<Record> only_try(const SwapWish& wish);
   [[nodiscard]] Result<Record> order_swap(Member& member, SwapCode swap);
   [[nodiscard]] CodeFacts code_of(const std::string& name, const std::string& type,
                                   const std::string& process) const;

@@ -24,8 +24,9 @@ const std::set<std::string, std::less<>> kOfThisMachine{"ps",     "plugins",  "c
                                                         "alarms", "missions", "log"};
 
 // These wait for the system, so each is a job of its own.
-const std::set<std::string, std::less<>> kJobs{"suspend",    "resume", "swap", "diff",    "apply", "connect",
-                                               "disconnect", "move",   "set",  "restart", "line",  "step"};
+const std::set<std::string, std::less<>> kJobs{"suspend", "resume",  "swap",       "fits", "diff",
+                                               "apply",   "connect", "disconnect", "move", "set",
+                                               "restart", "line",    "step"};
 
 // Returns whether an option is among the words.
 bool has(const Ask& ask, std::string_view option) {
@@ -156,6 +157,8 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"resume",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
       {"swap", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.exchanging_.swap(ask.words, r); }},
+      {"fits", [](ControlDesk& d, const Ask& ask,
+                  const ReplyPtr& r) { d.exchanging_.show_fitting(word(ask, 0), r); }},
       {"diff",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.applying_.compare(word(ask, 0), r); }},
       {"apply", [](ControlDesk& d, const Ask& ask,

@@ -57,6 +57,9 @@ class PluginCatalogue final : public graph::Catalogue {
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
+  /// Returns the folders of the plugins, those of the graph last.
+  [[nodiscard]] const std::vector<std::string>& folders() const { return index_.folders(); }
+
   /// Reads the folders again: since the last time a plugin may have been built.
   void refresh();
 

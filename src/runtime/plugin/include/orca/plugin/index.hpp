@@ -30,6 +30,9 @@ class PluginIndex {
   /// @errors  not_found, naming the places searched; already_exists if two plugins of one folder hold it.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
 
+  /// Returns the folders, in the order in which they are searched.
+  [[nodiscard]] const std::vector<std::string>& folders() const { return folders_; }
+
   /// Returns the names of all types of one kind, sorted.
   [[nodiscard]] std::vector<std::string> types(PluginKind kind) const;
 

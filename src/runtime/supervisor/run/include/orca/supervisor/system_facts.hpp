@@ -28,6 +28,7 @@ struct SystemFacts {
   std::map<std::string, Contract> contracts;   ///< By component.
   std::map<std::string, Contract> drivers;     ///< By hardware; their parameters.
   std::map<std::string, PluginFacts> plugins;  ///< By type.
+  std::vector<std::string> plugin_folders;     ///< In the order in which they are searched.
 };
 
 /// A graph that was read and checked.
