@@ -3,7 +3,7 @@
 
 import { Connection } from "./connection.js";
 import { ComponentView } from "./component_view.js";
-import { askApply } from "./dialogs.js";
+import { askApply, askUndo } from "./dialogs.js";
 import { byId, notify, setText } from "./dom.js";
 import { Inspector } from "./inspector.js";
 import { Pacing } from "./pacing.js";
@@ -26,6 +26,9 @@ const systemView = new SystemView(connection, system);
 const inspector = new Inspector(byId("inspector"), connection, system, (choice) => systemView.choose(choice));
 systemView.addEventListener("chosen", () => inspector.show(systemView.choice));
 byId("graph-apply").addEventListener("click", () => askApply(connection, system));
+byId("graph-undo").addEventListener("click", () => askUndo(connection, system));
+system.addEventListener("figures", showUndo);
+connection.addEventListener("gone", showUndo);
 new Teleoperation(connection, system);
 new Pacing(connection, system);
 
@@ -101,6 +104,10 @@ function showState() {
   byId("stop").hidden = hello !== null && hello.role !== "operator";
   byId("dropped").hidden = connection.dropped === 0;
   setText(byId("dropped"), `${connection.dropped} objects left out`);
+}
+
+function showUndo() {
+  byId("graph-undo").hidden = system.graphBefore === "" || !connection.steers;
 }
 
 function showHold() {

@@ -127,6 +127,11 @@ export class Connection extends EventTarget {
     return this.request({ op: "ask", command, words: [], graph }).answer;
   }
 
+  /** @returns {Promise<Answer>} in `text` the graph as it runs now, as a file to come back to */
+  askGraphThatRuns() {
+    return this.request({ op: "ask", command: "graph", words: ["--running"], as_text: true }).answer;
+  }
+
   /**
    * Gives a command that goes on, such as `log --follow`.
    * @param {string} command @param {string[]} words @param {(record: any) => void} record

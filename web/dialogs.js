@@ -17,6 +17,7 @@ import { byId, el, notify } from "./dom.js";
  * @param {HTMLElement[]} content
  * @param {{label: string, order: (say: (...parts: (Node | string)[]) => void) => Promise<boolean>, isReady?: () => boolean}[]} orders
  *   an order returns whether it is done; one that is not ready cannot be given
+ * @returns {{say: (...parts: (Node | string)[]) => void, enable: () => void}} to be used when something else has changed
  */
 function ask(title, content, orders) {
   const dialog = /** @type {HTMLDialogElement} */ (byId("dialog"));
@@ -41,6 +42,7 @@ function ask(title, content, orders) {
   dialog.replaceChildren(el("h2", {}, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
   dialog.show();  // not modal: STOP stays in reach
   dialog.querySelector("input")?.focus();
+  return { say, enable };
 }
 
 /**
@@ -115,6 +117,34 @@ function verdictOf(name, tried) {
 }
 
 /**
+ * Shows what an answer to `diff` or `apply` says.
+ * @param {(...parts: (Node | string)[]) => void} say
+ * @param {Answer} answer
+ * @param {string} title
+ */
+function sayChanges(say, answer, title) {
+  if (!answer.ok) say(el("pre", { class: "bad" }, answer.error));
+  else if (answer.records.length === 0) say("Nothing differs from what runs.");
+  else say(el("p", { class: "good" }, title), tableOf(answer.records));
+}
+
+/**
+ * Lets the system become another graph, and keeps what ran before.
+ * @param {Connection} connection
+ * @param {SystemModel} system
+ * @param {() => Promise<Answer>} apply
+ * @returns {Promise<Answer>}
+ */
+async function applied(connection, system, apply) {
+  const before = await connection.askGraphThatRuns();
+  const answer = await apply();
+  if (answer.ok && answer.records.length > 0) system.graphBefore = before.ok ? before.text : "";
+  if (answer.ok && !before.ok) notify(`There is no way back, since it could not be read what ran before: ${before.error}`, "refused");
+  await system.refresh();
+  return answer;
+}
+
+/**
  * Applies a graph file: first the difference, then the order.
  * @param {Connection} connection
  * @param {SystemModel} system
@@ -122,24 +152,58 @@ function verdictOf(name, tried) {
 export function askApply(connection, system) {
   const file = el("input", { type: "text", id: "apply-file", spellcheck: "false", size: 60, placeholder: "graphs/my.xml" });
   const own = el("input", { type: "file", id: "apply-own", accept: ".xml" });
-  const order = (/** @type {string} */ command) => async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+  const askWith = async (/** @type {string} */ command) => {
     const chosen = own.files?.[0];
-    if (file.value.trim() === "" && chosen === undefined) return say("Name a graph file, or choose one."), false;
-    say(command === "diff" ? "It is compared …" : "It is applied …");
-    const answer = await (chosen === undefined ? connection.ask(command, file.value.trim()) : connection.askWithGraph(command, await chosen.text()));
-    if (!answer.ok) say(el("pre", { class: "bad" }, answer.error));
-    else if (answer.records.length === 0) say("Nothing differs from what runs.");
-    else say(el("p", { class: "good" }, command === "diff" ? "This would change:" : "This has changed:"), tableOf(answer.records));
-    if (command === "apply") await system.refresh();
-    return answer.ok;
+    return chosen === undefined ? connection.ask(command, file.value.trim()) : connection.askWithGraph(command, await chosen.text());
   };
+  const isNamed = () => file.value.trim() !== "" || own.files?.[0] !== undefined;
   ask("Let the system become what a graph says", [
     el("label", { for: "apply-file" }, "Graph file on the deployer's machine"), file,
     el("label", { for: "apply-own" }, "or a file of this computer, whose paths are absolute"), own,
   ], [
-    { label: "Compare", order: order("diff") },
-    { label: "Apply", order: order("apply") },
+    {
+      label: "Compare", isReady: isNamed, order: async (say) => {
+        say("It is compared …");
+        const answer = await askWith("diff");
+        sayChanges(say, answer, "This would change:");
+        return answer.ok;
+      },
+    },
+    {
+      label: "Apply", isReady: isNamed, order: async (say) => {
+        say("It is applied …");
+        const answer = await applied(connection, system, () => askWith("apply"));
+        sayChanges(say, answer, "This has changed. “Undo apply …” goes back to the graph that ran before:");
+        return answer.ok;
+      },
+    },
   ]);
+}
+
+/**
+ * Goes back to the graph that ran before another one was applied: first it shows what would change, or why that is not possible.
+ * @param {Connection} connection
+ * @param {SystemModel} system
+ */
+export async function askUndo(connection, system) {
+  const before = system.graphBefore;
+  let isPossible = false;
+  const order = async (/** @type {(...parts: (Node | string)[]) => void} */ say) => {
+    say("It goes back …");
+    const answer = await applied(connection, system, () => connection.askWithGraph("apply", before));
+    isPossible = !answer.ok;
+    sayChanges(say, answer, "It has gone back. This has changed:");
+    return answer.ok;
+  };
+  const { say, enable } = ask("Go back to the graph that ran before", [
+    el("p", { class: "small" }, "With the values and types that it had then. What others have changed since goes back, too."),
+  ], [{ label: "Go back", order, isReady: () => isPossible }]);
+  say("It is compared with what runs …");
+  const answer = await connection.askWithGraph("diff", before);
+  isPossible = answer.ok && answer.records.length > 0;
+  sayChanges(say, answer, "This would change:");
+  if (!answer.ok) say(el("p", { class: "bad" }, "The system cannot go back:"), el("pre", { class: "bad" }, answer.error));
+  enable();
 }
 
 /**

@@ -101,7 +101,12 @@ export class SystemModel extends EventTarget {
     this.rowsAt = 0;
     this.shape = "";
     this.busy = false;
+    /** The graph that ran before this page has applied another one; empty: it has not. */
+    this.graphBefore = "";
     connection.addEventListener("hello", () => this.begin());
+    connection.addEventListener("gone", () => {
+      this.graphBefore = "";
+    });
     setInterval(() => this.poll(), INTERVAL);
   }
 

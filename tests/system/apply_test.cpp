@@ -129,6 +129,28 @@ std::string with_vfh_plus(std::string graph) {
 
 }  // namespace
 
+TEST_CASE("what runs is printed as a graph, and applying that goes back to it", "[system][apply]") {
+  Applied system;
+  REQUIRE(system.apply({.first = "test.OtherTeller", .step = 2}).exit_code() == 0);
+  REQUIRE(run_orcactl({"set", "b.step", "3"}).exit_code() == 0);
+  const Run graph = run_orcactl({"graph", "--running"});
+  REQUIRE(graph.exit_code() == 0);
+  const TempFolder elsewhere;
+  const std::string file = elsewhere.write("before.xml", graph.out);
+  CHECK_THAT(run_orcactl({"diff", file}).out, Contains("runs like that already"));
+  const Run away = system.apply({});
+  INFO(away.err << system.log());
+  REQUIRE(away.exit_code() == 0);
+  CHECK(run_orcactl({"graph", "--running"}).out != graph.out);
+  const Run back = run_orcactl({"apply", file}, Seconds(40));
+  INFO(back.err);
+  REQUIRE(back.exit_code() == 0);
+  CHECK(run_orcactl({"graph", "--running"}).out == graph.out);
+  CHECK_THAT(run_orcactl({"ps"}).out, Contains("test.OtherTeller"));
+  CHECK_THAT(run_orcactl({"get", "b.step"}).out, Contains(" 3"));
+  system.end();
+}
+
 TEST_CASE("the difference to what runs is shown with its cost, and nothing changes", "[system][apply]") {
   Applied system;
   const std::string before = all_that_is_seen();

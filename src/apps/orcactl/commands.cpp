@@ -97,7 +97,11 @@ constexpr const char* kPaceDetails =
 std::vector<Command> showing_commands() {
   return {
       {.name = "ps", .watches = true, .text = "the components: where they run and how they are"},
-      {.name = "graph", .text = "the graph, with files, arguments and profiles merged"},
+      {.name = "graph",
+       .options = {{"--running", "", "with the values and types that set and swap have put there"}},
+       .text = "the graph, with files, arguments and profiles merged",
+       .details = "What it prints is a graph file. With --running it says what runs now, so that apply can "
+                  "come back to it later."},
       {.name = "ports", .text = "the ports of all components, and what they are connected to"},
       {.name = "plugins",
        .text = "the plugin files, and who uses them",

@@ -108,7 +108,7 @@ void Page::refuse(std::uint32_t id, const std::string& why) {
 }
 
 void Page::ask(const Wish& wish) {
-  supervisor::Ask ask{wish.command, wish.words, true};
+  supervisor::Ask ask{wish.command, wish.words, !wish.as_text};
   if (ask.command == "line") return refuse(wish.id, "a page looks at a port with the op look");
   if (role() == Role::reader && !only_shows(ask.command, !ask.words.empty()))
     return refuse(wish.id, kOnlyLooks);

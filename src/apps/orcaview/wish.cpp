@@ -44,6 +44,7 @@ Result<Wish> read(const json& message, std::uint32_t& id) {
   wish.words = member<std::vector<std::string>>(message, "words");
   wish.streams = member<bool>(message, "stream");
   wish.graph = member<std::string>(message, "graph");
+  wish.as_text = member<bool>(message, "as_text");
   wish.port = member<std::string>(message, "port");
   wish.rate = member<double>(message, "rate");
   wish.xml = member<std::string>(message, "xml");

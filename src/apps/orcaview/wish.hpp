@@ -19,6 +19,7 @@ struct Wish {
   std::vector<std::string> words{};  ///< Its words.
   bool streams = false;              ///< Its records are wanted as they come.
   std::string graph{};               ///< A graph, in place of the file that the first word would name.
+  bool as_text = false;              ///< A text is wanted as for people, not as JSON.
   std::string port{};                ///< For look, query and send.
   double rate = 0.0;                 ///< [1/s] Most objects of a look, from 0.001 to 1000; 0: all.
   std::string xml{};                 ///< The object for query and send, in its text form.

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -35,6 +36,8 @@ class ViewCase(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
+        cls.graph = cls.copy_of_tree() / "graphs" / f"{cls.NAME}.xml"
+        (cls.folder / "plugins").mkdir()
         cls.system = cls.start_system()
         cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.NAME, "--port", "0", "--web", TREE / "web"], env=cls.environment,
                                     stdout=subprocess.PIPE, text=True)
@@ -44,9 +47,20 @@ class ViewCase(unittest.TestCase):
         cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
 
     @classmethod
+    def copy_of_tree(cls):
+        """Returns a folder with the tree's own graphs, which may be written to, beside links to all else."""
+        tree = cls.folder / "tree"
+        tree.mkdir()
+        for each in TREE.iterdir():
+            if each.name == "graphs":
+                shutil.copytree(each, tree / each.name)
+            else:
+                (tree / each.name).symlink_to(each)
+        return tree
+
+    @classmethod
     def start_system(cls):
-        graph = TREE / "graphs" / f"{cls.NAME}.xml"
-        system = subprocess.Popen([BUILD / "bin" / "deployer", graph, "--no-progress", "--log", "error", *cls.OPTIONS],
+        system = subprocess.Popen([BUILD / "bin" / "deployer", cls.graph, "--plugins", cls.folder / "plugins", "--no-progress", "--log", "error", *cls.OPTIONS],
                                   env=cls.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL)
         cls.addClassCleanup(cls.end, system)

@@ -6,11 +6,14 @@
 """
 import math
 import re
+import shutil
+import xml.etree.ElementTree
 
 from page_case import PageCase, main, wait_for
 from selenium.webdriver import ActionChains
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
+from view_case import BUILD
 
 KITCHEN = (4.2, 9.8)
 WAY_TO_KITCHEN = ((3.6, 6.0), (3.6, 7.6))
@@ -160,6 +163,61 @@ class Page(PageCase):
         self.look_at("goto", "localizer")
         self.assertIn("RobotPose", self.text("#component .object .small"))
         self.picture("component")
+
+    def change_speed(self, speed):
+        """Writes the graph that runs with another speed of goto, and returns the file."""
+        graph = xml.etree.ElementTree.fromstring(self.orcactl("graph").stdout)
+        goto = next(node for node in graph.iter("component") if node.get("name") == "goto")
+        for node in [each for each in goto.iter("param") if each.get("name") == "max_speed"]:
+            goto.remove(node)
+        xml.etree.ElementTree.SubElement(goto, "param", name="max_speed", value=speed)
+        file = self.folder / "changed.xml"
+        xml.etree.ElementTree.ElementTree(graph).write(file)
+        return file
+
+    def test_5b_an_applied_graph_is_taken_back(self):
+        self.open_graph()
+        self.assertEqual(self.orcactl("set", "goto.max_speed", "0.44").returncode, 0)  # no graph file says so
+        file = self.change_speed("0.31")
+        self.click("#graph-apply")
+        self.part("#apply-own").send_keys(str(file))
+        self.click("#dialog .end button:nth-child(2)")
+        self.verdict("This has changed")
+        self.assertEqual(self.value("goto.max_speed"), "0.31")
+        self.click("#dialog .end button:last-child")
+        self.click("#graph-undo")
+        self.verdict("This would change")
+        self.assertIn("0.44", self.text("#dialog .verdict"))
+        self.assertEqual(self.value("goto.max_speed"), "0.31", "it only shows what would change")
+        self.click("#dialog .end button:nth-child(1)")
+        self.verdict("It has gone back")
+        self.assertEqual(self.value("goto.max_speed"), "0.44")
+        self.click("#dialog .end button:last-child")
+
+    def test_5c_why_a_graph_cannot_be_taken_back_is_said(self):
+        plugins = self.folder / "plugins"
+        for name in ("test_life.so", "test_life.types"):
+            shutil.copy(BUILD / "tests" / "host_plugins" / name, plugins)
+        graph = self.orcactl("graph").stdout
+        larger = self.folder / "larger.xml"
+        larger.write_text(graph.replace("</graph>", '<component name="life" type="test.Life" autonomous="true"/></graph>'))
+        before = self.folder / "smaller.xml"
+        before.write_text(graph)
+        done = self.orcactl("apply", str(larger))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.open_graph()
+        self.click("#graph-apply")
+        self.part("#apply-file").send_keys(str(before))
+        self.click("#dialog .end button:nth-child(2)")
+        self.verdict("This has changed")
+        self.click("#dialog .end button:last-child")
+        for file in plugins.iterdir():
+            file.unlink()
+        self.click("#graph-undo")
+        self.verdict("The system cannot go back")
+        self.assertIn("test.Life", self.text("#dialog .verdict"))
+        self.assertFalse(self.part("#dialog .end button:nth-child(1)").is_enabled())
+        self.click("#dialog .end button:last-child")
 
     def test_6_a_sensor_is_followed_to_the_wheels_and_a_field_is_plotted(self):
         self.look_at("goto", "localizer")

@@ -40,6 +40,11 @@ void Applying::apply(const std::string& file, bool untried, const ReplyPtr& repl
   if (outcome) log::info(kLogName, "an operator has applied " + file);
 }
 
+void Applying::show_present(Reply& reply) const {
+  if (const Status takes = takes_graphs(); !takes.ok()) return reply.refuse(takes.error());
+  reply.add(reply.as_json() ? graph::graph_json(present()) : graph::print(present()));
+}
+
 void Applying::connect(const std::vector<std::string>& words, const ReplyPtr& reply) {
   edit(with_connection(place_.graph, words), reply);
 }
@@ -96,6 +101,10 @@ void Applying::carry_out_saved(const std::string& file) {
 Status Applying::can_change() const {
   if (change_ != nullptr)
     return fail(Code::unavailable, "another graph is being compared or applied; try again when that is done");
+  return takes_graphs();
+}
+
+Status Applying::takes_graphs() const {
   if (!levers_.read)
     return fail(Code::unimplemented,
                 "a run in virtual time takes no other graph from an operator; give it to the deployer, with "

@@ -60,6 +60,9 @@ class Applying {
 
   /// Answers with what a file would change, and what that takes.
   void compare(const std::string& file, const ReplyPtr& reply);
+  /// Answers with the graph as it runs now, with the values that were set and the types that were exchanged: a file to go back to.
+  /// @errors  unimplemented for a system on several machines, which cannot go back.
+  void show_present(Reply& reply) const;
   /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
   /// @param untried  new code is taken even if it cannot be tried out.
   void apply(const std::string& file, bool untried, const ReplyPtr& reply);
@@ -98,6 +101,7 @@ class Applying {
   void carry_out_saved(const std::string& file);
   void edit(const Result<std::string>& text, const ReplyPtr& reply);
   void accept(const CheckedSystem& system, std::string text);
+  [[nodiscard]] Status takes_graphs() const;
   [[nodiscard]] graph::Graph present() const;
 
   const Place place_;

@@ -138,7 +138,10 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
   static const Handlers all{
       {"ps",
        [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.components(*r, d.log_.rates()); }},
-      {"graph", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.graph(*r); }},
+      {"graph",
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) {
+         has(ask, "--running") ? d.applying_.show_present(*r) : d.showing_.graph(*r);
+       }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},
