@@ -127,6 +127,15 @@ export class Connection extends EventTarget {
     return this.request({ op: "ask", command, words: [], graph }).answer;
   }
 
+  /**
+   * Asks for the layout that is kept beside the graph, or keeps one there.
+   * @param {string} [layout]  two numbers for each component, as JSON
+   * @returns {Promise<Answer>} in `text` the layout
+   */
+  layout(layout = "") {
+    return this.request({ op: "layout", layout }).answer;
+  }
+
   /** @returns {Promise<Answer>} in `text` the graph as it runs now, as a file to come back to */
   askGraphThatRuns() {
     return this.request({ op: "ask", command: "graph", words: ["--running"], as_text: true }).answer;

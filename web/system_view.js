@@ -66,6 +66,9 @@ export class SystemView extends EventTarget {
     this.plan = { boxes: [], groups: [], links: [] };
     /** @type {Places} */
     this.places = {};
+    /** @type {Record<string, [number, number]>} where hands have put components [pixels] */
+    this.byHand = {};
+    this.isWarned = false;
     /** @type {Map<string, DrawnBox>} */
     this.boxes = new Map();
     /** @type {DrawnWire[]} */
@@ -85,6 +88,7 @@ export class SystemView extends EventTarget {
     this.drag = null;
     this.rubber = svg("path", { class: "rubber" });
     this.worker.addEventListener("message", (event) => this.takePlaces(event.data));
+    connection.addEventListener("hello", () => this.readByHand());
     system.addEventListener("graph", () => this.rebuild());
     system.addEventListener("figures", () => this.refresh());
     this.listen();
@@ -106,9 +110,32 @@ export class SystemView extends EventTarget {
     return box.checked;
   }
 
-  /** Where hands have put components; kept in this browser. */
-  get handPlaces() {
-    return `places of ${this.system.graph?.name}`;
+  /** The name under which this browser keeps what cannot be kept beside the graph. */
+  get ownLayout() {
+    return `layout of ${this.connection.hello?.system}`;
+  }
+
+  /** Reads where hands have put components: beside the graph, and over that in this browser. */
+  async readByHand() {
+    const { ok, text, error } = await this.connection.layout();
+    if (!ok) this.warn(error);
+    this.byHand = { ...(ok ? JSON.parse(text) : {}), ...JSON.parse(localStorage.getItem(this.ownLayout) ?? "{}") };
+    this.rebuild();
+  }
+
+  /** Keeps where hands have put components: beside the graph if this page may, and if that can be written, otherwise in this browser. */
+  async keepByHand() {
+    const layout = JSON.stringify(this.byHand);
+    const { ok, error } = this.connection.steers ? await this.connection.layout(layout) : { ok: false, error: "" };
+    if (ok) return localStorage.removeItem(this.ownLayout);
+    localStorage.setItem(this.ownLayout, layout);
+    if (error !== "") this.warn(error);
+  }
+
+  /** @param {string} error */
+  warn(error) {
+    if (!this.isWarned) notify(`Only this browser remembers where components stand: ${error}`, "refused");
+    this.isWarned = true;
   }
 
   rebuild() {
@@ -121,9 +148,8 @@ export class SystemView extends EventTarget {
   takePlaces({ number, places, error }) {
     if (number !== this.number) return;
     if (error !== "") notify(`The graph cannot be laid out: ${error}`, "refused");
-    const byHand = JSON.parse(localStorage.getItem(this.handPlaces) ?? "{}");
     this.places = { ...places };
-    for (const [name, place] of Object.entries(byHand)) if (name in places) this.places[name] = place;
+    for (const [name, [x, y]] of Object.entries(this.byHand)) if (name in places) this.places[name] = { x, y };
     this.paint();
     if (!this.isFitted && this.isShown) this.fit();
   }
@@ -302,7 +328,8 @@ export class SystemView extends EventTarget {
     byId("graph-closer").addEventListener("click", () => this.zoom(1.3));
     byId("graph-farther").addEventListener("click", () => this.zoom(1 / 1.3));
     byId("graph-tidy").addEventListener("click", () => {
-      localStorage.removeItem(this.handPlaces);
+      this.byHand = {};
+      this.keepByHand();
       this.isFitted = false;
       this.rebuild();
     });
@@ -401,7 +428,7 @@ export class SystemView extends EventTarget {
     this.letGo();
     if (drag === null) return;
     if (!drag.moved && drag.kind !== "sheet") return this.choose({ component: drag.kind === "box" ? drag.name : componentOf(drag.name) });
-    if (drag.kind === "box") this.keepPlaces();
+    if (drag.kind === "box") this.keepPlace(drag.name);
     if (drag.kind === "wire" && drag.moved && other !== null && other !== drag.name) this.connect(...this.ordered(drag.name, other));
   }
 
@@ -437,8 +464,11 @@ export class SystemView extends EventTarget {
     this.paint();
   }
 
-  keepPlaces() {
-    localStorage.setItem(this.handPlaces, JSON.stringify(this.places));
+  /** @param {string} name */
+  keepPlace(name) {
+    const { x, y } = this.places[name];
+    this.byHand[name] = [Math.round(x), Math.round(y)];
+    this.keepByHand();
   }
 
   // ------------------------------------------------------------------------------------------------ the sheet

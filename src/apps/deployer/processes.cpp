@@ -181,6 +181,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   supervised.read = [&options, &stop](const supervisor::GraphSource& source) {
     return read_system(options, source, stop);
   };
+  supervised.graph_file = fs::absolute(options.file).lexically_normal().string();
   supervised.watches = options.watch;
   supervised.holds = options.hold;
   if (options.watch) supervised.graph_files = files_of(options, stop);

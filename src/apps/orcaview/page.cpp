@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "answers.hpp"
+#include "layout_file.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/idl/object_type.hpp"
@@ -21,6 +22,14 @@ namespace orca::view {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kTooMany = "too many questions; this page may ask 20 times a second";
+
+// Returns the file that a record of the supervisor names.
+std::string file_in(const supervisor::ControlAnswer& answer) {
+  const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer);
+  return record == nullptr ? "" : json_of(record->record).value("file", "");
+}
 
 // A graph that a page has edited is a file for the supervisor, of its own for each question and for its time.
 class GraphFile {
@@ -95,6 +104,7 @@ void Page::carry_out(const Wish& wish) {
   switch (wish.op) {
     case Wish::Op::ask: return ask(wish);
     case Wish::Op::cancel: return desk().leave_log(*this, wish.id);
+    case Wish::Op::layout: return lay_out(wish);
     case Wish::Op::look: return begin_look(wish);
     case Wish::Op::query:
     case Wish::Op::send: return offer(wish);
@@ -125,7 +135,7 @@ void Page::ask(const Wish& wish) {
     file = *made;
     ask.words.insert(ask.words.begin(), file->path());
   }
-  if (!may_ask()) return refuse(wish.id, "too many questions; this page may ask 20 times a second");
+  if (!may_ask()) return refuse(wish.id, kTooMany);
   const auto parts = std::make_shared<AnswerInParts>(wish.id);
   desk().link().ask(
       std::move(ask), [parts](const supervisor::ControlAnswer& answer) { parts->take(answer); },
@@ -137,6 +147,34 @@ void Page::ask(const Wish& wish) {
 void Page::begin_look(const Wish& wish) {
   const Status begun = look(wish.id, wish.port, wish.rate);
   if (!begun.ok()) say({{"op", "refused"}, {"id", wish.id}, {"error", begun.error().message}});
+}
+
+// The layout lies beside the graph, whose place the supervisor knows.
+void Page::lay_out(const Wish& wish) {
+  if (role() == Role::reader && !wish.layout.empty()) return refuse(wish.id, kOnlyLooks);
+  if (!may_ask()) return refuse(wish.id, kTooMany);
+  const auto file = std::make_shared<std::string>();
+  desk().link().ask(
+      {"file", {}, true}, [file](const supervisor::ControlAnswer& answer) { *file += file_in(answer); },
+      [file, wish, find = finder()](const Status& outcome) {
+        const auto page = find();
+        if (page && !outcome.ok()) page->refuse(wish.id, outcome.error().text());
+        if (page && outcome.ok()) page->take_graph_file(*file, wish);
+      });
+}
+
+void Page::take_graph_file(const std::string& file, const Wish& wish) {
+  if (!wish.layout.empty())
+    if (const Status kept = keep_layout(file, wish.layout); !kept.ok())
+      return refuse(wish.id, kept.error().text());
+  const Result<std::string> layout = read_layout(file);
+  if (!layout) return refuse(wish.id, layout.error().text());
+  say({{"op", "answer"},
+       {"id", wish.id},
+       {"ok", true},
+       {"error", ""},
+       {"text", *layout},
+       {"file", layout_file_of(file)}});
 }
 
 void Page::offer(const Wish& wish) {

@@ -38,6 +38,8 @@ class Page final : public Session {
   void carry_out(const Wish& wish);
   void ask(const Wish& wish);
   void begin_look(const Wish& wish);
+  void lay_out(const Wish& wish);
+  void take_graph_file(const std::string& file, const Wish& wish);
   void offer(const Wish& wish);
   void take_outcome(std::uint32_t id, const Result<supervisor::OfferOutcome>& outcome);
   void say_types();

@@ -16,10 +16,10 @@ using nlohmann::json;
 constexpr double kLeastPerSecond = 0.001;
 constexpr double kMostPerSecond = 1000.0;
 
-const std::map<std::string, Wish::Op> kOps{{"ask", Wish::Op::ask},     {"cancel", Wish::Op::cancel},
-                                           {"look", Wish::Op::look},   {"unlook", Wish::Op::unlook},
-                                           {"query", Wish::Op::query}, {"send", Wish::Op::send},
-                                           {"types", Wish::Op::types}};
+const std::map<std::string, Wish::Op> kOps{{"ask", Wish::Op::ask},       {"cancel", Wish::Op::cancel},
+                                           {"layout", Wish::Op::layout}, {"look", Wish::Op::look},
+                                           {"unlook", Wish::Op::unlook}, {"query", Wish::Op::query},
+                                           {"send", Wish::Op::send},     {"types", Wish::Op::types}};
 
 // Returns the value of a name, or what it is by default.
 // @throws json::exception if it is of another type.
@@ -37,14 +37,16 @@ Result<Wish> read(const json& message, std::uint32_t& id) {
     return fail(Code::invalid_argument, "id must be a whole number of 32 bits");
   const auto found = kOps.find(op);
   if (found == kOps.end())
-    return fail(Code::invalid_argument,
-                "there is no op \"" + op + "\"; there are: ask, cancel, look, query, send, types, unlook");
+    return fail(
+        Code::invalid_argument,
+        "there is no op \"" + op + "\"; there are: ask, cancel, layout, look, query, send, types, unlook");
   Wish wish{found->second, id};
   wish.command = member<std::string>(message, "command");
   wish.words = member<std::vector<std::string>>(message, "words");
   wish.streams = member<bool>(message, "stream");
   wish.graph = member<std::string>(message, "graph");
   wish.as_text = member<bool>(message, "as_text");
+  wish.layout = member<std::string>(message, "layout");
   wish.port = member<std::string>(message, "port");
   wish.rate = member<double>(message, "rate");
   wish.xml = member<std::string>(message, "xml");

@@ -12,7 +12,7 @@ namespace orca::view {
 
 /// What a page asks for, in one message. A plain value.
 struct Wish {
-  enum class Op { ask, cancel, look, unlook, query, send, types };
+  enum class Op { ask, cancel, layout, look, unlook, query, send, types };
   Op op = Op::ask;
   std::uint32_t id = 0;              ///< Chosen by the page; the answer repeats it.
   std::string command{};             ///< Of orcactl, for ask.
@@ -20,6 +20,7 @@ struct Wish {
   bool streams = false;              ///< Its records are wanted as they come.
   std::string graph{};               ///< A graph, in place of the file that the first word would name.
   bool as_text = false;              ///< A text is wanted as for people, not as JSON.
+  std::string layout{};              ///< To be kept; empty: it is asked for.
   std::string port{};                ///< For look, query and send.
   double rate = 0.0;                 ///< [1/s] Most objects of a look, from 0.001 to 1000; 0: all.
   std::string xml{};                 ///< The object for query and send, in its text form.

@@ -92,6 +92,10 @@ class Load extends EventTarget {
     return command === "ports" ? answer([], JSON.stringify(ports)) : answer([]);
   }
 
+  async layout() {
+    return { ok: true, text: "{}" };
+  }
+
   async query(_port, _xml) {
     const cells = Uint8Array.from({ length: MAP * MAP }, (_, i) => (i % 97 === 0 ? 100 : i % 13 === 0 ? 255 : 0));
     const object = { corner: { x: -25, y: -25, orientation: 0 }, resolution: 0.05, columns: MAP, rows: MAP, cells };

@@ -163,6 +163,22 @@ class View(ViewCase):
             self.assertFalse(answer["ok"], message)
             self.assertIn("may only look", answer["error"])
 
+    def test_a_layout_is_kept_beside_the_graph_by_operators_only(self):
+        file = self.graph.with_suffix(".layout.json")
+        with self.page(self.reader) as reader, self.page() as operator:
+            reader.send(op="layout", id=1, layout='{"goto":[1,2]}')
+            self.assertIn("only look", reader.answer(1)["error"])
+            self.assertFalse(file.exists())
+            operator.send(op="layout", id=2, layout='{"goto":[1,2]}')
+            self.assertEqual(operator.answer(2)["file"], str(file))
+            reader.send(op="layout", id=3)
+            self.assertEqual(json.loads(reader.answer(3)["text"]), {"goto": [1, 2]})
+            operator.send(op="layout", id=4, layout='{"goto":"x"}')
+            self.assertIn("two numbers", operator.answer(4)["error"])
+            operator.send(op="layout", id=5, layout="{}")
+            self.assertTrue(operator.answer(5)["ok"])
+        self.assertFalse(file.exists())
+
     def test_the_addresses_are_in_a_file_of_the_user_alone(self):
         path = self.folder / "orca" / f"{self.NAME}.{self.port}.view"
         self.assertEqual(stat.S_IMODE(path.stat().st_mode), 0o600)

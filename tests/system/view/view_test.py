@@ -4,6 +4,7 @@
 
     tests/system/view/view_test.py [--pictures FOLDER] BUILD_FOLDER
 """
+import json
 import math
 import re
 import shutil
@@ -97,6 +98,52 @@ class Page(PageCase):
         wait_for("the deployer has made it", lambda: ends in self.wires())
         wait_for("its line is back", lambda: self.point_of_wire(ends))
         self.picture("system")
+
+    def box(self, component):
+        """Returns where a component stands on the sheet, [pixels] of its own."""
+        return wait_for(f"the box of {component}", lambda: self.browser.execute_script("""
+            const box = document.querySelector(arguments[0]);
+            return box && [Number(box.getAttribute("x")), Number(box.getAttribute("y"))];""", f'#graph [data-component="{component}"] > rect'))
+
+    def pull_box(self, component, dx, dy):
+        """Pulls a component by its name, and returns where it stands then."""
+        x, y = self.middle_of(f'#graph [data-component="{component}"] .name')
+        before = self.box(component)
+        self.mouse((x, y), (x + dx / 2, y + dy / 2), (x + dx, y + dy))
+        wait_for("it has moved", lambda: math.dist(self.box(component), before) > 10)
+        return self.box(component)
+
+    def load_again(self):
+        self.browser.refresh()
+        self.open_graph()
+
+    def test_2b_where_components_were_pulled_to_is_kept_beside_the_graph(self):
+        layout = self.graph.with_suffix(".layout.json")
+        self.open_graph()
+        place = self.pull_box("goto", 40, 60)
+        wait_for("the file beside the graph", layout.exists)
+        self.assertEqual(list(json.loads(layout.read_text())), ["goto"])
+        self.browser.execute_script("localStorage.clear()")
+        self.load_again()
+        wait_for("it stands there again", lambda: math.dist(self.box("goto"), place) < 1.5)
+        self.click("#graph-tidy")
+        wait_for("the file is gone", lambda: not layout.exists())
+        wait_for("it stands elsewhere", lambda: math.dist(self.box("goto"), place) > 10)
+
+    def test_2c_what_cannot_be_kept_beside_the_graph_is_kept_in_the_browser(self):
+        layout = self.graph.with_suffix(".layout.json")
+        layout.write_text('{"of": "somebody else"}')
+        self.addCleanup(layout.unlink)
+        self.open_graph()
+        place = self.pull_box("goto", 40, 60)
+        said = wait_for("what the page says", lambda: self.text("#notices .refused"))
+        self.assertIn("Only this browser remembers", said)
+        self.assertIn("layout.json", said)
+        self.load_again()
+        wait_for("it stands there again", lambda: math.dist(self.box("goto"), place) < 1.5)
+        self.assertEqual(layout.read_text(), '{"of": "somebody else"}')
+        self.browser.execute_script("localStorage.clear()")
+        self.load_again()
 
     def test_3_what_does_not_fit_is_said_and_not_done(self):
         self.open_graph()

@@ -142,6 +142,10 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) {
          has(ask, "--running") ? d.applying_.show_present(*r) : d.showing_.graph(*r);
        }},
+      {"file",
+       [](ControlDesk& d, const Ask&, const ReplyPtr& r) {
+         r->add(Record{{"file", d.graph_file_}});
+       }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},

@@ -39,6 +39,8 @@ class ControlDesk {
               const SystemFacts& facts, const Members& members, Ledger& ledger, Starter& starter,
               Renewal& renewal, const RunLevers& levers, Applying::Levers applying);
 
+  /// Notes which file the graph was read from.
+  void note_file(std::string graph_file) { graph_file_ = std::move(graph_file); }
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
   void open(Result<ControlSocket> socket);
   /// Gives the system's socket up. From now on nobody can reach the system.
@@ -99,7 +101,8 @@ class ControlDesk {
   Exchanging exchanging_;
   Applying applying_;
   std::optional<CodeWatch> watch_;
-  std::vector<std::string> graph_files_;  // the main one first
+  std::string graph_file_;                // the main one
+  std::vector<std::string> graph_files_;  // that are watched, the main one first
   const Showing showing_;
   MotorHold motors_;
   SystemHold hold_{motors_};

@@ -69,6 +69,7 @@ class SupervisedRun {
         control_(conductor_, graph_, here_, facts_, roster_.all(), ledger_, starter_, renewal_, levers(),
                  applying()) {
     ledger_.relay_to(relay_);
+    control_.note_file(options.graph_file);
     if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);

@@ -33,7 +33,9 @@ struct SupervisedOptions {
   host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
   SystemFacts facts;         ///< For operators.
   SystemReader read;         ///< Reads graphs that are to be carried out; empty: none are.
-  std::vector<std::string> graph_files;  ///< That the graph was read from, the main one first.
+  std::string graph_file;    ///< The main one that the graph was read from, absolute.
+  std::vector<std::string>
+      graph_files;  ///< That are watched: all that the graph was read from, the main one first.
   /// Code of components that is built anew takes the place of the old one, and a graph that is saved is carried out.
   bool watches = false;
   std::size_t recorders =
