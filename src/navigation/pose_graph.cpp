@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/navigation/pose_graph.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -161,6 +162,14 @@ class PairEquations {
 double weight_of_place(const PoseInformation& information) { return (information.xx + information.yy) / 2.0; }
 
 }  // namespace
+
+std::array<double, 9> covariance_of(const PoseInformation& information, double yaw) {
+  const Vec2 ahead = direction(yaw);
+  Eigen::Matrix3d turn;
+  turn << ahead.x, -ahead.y, 0, ahead.y, ahead.x, 0, 0, 0, 1;
+  const Eigen::Matrix3d c = turn * matrix_of(information).inverse() * turn.transpose();
+  return {c(0, 0), c(1, 0), c(2, 0), c(1, 0), c(1, 1), c(2, 1), c(2, 0), c(2, 1), c(2, 2)};
+}
 
 double misfit(const PoseRelation& relation, std::span<const Pose2> poses) {
   const Eigen::Vector3d e = error_of(relation, poses);

@@ -15,15 +15,38 @@ struct Slam::Submap {
   std::unique_ptr<ScanSearch> search;  // once it is complete
 };
 
-Slam::Slam(SlamOptions options) : options_(options) {}
+namespace {
+
+// The way from one node to the next as odometry has it, in the frame of the first.
+PoseInformation information_of(const Pose2& moved, const TravelErrors& errors) {
+  const double way = norm(moved.position());
+  const double turn = std::fabs(moved.yaw);
+  const double place = errors.place + errors.place_per_way * way + errors.place_per_turn * turn;
+  const double turned = errors.turn + errors.turn_per_way * way + errors.turn_per_turn * turn;
+  return {1.0 / (place * place), 0.0, 1.0 / (place * place), 0.0, 0.0, 1.0 / (turned * turned)};
+}
+
+PoseInformation both(const PoseInformation& a, const PoseInformation& b) {
+  return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xt + b.xt, a.yt + b.yt, a.tt + b.tt};
+}
+
+// The rest after so many ways of which no more is known.
+PoseInformation shared(const PoseInformation& travel, std::size_t ways) {
+  const double share = 1.0 / static_cast<double>(ways);
+  return {share * travel.xx, 0.0, share * travel.yy, 0.0, 0.0, share * travel.tt};
+}
+
+}  // namespace
+
+Slam::Slam(SlamOptions options) : options_(options), known_(information_of({}, options.travel)) {}
 Slam::~Slam() = default;
 
 // The older of the submaps that grow knows more.
-std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pose2& X_LR,
-                                   const PoseInformation& travel) const {
+std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pose2& X_LR) const {
   const Submap& older = submaps_.size() > 1 && !submaps_[submaps_.size() - 2]->search
                             ? *submaps_[submaps_.size() - 2]
                             : *submaps_.back();
+  const PoseInformation travel = information_of(seen_from(nodes_.back().X_LR, X_LR), options_.travel);
   const Pose2& X_LA = nodes_[older.first].X_LR;
   const Pose2 guess = seen_from(X_LA, X_LR);
   const double way = std::clamp(3.0 / std::sqrt(std::min(travel.xx, travel.yy)), 0.1, 1.0);
@@ -39,9 +62,9 @@ std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pos
   return match;
 }
 
-Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR, const PoseInformation& travel) {
+Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR) {
   if (nodes_.empty()) {
-    add_node(scan, X_OR, {}, travel, std::nullopt);
+    add_node(scan, X_OR, X_OR, std::nullopt);
     return nodes_.back().X_MR;
   }
   const SlamNode& last = nodes_.back();
@@ -50,15 +73,15 @@ Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pos
   const Pose2 by_odometry = last.X_MR * moved;
   if (norm(moved.position()) < options_.node_way && std::fabs(moved.yaw) < options_.node_turn)
     return by_odometry;
-  const std::optional<ScanMatch> match = lay(scan, X_LR, travel);
-  add_node(scan, X_OR, match ? match->X_MR : X_LR, travel, match);
+  const std::optional<ScanMatch> match = lay(scan, X_LR);
+  add_node(scan, X_OR, match ? match->X_MR : X_LR, match);
   close_loops(nodes_.size() - 1);
   if (loops_ > loops_fitted_ && nodes_.size() >= fitted_ + options_.fit_every) work_in();
   return nodes_.back().X_MR;
 }
 
 void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_LR,
-                    const PoseInformation& travel, const std::optional<ScanMatch>& match) {
+                    const std::optional<ScanMatch>& match) {
   const std::size_t node = nodes_.size();
   if (node == 0) {
     nodes_.push_back({X_OR, X_LR, X_LR, {scan.begin(), scan.end()}});
@@ -66,7 +89,11 @@ void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const
     const SlamNode& last = nodes_.back();
     const Pose2 moved = seen_from(last.X_LR, X_LR);
     way_since_loop_ += norm(moved.position());
-    relations_.push_back({node - 1, node, seen_from(last.X_OR, X_OR), travel});
+    const Pose2 by_odometry = seen_from(last.X_OR, X_OR);
+    const PoseInformation travel = information_of(by_odometry, options_.travel);
+    relations_.push_back({node - 1, node, by_odometry, travel});
+    blind_ = match ? 0 : blind_ + 1;
+    known_ = match ? both(match->information, travel) : shared(travel, blind_);
     nodes_.push_back({X_OR, X_LR, last.X_MR * moved, {scan.begin(), scan.end()}});
     for (const auto& submap : submaps_)
       if (match && !submap->search)
@@ -115,13 +142,20 @@ void Slam::close_loops(std::size_t node) {
   const double drift = options_.drift * way_since_loop_;
   const double way = std::min(0.5 + drift, 7.0);
   const double turn = std::min(0.2 + 0.02 * way_since_loop_, 0.8);
-  bool closed = false;
+  struct Near {
+    double distance;
+    const Submap* submap;
+  };
+  std::vector<Near> near;
   for (const auto& submap : submaps_) {
     if (!submap->search || submap->first + 2 * options_.submap > node) continue;
-    const Vec2 middle = nodes_[submap->first].X_MR * submap->middle;
-    if (norm(middle - nodes_[node].X_MR.position()) > options_.loop_reach + drift) continue;
-    closed |= close_loop(node, *submap, way, turn);
+    const double distance = norm(nodes_[submap->first].X_MR * submap->middle - nodes_[node].X_MR.position());
+    if (distance <= options_.loop_reach + drift) near.push_back({distance, submap.get()});
   }
+  std::ranges::stable_sort(near, {}, &Near::distance);
+  if (near.size() > options_.loops_per_node) near.resize(options_.loops_per_node);
+  bool closed = false;
+  for (const Near& candidate : near) closed |= close_loop(node, *candidate.submap, way, turn);
   if (closed) way_since_loop_ = 0.0;
 }
 

@@ -3,7 +3,7 @@
 import re
 import xml.etree.ElementTree as ElementTree
 
-OWN_POSE = {"odometry"}  # profiles whose pose is the robot's own
+OWN_POSE = {"odometry", "slam"}  # profiles whose pose is the robot's own
 
 
 def variants_of(text):
@@ -23,9 +23,9 @@ def find(tree):
         for name, profiles in variants_of(tree.text(path)):
             is_own, says_truth = bool(profiles & OWN_POSE), "_truth" in name
             if not is_own and not says_truth:
-                findings.append(f"{path}: variant {name} has the simulator's pose: add the profile odometry, or \"_truth\" to the name")
+                findings.append(f"{path}: variant {name} has the simulator's pose: add the profile odometry or slam, or \"_truth\" to the name")
             if is_own and says_truth:
-                findings.append(f"{path}: variant {name} says \"_truth\", but has the profile odometry")
+                findings.append(f"{path}: variant {name} says \"_truth\", but has a pose of its own")
     return findings
 
 
@@ -42,6 +42,7 @@ BAD = [
 GOOD = [
     _experiment('name="a"', _ODOMETRY),
     _experiment('name="a"' + _ODOMETRY),
+    _experiment('name="a" profile="sim slam"'),
     _experiment('name="a_truth" profile="sim"', _ODOMETRY),
     {"sim/experiments/g.xml": '<graph name="g"/>'},
     {"tests/data/e.xml": '<experiment name="e"><variant name="a"/></experiment>'},

@@ -9,6 +9,7 @@
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/waiting_scans.hpp"
 #include "orca/goals/goal_follower.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/system.hpp"
@@ -17,7 +18,6 @@
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
 #include "outlook.hpp"
-#include "waiting_scans.hpp"
 
 namespace {
 
@@ -186,10 +186,10 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   // The scan waits for the pose of its last beam.
   void hear(const Pose2& pose) {
-    const orca::planner::ScanPtr scan = scans_.take_until(history_.newest());
+    const orca::ScanPtr scan = scans_.take_until(history_.newest());
     if (!scan) return;
     const auto X_OR_first = history_.at(orca::to_time_point(scan->stamp()));
-    const auto X_OR_last = history_.at(orca::planner::last_beam_of(*scan));
+    const auto X_OR_last = history_.at(orca::last_beam_of(*scan));
     if (!X_OR_first || !X_OR_last) return;
     const Pose2 mount = orca::plane_pose(scan->pose());
     orca::nav::beams_of({scan->ranges(), scan->min_range(), scan->max_range(), scan->angle_start(),
@@ -436,7 +436,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   std::optional<orca::nav::Navigator> navigator_;  // from when the outline is known
   orca::nav::PoseHistory history_;                 // in the frame of the odometry; without one, of the goals
   std::optional<Pose2> X_MO_;  // the frame of the odometry in that of the goals; nothing: they are the same
-  orca::planner::WaitingScans scans_;
+  orca::WaitingScans scans_;
   std::vector<orca::nav::Beam> beams_;
   std::vector<Scanners::Source> listened_;
   orca::Twist2 twist_;

@@ -6,7 +6,7 @@
 
 With --tuned it runs those variants only for which DIR holds settings, NAME.xml, as `simbatch tune sim/experiments/barn.xml` writes them. Where
 the declared values were the best there are none, and the row is that of the table without --tuned.
-LEVEL is ideal, nominal, harsh or recorded; POSE is odometry (drifts, as that of a robot without a map) or truth (the simulator's).
+LEVEL is ideal, nominal, harsh or recorded; POSE is odometry (drifts, as that of a robot without a map), slam (a map made on the way) or truth (the simulator's).
 The runs are kept in OUT/LEVEL_POSE.batch; called again it goes on where it was stopped. All columns are the referee's
 (docs/comparing.md). Exit status: 0 if all runs were made; 77 if the worlds are missing; otherwise that of simbatch.
 """
@@ -24,7 +24,7 @@ import xml.etree.ElementTree as ElementTree
 from run import DATA, TREE, wilson
 
 EXPERIMENT = TREE / "sim/experiments/barn.xml"
-PROFILES = {"odometry": "sim odometry", "truth": "sim"}
+PROFILES = {"odometry": "sim odometry", "slam": "sim slam", "truth": "sim"}
 CLASSES = ("contact", "lost", "trap", "oscillation", "time_out", "overload", "crash")
 
 

@@ -121,3 +121,13 @@ TEST_CASE("poses that nothing ties to the first stay as they were", "[navigation
   CHECK_FALSE(fit(graph).solved);
   CHECK(graph.poses == before);
 }
+
+TEST_CASE("a covariance is the inverse of the information, turned into the outer frame", "[navigation]") {
+  // 0.1 m along the own x axis, 0.5 m across it, 0.2 rad; the frame is turned to the left, so the outer y axis lies along its x axis.
+  const auto c = covariance_of({100.0, 0.0, 4.0, 0.0, 0.0, 25.0}, std::numbers::pi / 2.0);
+  CHECK(c[0] == Approx(0.25));
+  CHECK(c[4] == Approx(0.01));
+  CHECK(c[8] == Approx(0.04));
+  CHECK(c[1] == Approx(0.0).margin(1e-12));
+  CHECK(c[1] == c[3]);
+}

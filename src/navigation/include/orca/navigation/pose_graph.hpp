@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -16,6 +17,12 @@ struct PoseInformation {
   double xt = 0.0, yt = 0.0;            ///< [1/(m rad)]
   double tt = 0.0;                      ///< [1/rad2]
 };
+
+/// Returns the covariance of a pose of which so much is known, seen from a frame in which its own is turned by `yaw` [rad]: [m2, m rad, rad2] of x, y
+/// and direction, row by row.
+/// @pre  the information is positive definite.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::array<double, 9> covariance_of(const PoseInformation& information, double yaw);
 
 /// A measurement of one pose from another.
 struct PoseRelation {

@@ -14,6 +14,17 @@
 
 namespace orca::nav {
 
+/// How wrong a way by odometry may be: standard deviations. The defaults are wide, for a robot of which nothing is known; what they decide is where
+/// a scan is looked for, and who wins where scans say little.
+struct TravelErrors {
+  double place = 0.05;           ///< [m] in any case
+  double place_per_way = 0.1;    ///< [m/m]
+  double place_per_turn = 0.05;  ///< [m/rad]
+  double turn = 0.03;            ///< [rad] in any case
+  double turn_per_way = 0.05;    ///< [rad/m]
+  double turn_per_turn = 0.1;    ///< [rad/rad]
+};
+
 /// How a map is made. The defaults are for lasers in buildings; those of the Intel log are the same.
 struct SlamOptions {
   double node_way = 0.2;     ///< [m] after which a scan becomes a node.
@@ -24,9 +35,11 @@ struct SlamOptions {
   double loop_score = 0.6;   ///< the same before it is refined.
   double loop_reach =
       4.0;  ///< [m] from a submap's middle at which a loop is looked for, besides what may have drifted.
-  double drift = 0.05;         ///< [m] per m of way since the last loop.
-  std::size_t fit_every = 10;  ///< nodes after which loops are worked in.
+  std::size_t loops_per_node = 4;  ///< at most: of the submaps nearest to it.
+  double drift = 0.05;             ///< [m] per m of way since the last loop.
+  std::size_t fit_every = 10;      ///< nodes after which loops are worked in.
   MatchOptions match;
+  TravelErrors travel;
 };
 
 /// A scan and where it was taken.
@@ -47,25 +60,28 @@ class Slam {
   explicit Slam(SlamOptions options = {});
   ~Slam();
 
-  /// Takes the next scan.
+  /// Takes the next scan. The map frame is odometry's at the first one.
   /// @param X_OR    by odometry, when it was taken.
-  /// @param travel  how much is known of the way from the last scan by odometry alone; frame of the last scan.
   /// @return where the robot is, map frame.
-  Pose2 see(std::span<const SurfacePoint> scan, const Pose2& X_OR, const PoseInformation& travel);
+  Pose2 see(std::span<const SurfacePoint> scan, const Pose2& X_OR);
 
   /// Looks once more for all places that were seen twice, and fits all poses: worth its time (about that of all so far) before a map is kept.
   void finish();
 
   [[nodiscard]] std::span<const SlamNode> nodes() const { return nodes_; }
   [[nodiscard]] std::size_t loops() const { return loops_; }
+  /// Returns how much is known of the last node's pose by the map around it, in its own frame: what its scan says, and where that fits on
+  /// nothing, what odometry says of the way since one that did.
+  [[nodiscard]] const PoseInformation& known() const { return known_; }
+  /// Returns how many nodes there are since a scan last fitted on the map; 0: the last one does.
+  [[nodiscard]] std::size_t blind() const { return blind_; }
 
  private:
   struct Submap;
 
-  [[nodiscard]] std::optional<ScanMatch> lay(std::span<const SurfacePoint> scan, const Pose2& X_LR,
-                                             const PoseInformation& travel) const;
+  [[nodiscard]] std::optional<ScanMatch> lay(std::span<const SurfacePoint> scan, const Pose2& X_LR) const;
   void add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_LR,
-                const PoseInformation& travel, const std::optional<ScanMatch>& match);
+                const std::optional<ScanMatch>& match);
   void grow_submaps();
   void complete_submaps();
   void close_loops(std::size_t node);
@@ -80,6 +96,8 @@ class Slam {
   std::size_t fitted_ = 0;  // nodes at the last fit
   std::size_t loops_fitted_ = 0;
   double way_since_loop_ = 0.0;  // [m]
+  PoseInformation known_;
+  std::size_t blind_ = 0;
 };
 
 }  // namespace orca::nav

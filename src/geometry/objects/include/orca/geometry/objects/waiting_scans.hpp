@@ -10,7 +10,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 
-namespace orca::planner {
+namespace orca {
 
 using ScanPtr = ObjectPtr<idl::LaserRangeReadings>;
 
@@ -44,4 +44,4 @@ class WaitingScans {
   std::deque<ScanPtr> scans_;  // oldest first
 };
 
-}  // namespace orca::planner
+}  // namespace orca

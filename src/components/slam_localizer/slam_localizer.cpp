@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/waiting_scans.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/navigation/beams.hpp"
+#include "orca/navigation/pose_history.hpp"
+#include "orca/navigation/slam.hpp"
+
+namespace {
+
+using orca::Pose2;
+using orca::idl::LaserRangeReadings;
+using orca::idl::RobotPose;
+
+/// A localizer without a map: it makes one while the robot drives, and says where the robot is in it (thesis 11.1, SlamLocalizer). The pose
+/// that drifts, such as that of an OdometryLocalizer, goes in, and comes out corrected, at the same rate. See README.md.
+class SlamLocalizer final : public orca::Component {
+ public:
+  explicit SlamLocalizer(orca::ComponentHost& host) : Component(host) {}
+
+ private:
+  orca::Status configure() override {
+    lap_on("drifting");
+    return orca::ok();
+  }
+
+  orca::Status start() override {
+    begin_anew();
+    return orca::ok();
+  }
+
+  // The pose must not jump, so the correction stays.
+  void begin_anew() {
+    slam_.emplace();
+    history_.clear();
+    scans_.clear();
+    X_MI_ = X_MD_;
+  }
+
+  orca::Outcome work() override {
+    while (laser_.new_data_arrived()) take_scan(laser_.get_update());
+    const auto drifting = drifting_.get_update();
+    if (!senders_.accepts(*drifting)) return orca::again();
+    const Pose2 X_DR = orca::plane_pose(*drifting);
+    auto pose = poses_.loan();
+    *pose = *drifting;
+    if (orca::is_anywhere(drifting->covariance())) {
+      if (slam_) lose();
+    } else {
+      if (!slam_) begin_anew();
+      history_.add(orca::to_time_point(drifting->stamp()), X_DR);
+      if (const auto scan = scans_.take_until(history_.newest())) lay(*scan);
+      fill(X_MD_ * X_DR, *pose);
+    }
+    poses_.push(std::move(pose));
+    return orca::again();
+  }
+
+  // The sender of the drifting pose has lost the robot: it may go on anywhere else, and in another map.
+  void lose() {
+    slam_.reset();
+    X_MD_ = {};
+    log_warning("the map is given up: the pose that it was made by is not known any more");
+  }
+
+  void take_scan(orca::ObjectPtr<LaserRangeReadings> scan) {
+    if (orca::check_reading(*scan).ok()) scans_.add(std::move(scan));
+  }
+
+  // Lays a scan on the map. The robot's frame at its first beam is that in which its points are given.
+  void lay(const LaserRangeReadings& scan) {
+    const auto first = history_.at(orca::to_time_point(scan.stamp()));
+    const auto last = history_.at(orca::last_beam_of(scan));
+    if (!first || !last) return;
+    const Pose2 X_RS = orca::plane_pose(scan.pose());
+    orca::nav::beams_of({scan.ranges(), scan.min_range(), scan.max_range(), scan.angle_start(),
+                         scan.angle_increment(), *first * X_RS, *last * X_RS},
+                        *range_, beams_);
+    points_.clear();
+    for (const orca::nav::Beam& beam : beams_)
+      if (beam.echo) points_.push_back(seen_from(*first, beam.to));
+    const Pose2 X_IR = X_MI_ * *first;
+    X_MD_ = slam_->see(orca::nav::surface_of(points_, X_RS.position()), X_IR) * inverse(*first);
+  }
+
+  void fill(const Pose2& X_MR, RobotPose& pose) {
+    pose.x(X_MR.x);
+    pose.y(X_MR.y);
+    pose.orientation(orca::wrapped(X_MR.yaw));
+    pose.covariance(orca::nav::covariance_of(slam_->known(), X_MR.yaw));
+  }
+
+  void save_state(orca::StateWriter& state) const override { state.write(X_MD_); }
+  orca::Status load_state(orca::StateReader& state) override { return state.read(X_MD_); }
+
+  orca::SenderWatch senders_{host()};
+  std::optional<orca::nav::Slam> slam_;
+  orca::nav::PoseHistory history_;
+  orca::WaitingScans scans_;
+  Pose2 X_MD_;  // the frame in which the pose drifts, in the map's
+  Pose2 X_MI_;  // the same when the map was begun
+  std::vector<orca::nav::Beam> beams_;
+  std::vector<orca::Vec2> points_;
+  orca::PushProxy<RobotPose> drifting_{
+      *this, "drifting", {.text = "Pose of the robot that drifts, such as that of an OdometryLocalizer."}};
+  orca::PushProxy<LaserRangeReadings> laser_{*this, "laser", {.text = "Scans of the laser."}};
+  orca::PushServer<RobotPose> poses_{
+      *this,
+      "RobotPosePush",
+      {.text = "Pose of the robot in the map, once per lap; the map begins where the drifting pose did."}};
+  orca::Param<double> range_{*this,
+                             "map_range",
+                             20.0,
+                             {.unit = "m", .min = 1.0, .text = "Echoes that are farther away do not count."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(SlamLocalizer, "orca.SlamLocalizer")
