@@ -338,45 +338,6 @@ TEST_CASE("new code is tried with what reaches the old one, and the log says wit
   system.end_in_order();
 }
 
-TEST_CASE("the types that fit a component are listed, and those that cannot be asked are named",
-          "[system][swap]") {
-  if (kThreadSanitizer) return;  // it cannot follow a copy of a process
-  TempFolder folder;
-  for (const std::string name : {"bad_static_crashes", "bad_constructor_exits", "bad_static_hangs"})
-    copy_plugin(bad_plugin(name), folder.path());
-  std::string text = graph("talking");
-  text.insert(text.find("/host_plugins") + std::string("/host_plugins").size(), ";" + folder.path().string());
-  Subprocess program(deployer({folder.write("swap.xml", text), "--log", "debug"}));
-  REQUIRE(program.wait_for_output("heard 1:10", Seconds(20) * kSlowdown));
-  const Run fits = run_orcactl({"fits", "teller"});
-  INFO(fits.out << fits.err);
-  REQUIRE(fits.exit_code() == 0);
-  CHECK_THAT(fits.out, Contains("test.Teller ") && Contains(" test_teller.so"));
-  CHECK_THAT(fits.out, !Contains("test.Talker"));
-  CHECK_THAT(fits.err, Contains("bad_static_crashes.so could not be looked at"));
-  CHECK_THAT(fits.err, Contains("bad_constructor_exits.so could not be looked at"));
-  CHECK_THAT(fits.err, Contains("bad_static_hangs.so could not be looked at"));
-  CHECK_THAT(run_orcactl({"fits", "nobody"}).err, Contains("nobody"));
-  CHECK(run_orcactl({"stop"}).exit_code() == 0);
-  CHECK(finish(program, Seconds(10)).exit_code() == 0);
-}
-
-TEST_CASE("a trial alone says what came of it, and exchanges nothing", "[system][swap]") {
-  if (kThreadSanitizer) return;  // it cannot follow a copy of a process
-  Telling system("talking");
-  const Words only_try{"--only-try", "--tryout", "300 ms"};
-  const Run good = system.swap(next_version("test_teller_2"), only_try + Words{"--json"});
-  INFO(good.out << good.err);
-  REQUIRE(good.exit_code() == 0);
-  CHECK_THAT(good.out, Contains("\"type\": \"test.Teller\"") || Contains("\"type\":\"test.Teller\""));
-  const Run bad = system.swap(next_version("test_teller_lap_crashes"), only_try);
-  CHECK(bad.exit_code() == 1);
-  CHECK_THAT(bad.err, Contains("was tried out beside the one that runs"));
-  CHECK_THAT(run_orcactl({"plugins"}).out, !Contains("next_plugins"));
-  CHECK_THAT(system.log(), !Contains("heard 2:"));
-  system.end_in_order();
-}
-
 TEST_CASE("a swap that meets a restart of its process ends with an error or with the new code, and once",
           "[system][swap]") {
   for (const Seconds wait : {Seconds(0.0), Seconds(0.2), Seconds(0.35), Seconds(0.5)}) {

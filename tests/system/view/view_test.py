@@ -133,7 +133,7 @@ class Page(PageCase):
     def test_2c_what_cannot_be_kept_beside_the_graph_is_kept_in_the_browser(self):
         layout = self.graph.with_suffix(".layout.json")
         layout.write_text('{"of": "somebody else"}')
-        self.addCleanup(layout.unlink)
+        self.addCleanup(layout.unlink, missing_ok=True)
         self.open_graph()
         place = self.pull_box("goto", 40, 60)
         said = wait_for("what the page says", lambda: self.text("#notices .refused"))
@@ -142,6 +142,7 @@ class Page(PageCase):
         self.load_again()
         wait_for("it stands there again", lambda: math.dist(self.box("goto"), place) < 1.5)
         self.assertEqual(layout.read_text(), '{"of": "somebody else"}')
+        layout.unlink()
         self.browser.execute_script("localStorage.clear()")
         self.load_again()
 
