@@ -42,16 +42,13 @@ host::PortTap::Bounds bounds_of(const OpenLine& order) {
   return order.bound == 0 ? host::PortTap::Bounds{} : host::PortTap::Bounds{kMostObjects, order.bound};
 }
 
-// Sends what waits in channels until the next look at the taps is due.
-void push_out(std::vector<std::shared_ptr<Channel>> channels) {
-  const auto next = SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(kLook);
+// Sends what waits in channels, until all is sent or the time is over.
+void push_out(std::vector<std::shared_ptr<Channel>> channels, SteadyClock::time_point end) {
   for (;;) {
     std::erase_if(channels,
                   [](const auto& channel) { return !channel->flush().ok() || !channel->has_unsent(); });
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - SteadyClock::now());
-    if (left.count() <= 0) return;
-    if (channels.empty())
-      return std::this_thread::sleep_until(next);  // objects that pass do not wake it: system calls
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - SteadyClock::now());
+    if (channels.empty() || left.count() <= 0) return;
     std::vector<pollfd> ready;
     for (const auto& channel : channels) ready.push_back({channel->descriptor(), POLLOUT, 0});
     (void)poll(ready.data(), ready.size(), static_cast<int>(left.count()));
@@ -107,11 +104,11 @@ class PortLines::Line {
     return channel_->flush().ok() && take_offers();
   }
 
-  // Sends the rest, because the process ends. Whoever looks on for a moment only need not have it.
-  void finish(Duration limit) {
+  // Puts the rest into the channel, because the process ends. Whoever looks on for a moment only need not have it.
+  void finish() {
     if (!tap_ || !is_bounded_) return;
     send_passed();
-    (void)channel_->send(encode(LineWord(LineEnded{lost_in_all()})), limit);
+    send_end();
   }
 
   [[nodiscard]] const std::shared_ptr<Channel>& channel() const { return channel_; }
@@ -211,16 +208,21 @@ Status PortLines::open(OpenLine order) {
 void PortLines::serve() {
   for (;;) {
     std::vector<std::shared_ptr<Channel>> channels;
+    bool is_end = false;
     {
       const MutexLock lock(mutex_);
       std::erase_if(lines_, [](Line& line) { return !line.serve(); });
-      if (ending_)
-        for (Line& line : lines_) line.finish(kEndLimit);
-      runs_ = !lines_.empty() && !ending_;
-      if (!runs_) return;
+      is_end = ending_;
+      if (is_end)
+        for (Line& line : lines_) line.finish();
+      runs_ = !lines_.empty() && !is_end;
+      if (lines_.empty()) return;
       for (const Line& line : lines_) channels.push_back(line.channel());
     }
-    push_out(std::move(channels));
+    const auto end = SteadyClock::now() + (is_end ? kEndLimit : kLook);
+    push_out(std::move(channels), end);
+    if (is_end) return;
+    std::this_thread::sleep_until(end);  // objects that pass do not wake it: system calls
   }
 }
 
