@@ -5,7 +5,7 @@ import { askSwap, report } from "./dialogs.js";
 import { el, figure, setText } from "./dom.js";
 import { ObjectView } from "./object_view.js";
 import { componentOf, shortPort } from "./system_model.js";
-import { markOf } from "./system_view.js";
+import { markOf, milliseconds } from "./system_view.js";
 
 /**
  * All about one component, or one connection.
@@ -125,6 +125,8 @@ export class Inspector {
       State: `${mark} ${component.state}`, Process: `${component.process} (${component.pid})`, Memory: `${figure(component.memory_mb, 1)} MB in its process`,
       "Log lines": `${figure(component.log_per_s, 1)}/s`, Restarts: String(component.restarts), Code: component.plugin, Build: component.build_id.slice(0, 12),
     };
+    const laps = this.system.laps.get(name);
+    if (laps !== undefined && laps.lap50 !== null) facts["Lap, p50 and p99"] = `${milliseconds(laps.lap50)}, ${milliseconds(laps.lap99)} of the processor`;
     if (component.alarms !== "") facts.Alarms = component.alarms;
     this.showFacts(facts);
     const shape = `${name} ${component.state} ${this.connection.steers}`;
@@ -282,6 +284,7 @@ export class Inspector {
     const { from, to, ...policy } = wire;
     this.showFacts({
       Rate: `${figure(flow?.rate, 1)}/s`, Carried: String(flow?.total ?? "–"), "Lost or replaced": String(flow?.lost ?? "–"), Queued: String(flow?.queued ?? "–"),
+      ...(flow === undefined || flow.age50 === null ? {} : { "Age on arrival, p50 and p99": `${milliseconds(flow.age50)}, ${milliseconds(flow.age99)}` }),
       ...Object.fromEntries(Object.entries(policy).map(([name, value]) => [name.replace(/_/g, " "), String(value)])),
     });
   }

@@ -11,8 +11,9 @@
  *   alarms: string, memory_mb: number, log_per_s: number, machine?: string}} Component
  * @typedef {{from: string, to: string, pattern: string, queue?: string, overflow?: string, link?: string, deadline?: string}} Wire
  *   a connection of the graph
- * @typedef {{rate: number, lossRate: number, total: number, lost: number, queued: number, late: number}} Flow
- *   rates per second; lost: dropped, refused, failed or timed out since the beginning
+ * @typedef {{rate: number, lossRate: number, total: number, lost: number, queued: number, late: number, age50: number | null, age99: number | null}} Flow
+ *   rates per second; lost: dropped, refused, failed or timed out since the beginning; ages at the arrival lately [ms], where they are measured
+ * @typedef {{lap50: number | null, lap99: number | null}} Laps  processor time of laps lately [ms]
  * @typedef {{time: number, pace: number | null, paused: boolean}} PaceRow
  *   virtual time: where it is [s], how fast it passes (null: as fast as it can), and whether it stands
  * @typedef {{number: number, time: number, severity: string, kind: string, source: string, active: boolean, text: string}} AlarmRow
@@ -65,6 +66,8 @@ export function flowOf(row, before, seconds) {
     lossRate: before === undefined ? 0 : rate(lost, sum(before, spoiled)),
     queued: Number(row.queued ?? 0),
     late: Number(row.late ?? 0),
+    age50: row.age_p50_ms ?? null,
+    age99: row.age_p99_ms ?? null,
   };
 }
 
@@ -90,6 +93,8 @@ export class SystemModel extends EventTarget {
     this.components = new Map();
     /** @type {Map<string, Flow>} */
     this.flows = new Map();
+    /** @type {Map<string, Laps>} */
+    this.laps = new Map();
     /** @type {AlarmRow[]} */
     this.alarms = [];
     /** @type {PaceRow | null} null: it is in real time */
@@ -172,7 +177,7 @@ export class SystemModel extends EventTarget {
     this.components = new Map(ps.records.map((row) => [row.name, /** @type {any} */ (row)]));
     this.alarms = /** @type {any[]} */ (alarms.records);
     this.takeCounters(counters.records);
-    const shape = [...ps.records.map((row) => `${row.name} ${row.type} ${row.process}`), ...counters.records.map(rowKey)].join("\n");
+    const shape = [...ps.records.map((row) => `${row.name} ${row.type} ${row.process}`), ...counters.records.filter((row) => !("component" in row)).map(rowKey)].join("\n");
     if (shape !== this.shape) {
       this.shape = shape;
       await this.readGraph();
@@ -180,8 +185,10 @@ export class SystemModel extends EventTarget {
     this.dispatchEvent(new Event("figures"));
   }
 
-  /** @param {Record<string, any>[]} rows */
-  takeCounters(rows) {
+  /** @param {Record<string, any>[]} all */
+  takeCounters(all) {
+    this.laps = new Map(all.filter((row) => "component" in row).map((row) => [row.component, { lap50: row.lap_p50_ms ?? null, lap99: row.lap_p99_ms ?? null }]));
+    const rows = all.filter((row) => !("component" in row));
     const now = performance.now();
     const seconds = (now - this.rowsAt) / 1000;
     this.flows = new Map(rows.map((row) => [rowKey(row), flowOf(row, this.rows.get(rowKey(row)), seconds)]));

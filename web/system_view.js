@@ -16,7 +16,7 @@ import { along, curve, detour, drawnName, frameOf, misfit, planOf, portPlace, RO
  * @typedef {import("./system_layout.js").Point} Point
  * @typedef {import("./system_layout.js").Places} Places
  * @typedef {{wire: Wire, line: SVGPathElement, hit: SVGPathElement, label: SVGTextElement}} DrawnWire
- * @typedef {{box: Box, group: SVGGElement, state: SVGTextElement}} DrawnBox
+ * @typedef {{box: Box, group: SVGGElement, state: SVGTextElement, lap: SVGTextElement}} DrawnBox
  * @typedef {{component: string} | {wire: Wire} | null} Choice
  */
 
@@ -36,6 +36,12 @@ export function markOf(state) {
   return [mark, kind];
 }
 
+/** @param {number | null | undefined} value  [ms] @returns {string} with three digits */
+export function milliseconds(value) {
+  if (value === null || value === undefined) return "–";
+  return `${figure(value, value < 1 ? 2 : value < 10 ? 1 : 0)} ms`;
+}
+
 /**
  * @param {Wire} wire
  * @param {Flow | undefined} flow
@@ -47,7 +53,8 @@ export function flowText(wire, flow) {
   const loses = flow.lossRate > 0 && !keepsNewest;
   const rate = flow.rate >= 0.5 ? `${figure(flow.rate, 0)}/s` : flow.rate > 0 ? `${figure(flow.rate, 1)}/s` : "";
   const queued = flow.queued > 1 ? ` ${flow.queued} wait` : "";
-  return { text: `${rate}${queued}${loses ? ` lost ${figure(flow.lossRate, 0)}/s` : ""}`, loses };
+  const age = flow.age99 !== null && flow.rate > 0 ? ` ${milliseconds(flow.age99)}` : "";
+  return { text: `${rate}${age}${queued}${loses ? ` lost ${figure(flow.lossRate, 0)}/s` : ""}`, loses };
 }
 
 /** Events: `chosen` when a person chose something, in `choice`. */
@@ -196,13 +203,14 @@ export class SystemView extends EventTarget {
       return made;
     };
     const state = text(box.width - 9, 16, "", "state");
+    const lap = text(box.width - 9, box.height + 11, "", "lap");
     const group = svg(
       "g", { class: "box", tabindex: 0, role: "button", "data-component": box.name },
       svg("rect", { x: left, y: top, width: box.width, height: box.height, rx: 6 }),
-      text(9, 16, box.name, "name"), text(9, 31, component?.type ?? "", "type"), state,
+      text(9, 16, box.name, "name"), text(9, 31, component?.type ?? "", "type"), state, lap,
       ...[...box.inputs, ...box.outputs].map((port) => this.port(box, port)),
     );
-    this.boxes.set(box.name, { box, group, state });
+    this.boxes.set(box.name, { box, group, state, lap });
     return group;
   }
 
@@ -276,11 +284,13 @@ export class SystemView extends EventTarget {
   /** Shows new figures, and touches only what has changed. */
   refresh() {
     if (!this.isShown) return;
-    for (const [name, { group, state }] of this.boxes) {
+    for (const [name, { group, state, lap }] of this.boxes) {
       const component = this.system.components.get(name);
       if (component === undefined) continue;
       const [mark, kind] = markOf(component.state);
       setText(state, `${mark} ${component.state}${component.alarms === "" ? "" : " !"}`);
+      const lap99 = this.system.laps.get(name)?.lap99 ?? null;
+      setText(lap, lap99 === null ? "" : `lap ${milliseconds(lap99)}`);
       if (group.dataset.state !== kind) group.dataset.state = kind;
     }
     for (const { wire, line, label } of this.wires) {

@@ -2,6 +2,8 @@
 // Lines from the ports of a running system to whoever looks on.
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <regex>
+#include <string>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -48,4 +50,19 @@ TEST_CASE("recorders that do not read hold up the end of a process once, not one
   REQUIRE(run_orcactl({"stop"}).exit_code() == 0);
   CHECK(finish(program, Seconds(15)).exit_code() == 0);
   CHECK((since_boot() - began).count() < 3.0 * kSlowdown);
+}
+
+TEST_CASE("connections show how old objects are when they arrive, and components how long laps compute",
+          "[system][lines]") {
+  const TempFolder folder;
+  Subprocess program(deployer({folder.write("lines.xml", kGraph), "--log", "debug"}));
+  REQUIRE(program.wait_for_output("heard 1:100", Seconds(20) * kSlowdown));
+  const std::string live = run_orcactl({"counters", "--json"}).out;
+  INFO(live);
+  const auto shows = [&](const char* pattern) { return std::regex_search(live, std::regex(pattern)); };
+  CHECK(shows(R"re("from": "talker.out"[^}]*"age_p50_ms": 0\.\d+,\s*"age_p99_ms": \d+\.\d+)re"));
+  CHECK(shows(
+      R"re("component": "talker",\s*"laps": \d\d+,\s*"lap_p50_ms": \d+\.\d+,\s*"lap_p99_ms": \d+\.\d+)re"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  CHECK(finish(program, Seconds(10)).exit_code() == 0);
 }

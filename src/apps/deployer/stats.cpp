@@ -36,7 +36,7 @@ std::string aligned(const std::vector<Row>& rows) {
 std::string edge_table(const host::RunCounters& counters) {
   if (counters.edges.empty()) return {};
   std::vector<Row> rows{{"connection", "delivered", "dropped", "unread", "late", "high water"}};
-  for (const auto& [from, to, counted] : counters.edges) {
+  for (const auto& [from, to, counted, ages] : counters.edges) {
     const std::uint64_t dropped = counted.dropped - counted.left_behind;
     rows.push_back({from + " -> " + to, std::to_string(counted.delivered), std::to_string(dropped),
                     std::to_string(counted.left_behind), std::to_string(counted.missed_deadlines),

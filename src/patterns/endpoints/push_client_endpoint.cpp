@@ -62,6 +62,13 @@ std::optional<EdgeCounters> PushClientEndpoint::counters_from(const std::string&
   return std::nullopt;
 }
 
+std::optional<TimeFigures> PushClientEndpoint::ages_from(const std::string& server) const {
+  const MutexLock lock(mutex_);
+  for (const auto& edge : edges_)
+    if (edge->source_path() == server) return edge->ages();
+  return std::nullopt;
+}
+
 bool PushClientEndpoint::has_new() const {
   home().strand.take_in();
   return std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) { return edge->holds_new(); });

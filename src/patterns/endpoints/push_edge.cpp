@@ -30,6 +30,7 @@ PushEdge::PushEdge(Endpoint& client, PushSource& source, const QueuePolicy& poli
 PushEdge::PushEdge(Endpoint& client, std::string path, const QueuePolicy& policy)
     : client_(client),
       strand_(client.home().strand),
+      ages_(strand_.executive().is_virtual() ? nullptr : std::make_unique<RecentTimes>()),
       path_(std::move(path)),
       mutex_(client.home().strand.executive()) {
   fit(policy);
@@ -67,11 +68,6 @@ void PushEdge::set_policy(const QueuePolicy& policy) {
   if (policy.deadline > Duration{0}) expect_first();
   source()->change(rate());
   if (waited_for) source()->room();
-}
-
-QueuePolicy PushEdge::policy_now() const {
-  const MutexLock lock(mutex_);
-  return policy_;
 }
 
 std::string PushEdge::source_path() const {
@@ -226,7 +222,11 @@ std::uint64_t PushEdge::drops_to_report() {
 }
 
 void PushEdge::report_drops(std::uint64_t drops) const {
-  const QueuePolicy policy = policy_now();
+  QueuePolicy policy;
+  {
+    const MutexLock lock(mutex_);
+    policy = policy_;
+  }
   report(LinkTrouble::dropped, "objects dropped so far: " + std::to_string(drops) +
                                    ", drop_limit: " + std::to_string(policy.accepted_drops().value_or(0)) +
                                    " (" + described(policy) + ")");
@@ -239,6 +239,10 @@ void PushEdge::report(LinkTrouble kind, const std::string& text) const {
 
 // Puts the object into the queue, which holds `count` objects.
 void PushEdge::put(ObjectRef&& object, std::uint32_t count) {
+  if (ages_) {
+    const TimePoint time = now();
+    ages_->add(time - TimePoint(Duration(object.header().creation_time().ns())), time);
+  }
   std::uint32_t last = first_ + count;
   if (last >= policy_.depth) last -= policy_.depth;
   ring_[last] = std::move(object);
@@ -363,6 +367,10 @@ TimePoint PushEdge::watch_deadline() {
   }
   if (is_new) report(LinkTrouble::late, "no object within the deadline of " + seconds_text(policy_.deadline));
   return next;
+}
+
+std::optional<TimeFigures> PushEdge::ages() const {
+  return ages_ ? std::optional(ages_->figures(now())) : std::nullopt;
 }
 
 EdgeCounters PushEdge::counters() const {

@@ -9,7 +9,7 @@ import { policyOf } from "../../../web/inspector.js";
 import { csvOf, mergedRows } from "../../../web/plots.js";
 import { arrange, curve, detour, frameOf, misfit, planOf, portPlace } from "../../../web/system_layout.js";
 import { componentOf, flowOf, rowKey } from "../../../web/system_model.js";
-import { flowText } from "../../../web/system_view.js";
+import { flowText, milliseconds } from "../../../web/system_view.js";
 
 const DAGRE = "/usr/share/nodejs/dagre/dist/dagre.min.js";
 
@@ -38,7 +38,8 @@ test("ports fit by pattern, direction and type, as the deployer's checker sees i
 test("figures of a connection are rates since the last look", () => {
   const before = { from: "a.x", to: "b.y", delivered: 100, dropped: 3 };
   const now = { from: "a.x", to: "b.y", delivered: 120, dropped: 5, queued: 2, late: 1 };
-  assert.deepEqual(flowOf(now, before, 2), { total: 120, lost: 5, rate: 10, lossRate: 1, queued: 2, late: 1 });
+  assert.deepEqual(flowOf(now, before, 2), { total: 120, lost: 5, rate: 10, lossRate: 1, queued: 2, late: 1, age50: null, age99: null });
+  assert.equal(flowOf({ ...now, age_p50_ms: 0.12, age_p99_ms: 0.4 }, before, 2).age99, 0.4);
   assert.equal(flowOf(now, undefined, 2).rate, 0);
   assert.equal(flowOf({ ...now, delivered: 0 }, before, 2).rate, 0, "a process that was started again counts from 0");
   assert.equal(rowKey(now), "a.x>b.y");
@@ -46,9 +47,16 @@ test("figures of a connection are rates since the last look", () => {
 });
 
 test("a queue of one that keeps the newest loses nothing", () => {
-  const flow = { rate: 20, lossRate: 5, total: 0, lost: 0, queued: 0, late: 0 };
+  const flow = { rate: 20, lossRate: 5, total: 0, lost: 0, queued: 0, late: 0, age50: null, age99: null };
   assert.deepEqual(flowText({ from: "a", to: "b", pattern: "Push", queue: "1", overflow: "drop_oldest" }, flow), { text: "20/s", loses: false });
   assert.deepEqual(flowText({ from: "a", to: "b", pattern: "Push", queue: "16", overflow: "refuse" }, flow), { text: "20/s lost 5/s", loses: true });
+});
+
+test("a connection shows how old its objects are when they arrive", () => {
+  const flow = { rate: 20, lossRate: 0, total: 0, lost: 0, queued: 2, late: 0, age50: 0.1, age99: 0.25 };
+  assert.equal(flowText({ from: "a", to: "b", pattern: "Push", queue: "16" }, flow).text, "20/s 0.25 ms 2 wait");
+  assert.equal(flowText({ from: "a", to: "b", pattern: "Push", queue: "16" }, { ...flow, rate: 0 }).text, " 2 wait");
+  assert.deepEqual([milliseconds(null), milliseconds(0.123), milliseconds(4.56), milliseconds(123.4)], ["–", "0.12 ms", "4.6 ms", "123 ms"]);
 });
 
 test("a removed connection is made again with its policy", () => {

@@ -3,9 +3,22 @@
 
 namespace orca::supervisor {
 
+namespace {
+
+// Returns a cell of milliseconds, empty if nothing was measured lately.
+Cell milliseconds(const char* name, const std::optional<TimeFigures>& figures, double TimeFigures::*which) {
+  constexpr double kMilli = 1e3;
+  if (figures && figures->count > 0) return {name, kMilli * ((*figures).*which), 3};
+  Cell none{name, ""};
+  none.kind = Cell::Kind::number;
+  return none;
+}
+
+}  // namespace
+
 std::vector<Record> to_records(const host::RunCounters& counters) {
   std::vector<Record> records;
-  for (const auto& [from, to, counted] : counters.edges)
+  for (const auto& [from, to, counted, ages] : counters.edges)
     records.push_back({{"from", from},
                        {"to", to},
                        {"delivered", counted.delivered},
@@ -13,7 +26,9 @@ std::vector<Record> to_records(const host::RunCounters& counters) {
                        {"unread", counted.left_behind},
                        {"late", counted.missed_deadlines},
                        {"queued", counted.queued},
-                       {"high_water", counted.high_water}});
+                       {"high_water", counted.high_water},
+                       milliseconds("age_p50_ms", ages, &TimeFigures::p50),
+                       milliseconds("age_p99_ms", ages, &TimeFigures::p99)});
   for (const auto& [port, counted] : counters.clients)
     records.push_back({{"client", port},
                        {"sent", counted.sent},
@@ -27,6 +42,11 @@ std::vector<Record> to_records(const host::RunCounters& counters) {
                        {"failed", counted.failed},
                        {"queued", counted.queued},
                        {"high_water", counted.high_water}});
+  for (const auto& [component, laps] : counters.laps)
+    records.push_back({{"component", component},
+                       {"laps", laps.count},
+                       milliseconds("lap_p50_ms", laps, &TimeFigures::p50),
+                       milliseconds("lap_p99_ms", laps, &TimeFigures::p99)});
   return records;
 }
 

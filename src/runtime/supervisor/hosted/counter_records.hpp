@@ -10,7 +10,7 @@
 namespace orca::supervisor {
 
 /// Returns the counters of connections for people and programs: a line for each Push edge, for each port that sends or
-/// asks, and for each one that is sent to or asked.
+/// asks, for each one that is sent to or asked, and for each component whose laps are measured.
 [[nodiscard]] std::vector<Record> to_records(const host::RunCounters& counters);
 
 /// Returns what has become of a swap.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "orca/base/system/task_time.hpp"
+
 namespace orca::host {
 
 ComponentLoop::ComponentLoop(ComponentParts& parts, Residency& residency, Lifecycle& life,
@@ -89,6 +91,7 @@ void ComponentLoop::lap() {
   parts_.home.computing.begin(time);
   in_lap_ = true;
   if (parts_.meter) parts_.meter->begin();
+  const Duration used = parts_.recent_laps ? task_time() : Duration{0};
   const auto fault = parts_.hooks.call(Hook::work, [&] {
     parts_.injector.act();
     outcome = residency_.component()->work();
@@ -96,6 +99,7 @@ void ComponentLoop::lap() {
   in_lap_ = false;
   const bool given_up = fault && fault->interrupted;
   if (parts_.meter && !given_up) parts_.meter->end();
+  if (parts_.recent_laps && !given_up) parts_.recent_laps->add(task_time() - used, began);
   if (given_up) {
     parts_.home.computing.give_up();
   } else if (computes_to_end(time)) {

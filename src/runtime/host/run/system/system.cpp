@@ -287,7 +287,7 @@ namespace {
 // Adds the Push edge that ends at a port.
 void add_edge(const graph::Edge& node, const PushClientEndpoint& to, RunCounters& counters) {
   if (const auto counted = to.counters_from(node.from.text()))
-    counters.edges.push_back({node.from.text(), to.path(), *counted});
+    counters.edges.push_back({node.from.text(), to.path(), *counted, to.ages_from(node.from.text())});
 }
 
 void add_client(const Endpoint& port, RunCounters& counters) {
@@ -316,9 +316,12 @@ RunCounters collect_counters(const graph::Graph& graph, const System& system) {
     if (from != nullptr) add_client(*from, counters);
     if (to != nullptr) add_server(*to, counters);
   }
-  for (const auto& component : system.components().all())
-    if (const ComputingCounters counted = component->parts().home.computing.counters(); counted.laps > 0)
+  for (const auto& component : system.components().all()) {
+    const ComponentParts& parts = component->parts();
+    if (const ComputingCounters counted = parts.home.computing.counters(); counted.laps > 0)
       counters.computing[component->name()] = counted;
+    if (parts.recent_laps) counters.laps[component->name()] = parts.recent_laps->figures(parts.now());
+  }
   return counters;
 }
 

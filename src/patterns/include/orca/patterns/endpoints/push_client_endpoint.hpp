@@ -44,6 +44,9 @@ class PushClientEndpoint final : public Endpoint, public MovablePort {
   /// Returns the counters of the edge from a server; nothing if there is none.
   /// @thread  any.
   [[nodiscard]] std::optional<EdgeCounters> counters_from(const std::string& server) const;
+  /// Returns how old objects from a server were lately when they arrived: see PushEdge::ages().
+  /// @thread  any.
+  [[nodiscard]] std::optional<TimeFigures> ages_from(const std::string& server) const;
   /// Returns whether an object waits, from any server.
   [[nodiscard]] bool has_new() const;
   /// Returns whether an object waits from every server that the port is subscribed to, and there is one.

@@ -4,11 +4,13 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "orca/base/mutex.hpp"
+#include "orca/base/system/recent_times.hpp"
 #include "orca/patterns/counters.hpp"
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/published.hpp"
@@ -81,6 +83,9 @@ class PushEdge final : public PushSink {
   TimePoint watch_deadline();
 
   [[nodiscard]] EdgeCounters counters() const;
+  /// Returns how old objects were lately when they arrived, counted from their creation_time, by the clock that the processes of a
+  /// machine share; nothing in virtual time, in which it is not measured.
+  [[nodiscard]] std::optional<TimeFigures> ages() const;
   [[nodiscard]] const QueuePolicy& policy() const { return policy_; }
   /// Returns "component.port" of the present server, or of the last one.
   [[nodiscard]] std::string source_path() const;
@@ -105,7 +110,6 @@ class PushEdge final : public PushSink {
 
   void look() const { strand_.take_in(); }
   [[nodiscard]] PushSource* source() const { return source_.load(std::memory_order_acquire); }
-  [[nodiscard]] QueuePolicy policy_now() const;
   void tell_of_link(bool connected) const;
   void fit(const QueuePolicy& policy) ORCA_REQUIRES(mutex_);
   void forget_objects();
@@ -129,6 +133,7 @@ class PushEdge final : public PushSink {
   UpdateRate asked_;
   std::atomic<bool> subscribed_{false};  // or will be, as soon as there is a server
   Counts counts_;
+  const std::unique_ptr<RecentTimes> ages_;  // of objects when they arrived; null in virtual time
   Published<Duration::rep> last_arrival_;   // of an object, or of the subscription; only kept with a deadline
   Published<Duration::rep> deadline_;       // of the policy, for all threads
   Published<std::int64_t> accepted_drops_;  // of the policy, for all threads; -1: any number

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/base/system/recent_times.hpp"
 #include "orca/base/time.hpp"
 #include "orca/hw/scene.hpp"
 #include "orca/idl/navigation.hpp"
@@ -49,12 +50,16 @@ struct RunCounters {
     std::string from;  ///< "component.port" of the PushServer.
     std::string to;    ///< "component.port" of the PushProxy.
     EdgeCounters counters;
+    /// How old objects were lately when they arrived; none in virtual time, in which it is not measured.
+    std::optional<TimeFigures> ages{};
   };
   std::vector<Edge> edges;                         ///< Push connections, in the order of the graph.
   std::map<std::string, RequestCounters> clients;  ///< By "component.port" of the SendProxy or QueryProxy.
   std::map<std::string, IntakeCounters> servers;   ///< By "component.port" of the SendServer or QueryServer.
   /// By component, of those in virtual time whose laps take some. One whose overruns are many of its laps is overloaded.
   std::map<std::string, ComputingCounters> computing;
+  /// Processor time of the laps lately, by component; of those in real time whose strands have threads of their own.
+  std::map<std::string, TimeFigures> laps;
 };
 
 /// The processor time of a component's laps, by the machine's clock: what it is differs each time. A plain value.

@@ -13,6 +13,9 @@ ComponentParts::ComponentParts(RunContext& run_of_all, ComponentSettings setting
       home{strand, settings.name, &run.reporter, {}},
       ports(home),
       lap_shares(run.seed, settings.name, "takes"),
+      recent_laps(run.executive.is_virtual() || !run.executive.tasks_overlap()
+                      ? nullptr
+                      : std::make_unique<RecentTimes>()),
       hooks(settings.name),
       injector(run, settings, strand, laps),
       params(settings.params),

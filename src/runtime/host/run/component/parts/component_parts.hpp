@@ -14,6 +14,7 @@
 #include "lap_trigger.hpp"
 #include "orca/base/random.hpp"
 #include "orca/base/strand.hpp"
+#include "orca/base/system/recent_times.hpp"
 #include "orca/component/device.hpp"
 #include "order_queue.hpp"
 #include "parameters.hpp"
@@ -56,6 +57,8 @@ struct ComponentParts {
   LapTrigger laps;
   RandomStream lap_shares;          // which of the laps that were measured the next one is like
   std::unique_ptr<LapMeter> meter;  // of the processor time of laps, if the run measures them
+  /// Of the processor time of laps; null in virtual time, and where strands share a thread, which has one clock.
+  const std::unique_ptr<RecentTimes> recent_laps;
   HookCaller hooks;
   FailureInjector injector;
   Parameters params;
