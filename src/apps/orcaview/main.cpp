@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -29,6 +30,7 @@ constexpr std::string_view kDetails =
     "  orcaview                              of the system that runs\n"
     "  orcaview scout_goto                   of this one, as soon as it runs\n"
     "  deployer graphs/scout_goto.xml --view starts one beside the system\n"
+    "  orcaview --batch office.batch         how far simbatch is, its report, and its failed runs\n"
     "\n"
     "Open the first address that it prints in a browser. Whoever knows it may steer the robot; with the "
     "second\n"
@@ -46,6 +48,7 @@ const apps::Program& program() {
       .arguments = {{"SYSTEM", apps::Names::system, true}},
       .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
                    false, "Options", 0, 65535},
+                  {"--batch", "DIR", "show a folder of simbatch, and no system"},
                   {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
       .exits = {"0 ended by a signal", "1 the address is in use, or the page's files are missing",
                 "2 the command line is wrong", "3 no system runs, and none is named"},
@@ -111,8 +114,8 @@ class AddressFile {
   std::string path_;
 };
 
-std::string address_of(const ViewServer& server, const Tokens& tokens, Role role) {
-  return "http://127.0.0.1:" + std::to_string(server.port()) + "/#token=" + tokens.of(role);
+std::string address_of(const ViewServer& server, const Tokens& tokens, Role role, const std::string& page) {
+  return "http://127.0.0.1:" + std::to_string(server.port()) + "/" + page + "#token=" + tokens.of(role);
 }
 
 /// The event loop. What waits in it - connections, above all - uses the desk and the server, so it goes before they do.
@@ -132,10 +135,55 @@ void run_contained(Loop& loop) {
   }
 }
 
-ExitCode run(const apps::Call& call) {
+// Listens, says where, and serves until a signal.
+ExitCode serve(const apps::Call& call, const std::string& name, const std::string& page, Loop& loop,
+               ViewServer& server, const Tokens& tokens, const std::function<void()>& begin) {
+  constexpr std::uint16_t kDefaultPort = 8080;
+  const std::optional<std::uint64_t> wanted = call.count("--port");
+  Status listens = server.listen(wanted ? static_cast<std::uint16_t>(*wanted) : kDefaultPort);
+  if (!wanted && !listens.ok()) listens = server.listen(0);
+  if (!listens.ok()) return report(listens.error(), ExitCode::refused);
+  const std::string addresses = address_of(server, tokens, Role::operator_, page) + "\n" +
+                                address_of(server, tokens, Role::reader, page) + "\n";
+  const Result<AddressFile> file =
+      AddressFile::write(name + "." + std::to_string(server.port()) + ".view", addresses);
+  if (!file) return report(file.error(), ExitCode::refused);
+  std::printf("%s", addresses.c_str());
+  std::fflush(stdout);
+
+  begin();
+  boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
+  stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
+  while (!loop.stopped()) run_contained(loop);
+  loop.clear();
+  return ExitCode::ended;
+}
+
+ExitCode show_system(const apps::Call& call, const Tokens& tokens, const WebFiles& files) {
   const std::variant<std::string, ExitCode> system = system_of(call);
   if (const auto* const code = std::get_if<ExitCode>(&system)) return *code;
   const std::string& name = std::get<std::string>(system);
+  Loop loop;
+  Desk desk(loop.get_executor(), name);
+  ViewServer server(loop, tokens, files);
+  server.show(desk);
+  return serve(call, name, "", loop, server, tokens, [&] { desk.start(); });
+}
+
+ExitCode show_batch(const apps::Call& call, const Tokens& tokens, const WebFiles& files) {
+  const std::filesystem::path folder =
+      std::filesystem::absolute(call.text("--batch").value_or("")).lexically_normal();
+  if (!std::filesystem::exists(folder / "results.sqlite"))
+    return report(fail(Code::not_found, "there are no results of simbatch", folder.string()),
+                  ExitCode::refused);
+  Loop loop;
+  BatchDoor batch(loop.get_executor(), folder.string());
+  ViewServer server(loop, tokens, files);
+  server.show(batch);
+  return serve(call, "batch", "batch.html", loop, server, tokens, [] {});
+}
+
+ExitCode run(const apps::Call& call) {
   const WebFiles files(web_folder(call));
   if (!files.find("/"))
     return report(fail(Code::not_found, "the page's files are missing: " + web_folder(call) +
@@ -143,29 +191,7 @@ ExitCode run(const apps::Call& call) {
                   ExitCode::refused);
   const Result<Tokens> tokens = Tokens::draw();
   if (!tokens) return report(tokens.error(), ExitCode::refused);
-
-  Loop loop;
-  Desk desk(loop.get_executor(), name);
-  ViewServer server(loop, desk, *tokens, files);
-  constexpr std::uint16_t kDefaultPort = 8080;
-  const std::optional<std::uint64_t> wanted = call.count("--port");
-  Status listens = server.listen(wanted ? static_cast<std::uint16_t>(*wanted) : kDefaultPort);
-  if (!wanted && !listens.ok()) listens = server.listen(0);
-  if (!listens.ok()) return report(listens.error(), ExitCode::refused);
-  const std::string addresses =
-      address_of(server, *tokens, Role::operator_) + "\n" + address_of(server, *tokens, Role::reader) + "\n";
-  const Result<AddressFile> file =
-      AddressFile::write(name + "." + std::to_string(server.port()) + ".view", addresses);
-  if (!file) return report(file.error(), ExitCode::refused);
-  std::printf("%s", addresses.c_str());
-  std::fflush(stdout);
-
-  desk.start();
-  boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
-  stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
-  while (!loop.stopped()) run_contained(loop);
-  loop.clear();
-  return ExitCode::ended;
+  return call.has("--batch") ? show_batch(call, *tokens, files) : show_system(call, *tokens, files);
 }
 
 ExitCode act(const std::vector<std::string>& words) {

@@ -32,16 +32,25 @@ constexpr std::chrono::seconds kPatience{10};     // with whoever sends a reques
 constexpr std::chrono::milliseconds kPause{200};  // until there may be descriptors again
 constexpr std::size_t kLongestHead = std::size_t{16} << 10;
 
+constexpr const char* kOwnPolicy =
+    "default-src 'self'; connect-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; base-uri "
+    "'none'; "
+    "form-action 'none'";
+// A report has its styles and pictures in itself, and runs nothing.
+constexpr const char* kReportPolicy =
+    "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:; frame-ancestors 'none'; base-uri "
+    "'none'; form-action 'none'";
+constexpr const char* kJson = "application/json";
+
 http::response<http::string_body> answer(const Session::Request& request, http::status status,
-                                         std::string type, std::string text) {
+                                         std::string type, std::string text,
+                                         const char* policy = kOwnPolicy) {
   http::response<http::string_body> response(status, request.version());
   response.set(http::field::content_type, type);
   response.set(http::field::cache_control, "no-store");
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Referrer-Policy", "no-referrer");
-  response.set("Content-Security-Policy",
-               "default-src 'self'; connect-src 'self'; img-src 'self' blob: data:; frame-ancestors 'none'; "
-               "base-uri 'none'; form-action 'none'");
+  response.set("Content-Security-Policy", policy);
   response.keep_alive(request.keep_alive());
   response.body() = std::move(text);
   response.prepare_payload();
@@ -111,20 +120,35 @@ awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
     Session::Request request = parser.release();
     const std::string why = refusal(request);
     const std::string_view target = view_of(request.target());
-    if (why.empty() && beast::websocket::is_upgrade(request)) {
-      const std::optional<Role> role = tokens_.role_of(query_value(target, "token"));
+    const std::optional<Role> role = tokens_.role_of(query_value(target, "token"));
+    if (why.empty() && desk_ != nullptr && beast::websocket::is_upgrade(request)) {
       stream.expires_never();
       const std::shared_ptr<Session> session = session_for(request, std::move(stream), *role);
       co_return co_await session->serve(std::move(request));
     }
-    std::optional<WebFile> file = why.empty() ? files_.find(target) : std::nullopt;
-    http::response<http::string_body> response =
-        !why.empty() ? refuse(request, http::status::forbidden, why)
-        : file       ? answer(request, http::status::ok, std::move(file->type), std::move(file->text))
-                     : refuse(request, http::status::not_found, "there is no such file");
+    Response response = why.empty() ? Response() : refuse(request, http::status::forbidden, why);
+    if (why.empty() && is_for_batch(request)) {
+      response = co_await answer_of_batch(request, *role);
+    } else if (why.empty()) {
+      response = file_for(request);
+    }
     co_await http::async_write(stream, response, asio::redirect_error(use_awaitable, error));
     if (error || !response.keep_alive()) co_return;
   }
+}
+
+ViewServer::Response ViewServer::file_for(const Session::Request& request) const {
+  std::optional<WebFile> file = files_.find(view_of(request.target()));
+  return file ? answer(request, http::status::ok, std::move(file->type), std::move(file->text))
+              : refuse(request, http::status::not_found, "there is no such file");
+}
+
+awaitable<ViewServer::Response> ViewServer::answer_of_batch(const Session::Request& request, Role role) {
+  const bool is_post = request.method() == http::verb::post;
+  BatchDoor::Reply reply = co_await batch_->answer(std::string(view_of(request.target())), is_post, role);
+  co_return answer(request, static_cast<http::status>(reply.status),
+                   reply.is_report ? "text/html; charset=utf-8" : kJson, std::move(reply.text),
+                   reply.is_report ? kReportPolicy : kOwnPolicy);
 }
 
 // Viewers that speak several protocols get the first that they share with this server.
@@ -133,8 +157,15 @@ std::shared_ptr<Session> ViewServer::session_for(const Session::Request& request
   const std::string offered(view_of(request[http::field::sec_websocket_protocol]));
   for (const char* const protocol : FoxgloveClient::kProtocols)
     if (http::token_list(offered).exists(protocol))
-      return std::make_shared<FoxgloveClient>(std::move(stream), role, desk_, protocol);
-  return std::make_shared<Page>(std::move(stream), role, desk_);
+      return std::make_shared<FoxgloveClient>(std::move(stream), role, *desk_, protocol);
+  return std::make_shared<Page>(std::move(stream), role, *desk_);
+}
+
+// These need the token, as a system does.
+bool ViewServer::is_for_batch(const Session::Request& request) const {
+  const bool is_known = request.method() == http::verb::get || request.method() == http::verb::post;
+  return batch_ != nullptr && is_known && view_of(request.target()).starts_with("/batch/") &&
+         !beast::websocket::is_upgrade(request);
 }
 
 // Returns why a request is refused; empty: it is not.
@@ -143,8 +174,9 @@ std::string ViewServer::refusal(const Session::Request& request) const {
   if (!is_own_host(host)) return "this server is 127.0.0.1 or localhost, by no other name";
   if (!is_own_origin(view_of(request[http::field::origin]), host))
     return "pages of other servers have no access";
-  if (request.method() != http::verb::get) return "this server knows GET only";
-  if (!beast::websocket::is_upgrade(request)) return "";
+  const bool is_for_batch = this->is_for_batch(request);
+  if (request.method() != http::verb::get && !is_for_batch) return "this server knows GET only";
+  if (!beast::websocket::is_upgrade(request) && !is_for_batch) return "";
   if (!tokens_.role_of(query_value(view_of(request.target()), "token")))
     return "the token is wrong; open the address that orcaview has printed";
   return "";

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "access.hpp"
+#include "batch/batch_door.hpp"
 #include "desk.hpp"
 #include "orca/base/result.hpp"
 #include "web_files.hpp"
@@ -28,9 +29,14 @@ class ViewServer {
  public:
   static constexpr std::size_t kMostConnections = 128;
 
-  /// Everything outlives the object.
-  ViewServer(boost::asio::io_context& loop, Desk& desk, const Tokens& tokens, const WebFiles& files)
-      : acceptor_(loop), desk_(desk), tokens_(tokens), files_(files) {}
+  /// Everything outlives the object, and what it shows does, too.
+  ViewServer(boost::asio::io_context& loop, const Tokens& tokens, const WebFiles& files)
+      : acceptor_(loop), tokens_(tokens), files_(files) {}
+
+  /// Shows a system.
+  void show(Desk& desk) { desk_ = &desk; }
+  /// Shows a batch.
+  void show(BatchDoor& batch) { batch_ = &batch; }
 
   /// Begins to listen at 127.0.0.1.
   /// @param port  0: any that is free.
@@ -44,10 +50,15 @@ class ViewServer {
   boost::asio::awaitable<void> serve_requests(boost::asio::ip::tcp::socket socket);
   [[nodiscard]] std::shared_ptr<Session> session_for(const Session::Request& request,
                                                      boost::beast::tcp_stream stream, Role role);
+  using Response = boost::beast::http::response<boost::beast::http::string_body>;
+  [[nodiscard]] Response file_for(const Session::Request& request) const;
+  boost::asio::awaitable<Response> answer_of_batch(const Session::Request& request, Role role);
   [[nodiscard]] std::string refusal(const Session::Request& request) const;
+  [[nodiscard]] bool is_for_batch(const Session::Request& request) const;
 
   boost::asio::ip::tcp::acceptor acceptor_;
-  Desk& desk_;
+  Desk* desk_ = nullptr;        // null: it shows no system
+  BatchDoor* batch_ = nullptr;  // null: it shows no batch
   const Tokens& tokens_;
   const WebFiles& files_;
   std::uint16_t port_ = 0;

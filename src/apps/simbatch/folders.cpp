@@ -20,6 +20,13 @@ Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder) {
   return batch::Store::open(file.string(), {});
 }
 
+std::optional<batch::Experiment> experiment_of(const batch::Store& store) {
+  xml::Diagnostics unused;
+  std::optional<batch::Experiment> experiment = batch::read_experiment(store.origin().file, unused);
+  if (!experiment || batch::identity_of(*experiment) != store.identity()) return std::nullopt;
+  return experiment;
+}
+
 batch::BatchOptions with_plugins(batch::BatchOptions options, const std::vector<std::string>& folders) {
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
   options.plugin_folders = {(own.parent_path().parent_path() / "plugins").string()};

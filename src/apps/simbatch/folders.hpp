@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "options.hpp"
+#include "orca/batch/experiment.hpp"
 #include "orca/batch/store.hpp"
 
 namespace orca::simbatch {
@@ -18,6 +20,9 @@ namespace orca::simbatch {
 /// Opens results that are there, whatever experiment they are of.
 /// @errors  not_found if there are none; those of Store::open().
 [[nodiscard]] Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder);
+
+/// Returns the experiment that results are of, if its file is still as it was.
+[[nodiscard]] std::optional<batch::Experiment> experiment_of(const batch::Store& store);
 
 /// Returns the options for runs that look for plugins in Orca's own folder and then in these.
 [[nodiscard]] batch::BatchOptions with_plugins(batch::BatchOptions options,

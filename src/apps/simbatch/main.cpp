@@ -26,6 +26,7 @@
 #include "orca/xml/number.hpp"
 #include "pack.hpp"
 #include "progress.hpp"
+#include "status.hpp"
 #include "submission.hpp"
 #include "tables.hpp"
 
@@ -259,14 +260,6 @@ ExitCode run(const Options& options, const Listener& listener = {}) {
   return ExitCode::done;
 }
 
-// Returns the experiment of a store, if it is still as it was.
-std::optional<batch::Experiment> experiment_of(const batch::Store& store) {
-  xml::Diagnostics unused;
-  std::optional<batch::Experiment> experiment = batch::read_experiment(store.origin().file, unused);
-  if (!experiment || batch::identity_of(*experiment) != store.identity()) return std::nullopt;
-  return experiment;
-}
-
 ExitCode report_joined(const Options& options, const batch::Store& store) {
   if (const std::optional<batch::Experiment> experiment = experiment_of(store)) {
     const std::size_t missing = batch::MissingRuns(*experiment, store, {}).count();
@@ -369,6 +362,19 @@ ExitCode table(const Options& options) {
   return read.ok() ? ExitCode::done : refuse(read.error());
 }
 
+ExitCode show_status(const Options& options) {
+  const Result<std::unique_ptr<batch::Store>> store = open_results(options.subject);
+  if (!store) return refuse(store.error());
+  const std::optional<batch::Experiment> experiment = experiment_of(**store);
+  if (!experiment)
+    return refuse(fail(Code::failed_precondition, "the experiment is not there any more as it was",
+                       (*store)->origin().file));
+  const Result<std::string> status = status_json(*experiment, **store);
+  if (!status) return refuse(status.error());
+  std::fputs(status->c_str(), stdout);
+  return ExitCode::done;
+}
+
 ExitCode act(const Options& options) {
   if (options.answer) {
     std::fputs(options.answer->c_str(), stdout);
@@ -378,6 +384,7 @@ ExitCode act(const Options& options) {
     case Options::Action::check: return check(options);
     case Options::Action::table: return table(options);
     case Options::Action::report: return report_again(options);
+    case Options::Action::status: return show_status(options);
     case Options::Action::diff: return diff(options);
     case Options::Action::join: return join(options);
     case Options::Action::submit: {

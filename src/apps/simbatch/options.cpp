@@ -76,6 +76,9 @@ const apps::Program& program() {
                    {.name = "export",
                     .arguments = {{"DIR"}},
                     .text = "print one line for each run as CSV, in a fixed order"},
+                   {.name = "status",
+                    .arguments = {{"DIR"}},
+                    .text = "print how far a batch is, and which runs have failed, as JSON"},
                    {.name = "join",
                     .arguments = {{"DIR"}, {"DIR", apps::Names::none, true, true}},
                     .text = "put the results of all parts together in the folder --out"},
@@ -131,10 +134,10 @@ Result<batch::Shard> read_shard(const std::string& value) {
 
 Options::Action action_of(const apps::Call& call) {
   using Action = Options::Action;
-  static const std::map<std::string_view, Action> all{{"export", Action::table},  {"report", Action::report},
-                                                      {"diff", Action::diff},     {"join", Action::join},
-                                                      {"submit", Action::submit}, {"pack", Action::pack},
-                                                      {"repeat", Action::repeat}, {"tune", Action::tune}};
+  static const std::map<std::string_view, Action> all{
+      {"export", Action::table}, {"report", Action::report}, {"diff", Action::diff},
+      {"join", Action::join},    {"status", Action::status}, {"submit", Action::submit},
+      {"pack", Action::pack},    {"repeat", Action::repeat}, {"tune", Action::tune}};
   if (call.command != nullptr) return all.at(call.command->name);
   return call.has("--check") ? Action::check : Action::run;
 }

@@ -17,7 +17,7 @@ enum class ExitCode { done = 0, could_not_finish = 1, different = 1, bad_input =
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, table, report, diff, join, submit, pack, repeat, tune };
+  enum class Action { run, check, table, report, diff, join, status, submit, pack, repeat, tune };
   Action action = Action::run;
   std::optional<std::string> answer{};  ///< What is to be printed, instead of any action.
   std::string subject;                  ///< The experiment, or the folder of results.

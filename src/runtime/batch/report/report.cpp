@@ -401,18 +401,29 @@ std::string setting_word(const Experiment& experiment, const std::string& settin
   return in_shell_quotes(setting.substr(0, value)) + "\"$PWD\"/" + in_shell_quotes(relative);
 }
 
-}  // namespace
-
-std::string replay_command(const Experiment& experiment, const Run& run) {
+// @param clock  options that choose the run's clock.
+std::string command_of(const Experiment& experiment, const Run& run, const std::string& clock) {
   const Variant& variant = experiment.variants[run.variant];
   std::string text = "deployer " + in_shell_quotes(from_folder_of(experiment, variant.graph));
   for (const std::string& profile : variant.profiles) text += " --profile " + in_shell_quotes(profile);
-  text += " --clock virtual --seed " + std::to_string(run.seed) + " --until " +
+  text += " " + clock + " --seed " + std::to_string(run.seed) + " --until " +
           in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
-  if (variant.computing != 1.0) text += " --computing " + xml::number_text(variant.computing);
   for (const std::string& setting : experiment.settings_of(run))
     text += " --set " + setting_word(experiment, setting);
   return text;
+}
+
+}  // namespace
+
+std::string replay_command(const Experiment& experiment, const Run& run) {
+  const double computing = experiment.variants[run.variant].computing;
+  return command_of(
+      experiment, run,
+      "--clock virtual" + (computing == 1.0 ? "" : " --computing " + xml::number_text(computing)));
+}
+
+std::string watch_command(const Experiment& experiment, const Run& run) {
+  return command_of(experiment, run, "--view");
 }
 
 Result<Report> make_report(const Experiment& experiment, const Store& store) {

@@ -38,5 +38,8 @@ inline constexpr const char* kBuildDeclaration = "build";
 
 /// Returns the command that makes one run again, alone, for a shell in the experiment's folder.
 [[nodiscard]] std::string replay_command(const Experiment& experiment, const Run& run);
+/// Returns the command that makes it in real time, to look on in a browser. It differs from the run as runs in real time do; and laps take
+/// the time that they take.
+[[nodiscard]] std::string watch_command(const Experiment& experiment, const Run& run);
 
 }  // namespace orca::batch
