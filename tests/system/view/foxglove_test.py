@@ -85,6 +85,24 @@ class Foxglove(ViewCase):
         self.assertTrue(any(0.1 < one < 8.2 for one in ranges))
         viewer.send(op="unsubscribe", subscriptionIds=[7])
 
+    def test_a_robots_file_is_a_description_and_no_other_file_is_read(self):
+        viewer = self.viewer(self.reader)
+        topics = self.advertised(viewer)
+        self.assertNotIn("/robot_description", topics, "ports come first")
+        channels = {channel["topic"]: channel for channel in self.message(viewer, "advertise")["channels"]}
+        self.assertEqual(list(channels), ["/robot_description"], "the only file that the graph names of a robot")
+        self.assertEqual(channels["/robot_description"]["schemaName"], "std_msgs/msg/String")
+        self.assertNotIn(channels["/robot_description"]["id"], [channel["id"] for channel in topics.values()])
+        for _ in range(2):  # whoever comes later gets it, too
+            viewer.send(op="subscribe", subscriptions=[{"id": 9, "channelId": channels["/robot_description"]["id"]}])
+            _, message = self.first(viewer, 9)
+            length = struct.unpack_from("<I", message, 4)[0]
+            self.assertEqual((message[:4], message[-1:], len(message)), (b"\0\1\0\0", b"\0", 8 + length))
+            self.assertEqual(message[8:-1], (TREE / "sim" / "robots" / "pioneer_2dx.urdf").read_bytes())
+            viewer.send(op="unsubscribe", subscriptionIds=[9])
+        viewer.send(op="fetchAsset", requestId=1, uri="package://orca/../../../../etc/passwd")
+        self.assertIn("fetchAsset", self.message(viewer, "status")["message"])
+
     def test_a_reader_publishes_nothing_and_sets_nothing(self):
         viewer = self.viewer(self.reader)
         self.advertised(viewer)

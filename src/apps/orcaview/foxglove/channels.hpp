@@ -17,7 +17,8 @@ struct Channel {
     object,  ///< The objects of a port as they are.
     twin,    ///< The objects of a port as messages of a type that ROS 2 itself has.
     frames,  ///< Where the frames of robots and sensors are, from all ports that say it.
-    log      ///< The system's log.
+    log,     ///< The system's log.
+    text     ///< One text that does not change, such as a robot's file.
   };
   std::uint32_t id = 0;
   Kind kind = Kind::object;
@@ -25,6 +26,7 @@ struct Channel {
   std::vector<std::string> ports{};  ///< One, but for frames.
   std::string type;                  ///< Of messages: "sensor_msgs/msg/LaserScan".
   std::string definition;            ///< In the form "ros2msg".
+  std::string text{};                ///< Of a channel with one text.
 };
 
 /// Returns the channels of a system.

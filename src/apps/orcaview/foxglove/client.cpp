@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "answers.hpp"
+#include "foxglove/robot_descriptions.hpp"
 #include "foxglove/ros_messages.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
@@ -29,6 +30,20 @@ std::string message_head(std::uint32_t subscription, std::uint64_t time_ns) {
   append(head, subscription);
   append(head, time_ns);
   return head;
+}
+
+std::uint64_t now_ns() {
+  using Nanoseconds = std::chrono::nanoseconds;
+  const auto now =
+      std::chrono::duration_cast<Nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
+  return static_cast<std::uint64_t>(now.count());
+}
+
+// Returns a std_msgs/msg/String.
+std::string cdr_text(const std::string& text) {
+  std::string message("\0\1\0\0", 4);  // CDR, little-endian
+  append_number(message, static_cast<std::uint32_t>(text.size() + 1));
+  return message + text + '\0';
 }
 
 idl::LogLevel level_of(const std::string& name) {
@@ -77,6 +92,18 @@ void FoxgloveClient::take_ports(const json& ports) {
   channels_ = channels_of(ports_);
   say(advertisement_of(channels_));
   if (wants_graph_) say(connection_graph_of(ports_));
+  ask("graph", {}, [](FoxgloveClient& client, const json& answer) {
+    const json graph = json::parse(answer.value("text", ""), nullptr, false);
+    if (graph.is_object()) client.take_graph(graph);
+  });
+}
+
+void FoxgloveClient::take_graph(const json& graph) {
+  const std::vector<Channel> robots =
+      robot_descriptions_of(graph, static_cast<std::uint32_t>(channels_.size() + 1));
+  if (robots.empty()) return;
+  channels_.insert(channels_.end(), robots.begin(), robots.end());
+  say(advertisement_of(robots));
 }
 
 void FoxgloveClient::take_text(const std::string& text) {
@@ -126,6 +153,8 @@ void FoxgloveClient::carry_out(const std::string& op, const json& message) {
 void FoxgloveClient::subscribe(std::uint32_t subscription, const Channel& channel) {
   unsubscribe(subscription);
   if (channel.kind == Channel::Kind::log) desk().follow_log(*this, subscription);
+  if (channel.kind == Channel::Kind::text)
+    say_bytes(message_head(subscription, now_ns()) + cdr_text(channel.text));
   for (const std::string& port : channel.ports) {
     const std::uint32_t id = ++last_look_;
     views_[id] = {subscription, channel.kind};
@@ -179,12 +208,8 @@ void FoxgloveClient::hear(std::uint32_t id, const json& line) {
   record->text(line.value("text", ""));
   const std::optional<ros::RosMessage> message = ros::ros_twin(std::move(record).seal());
   if (!message) return;
-  using Nanoseconds = std::chrono::nanoseconds;
-  const auto now =
-      std::chrono::duration_cast<Nanoseconds>(std::chrono::system_clock::now().time_since_epoch());
   const auto* const payload = reinterpret_cast<const char*>(message->payload.data());
-  say_bytes(message_head(id, static_cast<std::uint64_t>(now.count())) +
-            std::string(payload, message->payload.size()));
+  say_bytes(message_head(id, now_ns()) + std::string(payload, message->payload.size()));
 }
 
 void FoxgloveClient::status(int level, const std::string& text) {

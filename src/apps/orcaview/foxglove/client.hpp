@@ -55,6 +55,7 @@ class FoxgloveClient final : public Session {
   void carry_out(const std::string& op, const nlohmann::json& message);
   void greet();
   void take_ports(const nlohmann::json& ports);
+  void take_graph(const nlohmann::json& graph);
   void subscribe(std::uint32_t subscription, const Channel& channel);
   void unsubscribe(std::uint32_t subscription);
   void get_parameters(const nlohmann::json& message);
