@@ -7,6 +7,7 @@ import { askApply, askUndo } from "./dialogs.js";
 import { byId, notify, setText } from "./dom.js";
 import { Inspector } from "./inspector.js";
 import { Pacing } from "./pacing.js";
+import { ReplayBar } from "./replay_bar.js";
 import { SystemModel } from "./system_model.js";
 import { SystemView } from "./system_view.js";
 import { Teleoperation } from "./teleoperation.js";
@@ -31,6 +32,7 @@ system.addEventListener("figures", showUndo);
 connection.addEventListener("gone", showUndo);
 new Teleoperation(connection, system);
 new Pacing(connection, system);
+new ReplayBar(connection);
 
 /** @type {Record<string, {show(on: boolean): void}>} */
 const views = { world: worldView, system: systemView, component: new ComponentView(connection, system), time: new TimeView(connection, system) };
@@ -94,7 +96,7 @@ function listenToStop() {
 function showState() {
   const link = byId("link");
   const { hello } = connection;
-  const [state, text] = hello !== null ? ["good", hello.role === "operator" ? "live" : "live, look only"]
+  const [state, text] = hello?.recorded ? ["good", "recording"] : hello !== null ? ["good", hello.role === "operator" ? "live" : "live, look only"]
     : connection.isOpen ? ["waiting", "waiting for a system"] : ["bad", "no connection"];
   link.className = `pill ${state}`;
   setText(link, text);

@@ -12,7 +12,7 @@ import { parseLayout } from "./layout.js";
  *   passed and created by the run's clock [s]; lost and leftOut count objects since the look began
  * @typedef {{port: string, rate: number, take: (object: any, passage: Passage) => void, state: (text: string, type: string) => void,
  *   type: string, again: number}} Look
- * @typedef {{system: string, role: string, time: number, version: string}} Hello
+ * @typedef {{system: string, role: string, time: number, version: string, recorded?: boolean}} Hello
  */
 
 const PROTOCOL = "orca.view.v1";
@@ -25,8 +25,8 @@ const LOOK_AGAIN = 1000;
 const CUT_OFF = { ok: false, records: [], text: "", notes: [], error: "the connection to orcaview is lost", type: "", object: null };
 
 /**
- * Events: `hello` when a system is there, `gone` when it has ended, `state` when the connection comes or goes, `figures` when objects
- * were dropped for this page.
+ * Events: `hello` when a system is there, `gone` when it has ended, `moved` when the time of a recording was set, `state` when the
+ * connection comes or goes, `figures` when objects were dropped for this page.
  */
 export class Connection extends EventTarget {
   /** @param {string} url  of the WebSocket, with the token */
@@ -226,6 +226,9 @@ export class Connection extends EventTarget {
           this.put({ op: "unlook", id });
           this.put({ op: "look", id, port: look.port, rate: look.rate });
         }
+        return;
+      case "moved":
+        this.dispatchEvent(new Event("moved"));
         return;
       case "system":
         return this.end();

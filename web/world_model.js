@@ -340,6 +340,10 @@ export class WorldModel extends EventTarget {
     /** @type {Set<string>} ports whose answer has not come yet */
     this.waiting = new Set();
     connection.addEventListener("hello", () => this.forgetAll());
+    connection.addEventListener("moved", () => {
+      this.forgetAll();
+      this.chooseLocalizers();
+    });
     system.addEventListener("graph", () => this.follow());
     setInterval(() => this.askSilent(), ASK_AGAIN);
   }
@@ -468,6 +472,7 @@ export class WorldModel extends EventTarget {
   /** Asks for readings that nobody subscribes to, and that are not pushed therefore: a robot without a goal is still somewhere. */
   askSilent() {
     if (!this.isWatching || this.connection.hello === null || this.system.pace?.paused) return;
+    if (this.connection.hello.recorded) return;  // what is recorded may stand still
     const now = performance.now();
     for (const robot of this.robots.values()) {
       robot.forgetOld();

@@ -55,6 +55,7 @@ export class WorldView {
     this.isShown = false;
     this.lastFrame = 0;
     this.frames = 0;
+    this.owesFigures = false;
     /** @type {Map<number, Point>} pointers that are down, in pixels */
     this.pointers = new Map();
     /** @type {{from: Point, to: Point} | null} what a person pulls, in the world */
@@ -107,13 +108,20 @@ export class WorldView {
     this.lastFrame = now;
     if (!this.isShown || document.hidden) return;
     this.ease(seconds);
-    if (!this.world.stale) return;
+    if (!this.world.stale) return this.finishFigures();
     this.world.stale = false;
     if (!this.isTouched && now - this.lastFit > FIT_AGAIN && this.panel.robot?.shown && !this.showsAll()) this.fit(now);
     if (this.follows && this.panel.robot?.shown) Object.assign(this.camera, { x: this.panel.robot.shown.x, y: this.panel.robot.shown.y });
     this.paint();
     this.frames += 1;
-    if (this.frames % 6 === 0) this.panel.showFigures();
+    this.owesFigures = this.frames % 6 !== 0;
+    if (!this.owesFigures) this.panel.showFigures();
+  }
+
+  /** Shows the figures of the last picture, once it stands still. */
+  finishFigures() {
+    if (this.owesFigures) this.panel.showFigures();
+    this.owesFigures = false;
   }
 
   /** @param {number} seconds  since the last frame */

@@ -99,6 +99,9 @@ class Recording {
 
   void record(std::optional<Duration> whole) {
     ask("graph", {}, [this](supervisor::ControlAnswer& answer) { take_graph(answer); });
+    for (const char* const what : {"graph", "ports"})
+      ask(
+          what, {}, [this, what](supervisor::ControlAnswer& answer) { take_json(what, answer); }, true);
     ask("sources", {}, [this](supervisor::ControlAnswer& answer) { take_source(answer); });
     ask("log", {"--follow", "--level", "debug"},
         [this](supervisor::ControlAnswer& answer) { take_log(answer); });
@@ -117,10 +120,10 @@ class Recording {
     }
   }
 
-  void ask(const std::string& command, std::vector<std::string> words, Taker taker) {
+  void ask(const std::string& command, std::vector<std::string> words, Taker taker, bool as_json = false) {
     const std::uint64_t request = ++last_request_;
     takers_[request] = std::move(taker);
-    (void)control_.post(supervisor::encode(Ask{command, std::move(words), false}, request));
+    (void)control_.post(supervisor::encode(Ask{command, std::move(words), as_json}, request));
   }
 
   // ---- What the supervisor answers
@@ -143,6 +146,12 @@ class Recording {
     if (const auto* const text = std::get_if<supervisor::TextAnswer>(&answer)) graph_ = text->text;
   }
 
+  // For whoever shows the recording as the system was shown.
+  void take_json(const std::string& what, supervisor::ControlAnswer& answer) {
+    if (const auto* const text = std::get_if<supervisor::TextAnswer>(&answer))
+      json_[what + ".json"] = text->text;
+  }
+
   // With the last source everything is known with which a recording begins.
   void take_source(supervisor::ControlAnswer& answer) {
     if (const auto* const record = std::get_if<supervisor::RecordAnswer>(&answer)) {
@@ -157,6 +166,7 @@ class Recording {
         at == std::string::npos ? "" : graph_.substr(at + 6, graph_.find('"', at + 6) - at - 6);
     note(writer_.begin({name, false, wanted_, {}}));
     note(writer_.attach_graph(graph_));
+    for (const auto& [what, text] : json_) note(writer_.attach_json(what, text));
     missing_.insert(wanted_.begin(), wanted_.end());
     has_begun_ = true;
   }
@@ -321,6 +331,7 @@ class Recording {
   std::uint64_t last_request_ = 0;
   std::map<std::uint64_t, Taker> takers_;  // by request
   std::string graph_;
+  std::map<std::string, std::string> json_;  // graph and ports, by the names of attachments
   std::vector<std::string> sources_;
   TimePoint start_{};              // of the run
   std::set<std::string> missing_;  // ports without a line

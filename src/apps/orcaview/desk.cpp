@@ -12,9 +12,11 @@ namespace orca::view {
 
 using nlohmann::json;
 
-Desk::Desk(const boost::asio::any_io_executor& loop, const std::string& system)
-    : link_(loop, system, [this](bool is_up) { changed(is_up); }),
-      log_link_(loop, system,
+Desk::Desk(const boost::asio::any_io_executor& loop, const std::string& system,
+           const SystemLink::Connect& connect, bool is_recorded)
+    : is_recorded_(is_recorded),
+      link_(loop, system, connect, [this](bool is_up) { changed(is_up); }),
+      log_link_(loop, system, connect,
                 [this](bool is_up) {
                   has_asked_ = false;
                   if (is_up) ask_for_log();
@@ -57,6 +59,11 @@ void Desk::ask_for_log() {
         for (const Follower& one : std::vector(followers_)) one.session->hear(one.id, line);
       },
       [](const Status&) {});
+}
+
+void Desk::begin_anew() {
+  for (Session* const session : std::vector(sessions_)) session->time_moved();
+  ports_.look_anew();
 }
 
 void Desk::changed(bool is_up) {

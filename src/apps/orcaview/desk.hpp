@@ -21,10 +21,16 @@ class Session;
 /// Thread contract: the loop's thread.
 class Desk {
  public:
-  Desk(const boost::asio::any_io_executor& loop, const std::string& system);
+  /// @param connect      as for SystemLink.
+  /// @param is_recorded  whether the system is a recording that is played.
+  Desk(const boost::asio::any_io_executor& loop, const std::string& system,
+       const SystemLink::Connect& connect, bool is_recorded);
 
   /// Connects to the system.
   void start();
+  [[nodiscard]] bool is_recorded() const { return is_recorded_; }
+  /// Lets all sessions begin anew, because the time of a recording was set.
+  void begin_anew();
 
   void join(Session& session);
   void leave(Session& session);
@@ -42,6 +48,7 @@ class Desk {
   void changed(bool is_up);
   void ask_for_log();
 
+  const bool is_recorded_;
   SystemLink link_;
   SystemLink log_link_;  // of its own: what is asked over it has no end
   Ports ports_;

@@ -18,6 +18,7 @@
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
+#include "playback.hpp"
 #include "view_server.hpp"
 
 // after view_server.hpp, which includes what Boost.Asio lacks
@@ -31,6 +32,7 @@ constexpr std::string_view kDetails =
     "  orcaview scout_goto                   of this one, as soon as it runs\n"
     "  deployer graphs/scout_goto.xml --view starts one beside the system\n"
     "  orcaview --batch office.batch         how far simbatch is, its report, and its failed runs\n"
+    "  orcaview run.mcap                     of a recording, which is played\n"
     "\n"
     "Open the first address that it prints in a browser. Whoever knows it may steer the robot; with the "
     "second\n"
@@ -45,7 +47,7 @@ const apps::Program& program() {
       .usage = "[SYSTEM] [options]",
       .text = "a page in the browser that shows a running system, and commands it",
       .details = kDetails,
-      .arguments = {{"SYSTEM", apps::Names::system, true}},
+      .arguments = {{"SYSTEM|FILE.mcap", apps::Names::system, true}},
       .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
                    false, "Options", 0, 65535},
                   {"--batch", "DIR", "show a folder of simbatch, and no system"},
@@ -53,7 +55,8 @@ const apps::Program& program() {
       .exits = {"0 ended by a signal", "1 the address is in use, or the page's files are missing",
                 "2 the command line is wrong", "3 no system runs, and none is named"},
       .notes =
-          "\nSYSTEM is the name of a graph. It need not run yet; when it ends, the page waits for the next "
+          "\nSYSTEM is the name of a graph, or a recording. It need not run yet; when it ends, the page "
+          "waits for the next "
           "one.\n"};
   return all;
 }
@@ -136,8 +139,9 @@ void run_contained(Loop& loop) {
 }
 
 // Listens, says where, and serves until a signal.
-ExitCode serve(const apps::Call& call, const std::string& name, const std::string& page, Loop& loop,
-               ViewServer& server, const Tokens& tokens, const std::function<void()>& begin) {
+ExitCode serve(
+    const apps::Call& call, const std::string& name, const std::string& page, Loop& loop, ViewServer& server,
+    const Tokens& tokens, const std::function<void()>& begin, const std::function<void()>& end = [] {}) {
   constexpr std::uint16_t kDefaultPort = 8080;
   const std::optional<std::uint64_t> wanted = call.count("--port");
   Status listens = server.listen(wanted ? static_cast<std::uint16_t>(*wanted) : kDefaultPort);
@@ -155,8 +159,28 @@ ExitCode serve(const apps::Call& call, const std::string& name, const std::strin
   boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
   stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
   while (!loop.stopped()) run_contained(loop);
+  end();
   loop.clear();
   return ExitCode::ended;
+}
+
+bool is_recording(const std::string& word) { return word.ends_with(".mcap"); }
+
+ExitCode show_recording(const apps::Call& call, const Tokens& tokens, const WebFiles& files) {
+  Result<RecordedSystem> recording = RecordedSystem::open(call.words.front());
+  if (!recording)
+    return report(recording.error(),
+                  recording.error().code == Code::invalid_argument ? ExitCode::usage : ExitCode::refused);
+  const std::string name = recording->name();
+  Loop loop;
+  std::optional<Playback> playback;
+  Desk desk(
+      loop.get_executor(), name, [&] { return playback->connect(); }, true);
+  playback.emplace(loop.get_executor(), *std::move(recording), [&desk] { desk.begin_anew(); });
+  ViewServer server(loop, tokens, files);
+  server.show(desk);
+  return serve(
+      call, name, "", loop, server, tokens, [&] { desk.start(); }, [&] { playback.reset(); });
 }
 
 ExitCode show_system(const apps::Call& call, const Tokens& tokens, const WebFiles& files) {
@@ -164,7 +188,8 @@ ExitCode show_system(const apps::Call& call, const Tokens& tokens, const WebFile
   if (const auto* const code = std::get_if<ExitCode>(&system)) return *code;
   const std::string& name = std::get<std::string>(system);
   Loop loop;
-  Desk desk(loop.get_executor(), name);
+  Desk desk(
+      loop.get_executor(), name, [&name] { return supervisor::connect_to_system(name); }, false);
   ViewServer server(loop, tokens, files);
   server.show(desk);
   return serve(call, name, "", loop, server, tokens, [&] { desk.start(); });
@@ -191,6 +216,7 @@ ExitCode run(const apps::Call& call) {
                   ExitCode::refused);
   const Result<Tokens> tokens = Tokens::draw();
   if (!tokens) return report(tokens.error(), ExitCode::refused);
+  if (!call.words.empty() && is_recording(call.words.front())) return show_recording(call, *tokens, files);
   return call.has("--batch") ? show_batch(call, *tokens, files) : show_system(call, *tokens, files);
 }
 

@@ -98,6 +98,11 @@ Outbox::Look& Outbox::heaviest() {
   return std::ranges::max_element(looks_, {}, weight)->second;
 }
 
+void Outbox::forget_objects() {
+  for (auto& [number, look] : looks_) look.waiting.clear();
+  object_bytes_ = 0;
+}
+
 std::optional<Frame> Outbox::take(Moment now) {
   if (!answers_.empty()) {
     Frame frame = std::move(answers_.front());

@@ -52,6 +52,9 @@ class Outbox {
   /// Adds an object that a look has seen, and drops the oldest for which there is no room.
   void add_object(std::uint32_t look, std::shared_ptr<const supervisor::Tapped> passed);
 
+  /// Drops all objects that wait, because they hold no more.
+  void forget_objects();
+
   /// Takes the next frame: answers first, then the look that waits longest.
   std::optional<Frame> take(Moment now);
   /// Returns when there will be a frame to take; nothing if none waits.

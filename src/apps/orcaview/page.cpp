@@ -66,10 +66,16 @@ void Page::system_changed(bool is_up) {
   const Seconds time = std::chrono::system_clock::now().time_since_epoch();
   say({{"op", "hello"},
        {"system", desk().link().system()},
-       {"role", role() == Role::reader ? "reader" : "operator"},
+       {"role", role() == Role::reader || desk().is_recorded() ? "reader" : "operator"},
+       {"recorded", desk().is_recorded()},
        {"present", is_up},
        {"time", time.count()},
        {"version", ORCA_VERSION}});
+}
+
+void Page::time_moved() {
+  Session::time_moved();
+  say({{"op", "moved"}});
 }
 
 void Page::hear(std::uint32_t id, const json& line) { say({{"op", "record"}, {"id", id}, {"record", line}}); }

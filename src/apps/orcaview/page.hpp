@@ -25,6 +25,7 @@ class Page final : public Session {
       : Session(std::move(stream), role, desk, kProtocol) {}
 
   void system_changed(bool is_up) override;
+  void time_moved() override;
   void hear(std::uint32_t id, const nlohmann::json& line) override;
 
  private:

@@ -71,6 +71,18 @@ void Ports::look_away(const std::string& port, Onlooker& onlooker) {
   views_.erase(found);
 }
 
+void Ports::look_anew() {
+  for (auto& [port, view] : views_) {
+    if (view->wire) view->wire->close();
+    const auto fresh = std::make_shared<View>();
+    fresh->onlookers = view->onlookers;
+    view = fresh;
+  }
+  std::vector<std::string> ports;
+  for (const auto& [port, view] : views_) ports.push_back(port);
+  for (const std::string& port : ports) open_view(port);
+}
+
 void Ports::open_view(const std::string& port) {
   open_line(link_, line_to(port, {"--tap", "--objects"}),
             [this, port, meant = std::weak_ptr(views_.at(port))](Result<std::shared_ptr<LineAnswer>> line) {

@@ -50,6 +50,9 @@ class Ports {
   /// Ends it; nothing if it has ended.
   void look_away(const std::string& port, Onlooker& onlooker);
 
+  /// Begins all looks anew, with lines that begin now.
+  void look_anew();
+
   /// Sends an object in its text form to a SendServer, or a question to a QueryServer.
   void offer(const std::string& port, const std::string& xml, Answered answered);
 

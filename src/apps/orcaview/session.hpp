@@ -51,6 +51,8 @@ class Session : public std::enable_shared_from_this<Session> {
 
   /// Learns that the system is there, or there again; or that it is gone. The first time at the beginning.
   virtual void system_changed(bool is_up) = 0;
+  /// Learns that the time of a recording was set, so that what it has seen, or has not sent yet, holds no more.
+  virtual void time_moved() { outbox_.forget_objects(); }
   /// Takes a line of the log that it follows.
   /// @param id  of the wish.
   virtual void hear(std::uint32_t id, const nlohmann::json& line) = 0;

@@ -5,7 +5,6 @@
 #include <chrono>
 
 #include "orca/base/exhaustion.hpp"
-#include "orca/supervisor/control_socket.hpp"
 
 namespace orca::view {
 namespace {
@@ -17,17 +16,21 @@ constexpr std::size_t kMostQueued = 1000;
 
 }  // namespace
 
-SystemLink::SystemLink(const boost::asio::any_io_executor& loop, std::string system,
+SystemLink::SystemLink(const boost::asio::any_io_executor& loop, std::string system, Connect connect,
                        std::function<void(bool)> changed)
-    : loop_(loop), system_(std::move(system)), changed_(std::move(changed)), retry_(loop), second_(loop) {}
+    : loop_(loop),
+      system_(std::move(system)),
+      connect_(std::move(connect)),
+      changed_(std::move(changed)),
+      retry_(loop),
+      second_(loop) {}
 
 SystemLink::~SystemLink() {
   if (wire_) wire_->close();
 }
 
 void SystemLink::start() {
-  Result<Descriptor> socket =
-      contain_exhaustion([this]() -> Result<Descriptor> { return supervisor::connect_to_system(system_); });
+  Result<Descriptor> socket = contain_exhaustion([this]() -> Result<Descriptor> { return connect_(); });
   wire_ = socket ? Wire::make(loop_, std::move(socket).value()) : nullptr;
   if (!wire_) return try_later();
   wire_->start([this](supervisor::Message message) { take(std::move(message)); },

@@ -28,8 +28,12 @@ class SystemLink {
   using Taker = std::function<void(supervisor::ControlAnswer)>;
   using Done = std::function<void(const Status& outcome)>;
 
+  using Connect = std::function<Result<Descriptor>()>;
+
+  /// @param connect  returns a new connection to the supervisor.
   /// @param changed  is called when the system is there, and when it is gone.
-  SystemLink(const boost::asio::any_io_executor& loop, std::string system, std::function<void(bool)> changed);
+  SystemLink(const boost::asio::any_io_executor& loop, std::string system, Connect connect,
+             std::function<void(bool)> changed);
   ~SystemLink();
   SystemLink(const SystemLink&) = delete;
   SystemLink& operator=(const SystemLink&) = delete;
@@ -57,6 +61,7 @@ class SystemLink {
 
   const boost::asio::any_io_executor loop_;
   const std::string system_;
+  const Connect connect_;
   const std::function<void(bool)> changed_;
   boost::asio::steady_timer retry_;
   std::shared_ptr<Wire> wire_;  // null: there is no system

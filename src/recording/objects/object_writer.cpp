@@ -109,6 +109,11 @@ Status ObjectWriter::attach_graph(const std::string& graph) {
   return attached;
 }
 
+Status ObjectWriter::attach_json(const std::string& name, const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return writer_.attach({0, 0, name, "application/json", {bytes.begin(), bytes.end()}});
+}
+
 ObjectWriter::Row& ObjectWriter::row_of(std::string_view row, const ObjectType& type) {
   auto types = rows_.find(row);
   if (types == rows_.end()) types = rows_.emplace(std::string(row), TypeRows{}).first;

@@ -92,9 +92,13 @@ Status RingWriter::begin(const Origin& origin) {
   return ok();
 }
 
-// Each file of the small row has it, so that what is left can be understood whatever went.
 Status RingWriter::attach_graph(const std::string& graph) {
   graph_ = graph;
+  return ok();
+}
+
+Status RingWriter::attach_json(const std::string& name, const std::string& text) {
+  texts_[name] = text;
   return ok();
 }
 
@@ -119,12 +123,20 @@ Status RingWriter::make_ready(Row& row, TimePoint now) {
   if (!output) return output.error();
   row.file = std::make_unique<ObjectWriter>(*std::move(output));
   row.begun = now;
+  return write_head(row);
+}
+
+// Each file says what it is of; the graph is in those of the small row, which are there longest.
+Status RingWriter::write_head(Row& row) {
   Origin origin = origin_;
   origin.more["row"] = row.name;
   origin.more["dropped"] = std::to_string(row.dropped);
   if (Status begun = row.file->begin(origin); !begun.ok()) return begun;
-  if (&row == rows_.data() && !graph_.empty())
+  if (&row == rows_.data() && !graph_.empty()) {
     if (Status attached = row.file->attach_graph(graph_); !attached.ok()) return attached;
+    for (const auto& [name, text] : texts_)
+      if (Status attached = row.file->attach_json(name, text); !attached.ok()) return attached;
+  }
   row.head = row.file->size();
   return ok();
 }

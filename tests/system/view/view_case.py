@@ -39,7 +39,7 @@ class ViewCase(unittest.TestCase):
         cls.graph = cls.copy_of_tree() / "graphs" / f"{cls.NAME}.xml"
         (cls.folder / "plugins").mkdir()
         cls.system = cls.start_system()
-        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.NAME, "--port", "0", "--web", TREE / "web"], env=cls.environment,
+        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.shown(), "--port", "0", "--web", TREE / "web"], env=cls.environment,
                                     stdout=subprocess.PIPE, text=True)
         cls.addClassCleanup(cls.end, cls.view)
         cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
@@ -57,6 +57,11 @@ class ViewCase(unittest.TestCase):
             else:
                 (tree / each.name).symlink_to(each)
         return tree
+
+    @classmethod
+    def shown(cls):
+        """Returns what orcaview shows."""
+        return cls.NAME
 
     @classmethod
     def start_system(cls):

@@ -46,6 +46,8 @@ class ObjectSink {
   /// Puts the text of the graph, and the files that its parameters name, into the recording; but no other recordings.
   /// @param graph  as graph::print() writes it.
   virtual Status attach_graph(const std::string& graph) = 0;
+  /// Puts a text in JSON into the recording, under a name.
+  virtual Status attach_json(const std::string& name, const std::string& text) = 0;
   /// Adds an object.
   /// @param row     "base.OdometryPush", or a row without a port.
   /// @param passed  when it passed, by the run's clock.
@@ -74,6 +76,7 @@ class ObjectWriter final : public ObjectSink {
 
   Status begin(const Origin& origin) override;
   Status attach_graph(const std::string& graph) override;
+  Status attach_json(const std::string& name, const std::string& text) override;
   Status add(std::string_view row, const ObjectRef& object, TimePoint passed) override;
   Status flush() override { return writer_.flush(); }
   Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more) override;

@@ -42,6 +42,7 @@ class RingWriter final : public ObjectSink {
 
   Status begin(const Origin& origin) override;
   Status attach_graph(const std::string& graph) override;
+  Status attach_json(const std::string& name, const std::string& text) override;
   /// @errors  as Writer; unavailable if a file cannot be made or removed.
   Status add(std::string_view row, const ObjectRef& object, TimePoint passed) override;
   Status flush() override;
@@ -57,6 +58,7 @@ class RingWriter final : public ObjectSink {
     std::uint64_t head = 0;                // [bytes] of what the file begins with
     std::uint64_t dropped = 0;             // messages of files that went, in all runs
   };
+  Status write_head(Row& row);
   Status make_ready(Row& row, TimePoint now);
   Status make_room(Row& row, TimePoint now);
   Status finish(Row& row, const std::map<std::string, std::uint64_t>& lost, const Values& more);
@@ -66,8 +68,9 @@ class RingWriter final : public ObjectSink {
   std::array<Row, 2> rows_{Row{"small"}, Row{"rest"}};
   Origin origin_;
   std::string graph_;
-  std::uint64_t messages_ = 0;  // in files that are closed
-  std::uint64_t size_ = 0;      // [bytes] of them
+  std::map<std::string, std::string> texts_;  // in JSON, by name
+  std::uint64_t messages_ = 0;                // in files that are closed
+  std::uint64_t size_ = 0;                    // [bytes] of them
 };
 
 /// A file of such a recording.
