@@ -70,7 +70,7 @@ Status check_motion(const Quantity (&quantities)[Count], const std::array<double
       return wrong("its " + std::string(name) + " is " + in_digits(value) + "; expected at most 1e7");
   if (!std::ranges::all_of(covariance, [](double entry) { return std::isfinite(entry); }))
     return wrong("its covariance holds a number that is not finite");
-  for (const std::size_t variance : {0, 4, 8})
+  for (const std::size_t variance : {0U, 4U, 8U})
     if (covariance[variance] < 0.0)
       return wrong("its covariance holds the negative variance " + in_digits(covariance[variance]));
   return ok();
