@@ -71,32 +71,34 @@ void Playback::take(Client& client, supervisor::Message message) {
   if (ask) answer(client, *ask, request);
 }
 
+// Answers a command that shows something. Returns false if it is none.
+bool Playback::show(const Ask& ask, const std::function<void(ControlAnswer)>& say) const {
+  const auto rows = [&](std::vector<Record> all) {
+    for (Record& row : all) say(supervisor::RecordAnswer{std::move(row)});
+    return true;
+  };
+  static const std::set<std::string_view> empty{"counters", "missions", "names"};
+  if (ask.command == "graph") return say(supervisor::TextAnswer{system_.graph()}), true;
+  if (ask.command == "ports") return say(supervisor::TextAnswer{system_.ports()}), true;
+  if (ask.command == "ps") return rows(system_.components());
+  if (ask.command == "alarms" && ask.words.empty()) return rows(system_.alarms(now_));
+  if (ask.command == "log") return rows(system_.log(system_.begin(), now_));
+  return empty.contains(ask.command);
+}
+
 void Playback::answer(Client& client, const Ask& ask, std::uint64_t request) {
   const auto say = [&](ControlAnswer answer) {
     (void)client.wire->post(supervisor::encode(std::move(answer), request));
   };
-  const auto show = [&](std::vector<Record> rows) {
-    for (Record& row : rows) say(supervisor::RecordAnswer{std::move(row)});
-  };
   Status outcome = ok();
-  if (ask.command == "graph") {
-    say(supervisor::TextAnswer{system_.graph()});
-  } else if (ask.command == "ports") {
-    say(supervisor::TextAnswer{system_.ports()});
-  } else if (ask.command == "ps") {
-    show(system_.components());
-  } else if (ask.command == "alarms" && ask.words.empty()) {
-    show(system_.alarms(now_));
-  } else if (ask.command == "log") {
-    show(system_.log(system_.begin(), now_));
-    const bool follows = std::ranges::find(ask.words, "--follow") != ask.words.end();
-    if (follows) return (void)(client.log = request);
+  if (show(ask, say)) {
+    if (std::ranges::find(ask.words, "--follow") != ask.words.end()) return (void)(client.log = request);
   } else if (ask.command == "line" && !ask.words.empty() && ask.words.back() == "--objects") {
     outcome = open_line(client, ask.words.front(), request);
   } else if (ask.command == "replay") {
     outcome = steer(ask.words);
     if (outcome.ok()) say(supervisor::RecordAnswer{state()});
-  } else if (ask.command != "counters" && ask.command != "missions" && ask.command != "names") {
+  } else {
     outcome = fail(Code::failed_precondition, "this is a recording: nothing of it can be changed");
   }
   say(supervisor::EndAnswer{outcome});

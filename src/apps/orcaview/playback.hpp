@@ -51,6 +51,7 @@ class Playback {
   using Stamp = recording::Stamp;
 
   void take(Client& client, supervisor::Message message);
+  bool show(const supervisor::Ask& ask, const std::function<void(supervisor::ControlAnswer)>& say) const;
   void answer(Client& client, const supervisor::Ask& ask, std::uint64_t request);
   Status steer(const std::vector<std::string>& words);
   Status open_line(Client& client, const std::string& port, std::uint64_t request);

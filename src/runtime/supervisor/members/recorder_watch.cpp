@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "beside.hpp"
+#include "members/recorder_watch.hpp"
+
+#include <utility>
 
 #include "orca/base/log.hpp"
 #include "orca/host/alarm.hpp"
@@ -8,6 +10,8 @@
 
 namespace orca::supervisor {
 namespace {
+
+constexpr Duration kInterval = 1s;
 
 idl::Alarm alarm_of(const std::string& source, const std::string& text, bool is_active) {
   idl::Alarm alarm = host::make_alarm("RECORDING_LOST", idl::ALARM_WARNING, source, text);
@@ -19,14 +23,18 @@ idl::Alarm alarm_of(const std::string& source, const std::string& text, bool is_
 
 }  // namespace
 
-void note_recorders(const Unrecorded& before, const Unrecorded& now, Ledger& ledger) {
-  for (const auto& [source, text] : now) {
+void look_at_recorders(RecorderWatch& watch, const std::function<std::map<std::string, std::string>()>& look,
+                       Moment now, Ledger& ledger) {
+  if (!look || now - watch.looked < kInterval) return;
+  watch.looked = now;
+  const auto before = std::exchange(watch.wrong, look());
+  for (const auto& [source, text] : watch.wrong) {
     if (before.contains(source)) continue;
     log::error(kLogName, "alarm RECORDING_LOST: " + text);
     ledger.note(alarm_of(source, text, true), "", "");
   }
   for (const auto& [source, text] : before)
-    if (!now.contains(source)) ledger.note(alarm_of(source, "it is recorded again", false), "", "");
+    if (!watch.wrong.contains(source)) ledger.note(alarm_of(source, "it is recorded again", false), "", "");
 }
 
 }  // namespace orca::supervisor

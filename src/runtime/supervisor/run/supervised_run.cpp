@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "arrivals.hpp"
-#include "beside.hpp"
 #include "control_desk.hpp"
 #include "losses.hpp"
 #include "machines/neighbours.hpp"
@@ -20,6 +19,7 @@
 #include "members/log_relay.hpp"
 #include "members/member.hpp"
 #include "members/poller.hpp"
+#include "members/recorder_watch.hpp"
 #include "members/roster.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/system/processor_wait.hpp"
@@ -45,7 +45,6 @@ namespace {
 using host::RunOutcome;
 
 constexpr Duration kRestLimit = 1s;
-constexpr Duration kRecorderLook = 1s;
 constexpr Duration kLook = 50ms;  // between two looks at everything
 constexpr int kMostReads = 32;    // of what a process has printed, after its end
 
@@ -200,7 +199,7 @@ class SupervisedRun {
     look_at_beats();
     conductor_.go_on(now());
     if (conclusion_.is_over()) return;
-    look_at_recorders();
+    look_at_recorders(recorders_, options_.look_beside, now(), ledger_);
     if (conclusion_.has_come_up()) on_demand_.look(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();
@@ -218,13 +217,6 @@ class SupervisedRun {
         log::warning(options_.log_name, "process " + member->name() + " had no processor for " +
                                             seconds_text(time) + ": the machine has too much to do");
     }
-  }
-
-  void look_at_recorders() {
-    if (!options_.look_beside || now() - recorders_seen_ < kRecorderLook) return;
-    recorders_seen_ = now();
-    const Unrecorded before = std::exchange(unrecorded_, options_.look_beside());
-    note_recorders(before, unrecorded_, ledger_);
   }
 
   // Returns for how long the thread of a process that beats has waited for a processor.
@@ -391,8 +383,7 @@ class SupervisedRun {
   const AlarmRelay relay_{roster_.all()};
   Ledger ledger_;
   LogRelay log_relay_;
-  Moment recorders_seen_{};
-  Unrecorded unrecorded_;
+  RecorderWatch recorders_;
   std::optional<Neighbours> neighbours_;  // if the graph has several machines
   const host::Reports reports_ = ledger_.reports();
   Trading trading_{graph_, roster_.all(), reports_, neighbours_};
