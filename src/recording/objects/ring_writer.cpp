@@ -145,6 +145,10 @@ Status RingWriter::write_head(Row& row) {
 Status RingWriter::make_room(Row& row, TimePoint now) {
   std::vector<RingFile> files = ring_files(folder_);
   std::erase_if(files, [&](const RingFile& file) { return file.row != row.name; });
+  std::erase_if(files, [](const RingFile& file) {  // of a recorder that found no room on the disk
+    std::error_code ignored;
+    return file.size == 0 && fs::remove(file.path, ignored);
+  });
   std::uint64_t taken = row_room_ / kFiles + Writer::kChunkBytes;  // by the next one
   for (const RingFile& file : files) taken += file.size;
   for (std::size_t i = 0; i < files.size(); ++i) {
