@@ -9,7 +9,11 @@
 #include <sstream>
 
 #if defined(__x86_64__) && __has_include(<sys/platform/x86.h>)
+#if defined(__clang__)
+#define _Bool bool  // the header says it, and clang knows it in C only
+#endif
 #include <sys/platform/x86.h>
+#undef _Bool
 #endif
 
 namespace orca::apps {
