@@ -18,7 +18,7 @@
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
-#include "playback.hpp"
+#include "replay/playback.hpp"
 #include "view_server.hpp"
 
 // after view_server.hpp, which includes what Boost.Asio lacks

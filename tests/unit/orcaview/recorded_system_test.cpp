@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a recorded system says, at any of its times.
-#include "recorded_system.hpp"
+#include "replay/recorded_system.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "recorded_system.hpp"
+#include "replay/recorded_system.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "playback.hpp"
+#include "replay/playback.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "orca/base/result.hpp"
-#include "recorded_system.hpp"
+#include "replay/recorded_system.hpp"
 
 namespace orca::view {
 
