@@ -42,7 +42,7 @@ std::uint64_t now_ns() {
 // Returns a std_msgs/msg/String.
 std::string cdr_text(const std::string& text) {
   std::string message("\0\1\0\0", 4);  // CDR, little-endian
-  append_number(message, static_cast<std::uint32_t>(text.size() + 1));
+  append(message, static_cast<std::uint32_t>(text.size() + 1));
   return message + text + '\0';
 }
 
