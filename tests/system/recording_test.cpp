@@ -54,6 +54,12 @@ int count_in(const std::string& info, const std::string& topic) {
   return count.empty() ? 0 : std::stoi(count);
 }
 
+// Returns how many poses by odometry a recording holds, which may be growing.
+int odometry_in(const std::string& file) {
+  const Run run = run_orcactl({"--json", "bag", "info", file});
+  return run.exit_code() == 0 ? count_in(run.out, "/base/OdometryPush") : 0;
+}
+
 // Replays a recording into GridPlanner, and records that. Returns the trace hash.
 std::string replay(const std::string& recording, const std::string& to, const Words& program = deployer({})) {
   Subprocess process(program +
@@ -156,11 +162,8 @@ TEST_CASE("a recorder that is killed loses at most 0.25 s, and the rest is recov
   Subprocess recorder(
       orcactl({"--system", "scout_goto_processes", "record", file, "base.OdometryPush", "--wait", "20s"}));
   const auto limit = std::chrono::steady_clock::now() + 30s;
-  std::error_code absent;
-  const auto size = [&] {
-    return std::filesystem::exists(file) ? std::filesystem::file_size(file, absent) : 0;
-  };
-  while (size() < 30'000 && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(20ms);
+  while (odometry_in(file) < 40 && std::chrono::steady_clock::now() < limit)
+    std::this_thread::sleep_for(20ms);
   const double killed =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   recorder.send(SIGKILL);
@@ -205,7 +208,7 @@ TEST_CASE(
   const std::string file = folder.file("run.mcap");
   Subprocess system(deployer({kProcesses, "--until", "30s"}));
   // A limit of the size of files, in KiB, is to a program what a full disk is.
-  Words command{"/bin/bash", "-c", "ulimit -f 60; exec \"$@\"", "bash"};
+  Words command{"/bin/bash", "-c", "ulimit -f 160; exec \"$@\"", "bash"};
   Subprocess recorder(command +
                       orcactl({"--system", "scout_goto_processes", "record", file, "--wait", "20s"}));
   const Run run = finish(recorder, Seconds(20));
@@ -256,9 +259,7 @@ TEST_CASE("a recording goes on when the graph loses a component", "[system][reco
               "\" type=\"orca.AlarmCentral\" process=\"guests\" autonomous=\"true\"/>\n");
   Subprocess system(deployer({folder.write("start.xml", graph.text())}));
   Subprocess recorder(orcactl({"--system", "scout_goto_processes", "record", file, "--wait", "20s"}));
-  const auto records = [&] {
-    return std::filesystem::exists(file) && std::filesystem::file_size(file) > 30'000;
-  };
+  const auto records = [&] { return odometry_in(file) >= 30; };
   for (int i = 0; i < 200 && !records(); ++i) std::this_thread::sleep_for(100ms);
   const Run applied = run_orcactl({"apply", less}, Seconds(40));
   INFO(applied.err);
@@ -281,9 +282,7 @@ TEST_CASE("ports whose process does not end its line are named, and the recordin
   Subprocess system(deployer({kProcesses, "--until", "60s"}));
   Subprocess recorder(
       orcactl({"--system", "scout_goto_processes", "record", file, "base.OdometryPush", "--wait", "20s"}));
-  const auto records = [&] {
-    return std::filesystem::exists(file) && std::filesystem::file_size(file) > 20'000;
-  };
+  const auto records = [&] { return odometry_in(file) >= 30; };
   for (int i = 0; i < 200 && !records(); ++i) std::this_thread::sleep_for(100ms);
   const pid_t base = children_of(system.pid()).at("base");
   system.send(SIGSTOP);  // it would end the process that does not answer
