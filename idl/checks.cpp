@@ -13,6 +13,7 @@ namespace {
 
 // [m], [rad], [m/s], [rad/s] Nothing that a robot has or does is larger; places of national grids are within it.
 constexpr double kLargest = 1e7;
+constexpr double kLongestSweep = 10.0;                  // [s]
 constexpr double kWidestScan = 4.0 * std::numbers::pi;  // [rad]
 
 std::string in_digits(double number) {
@@ -89,6 +90,9 @@ Status check_reading(const idl::LaserRangeReadings& scan) {
                  " rad apart; expected finite angles that differ and span at most two turns");
   if (!is_possible(scan.time_increment()))
     return wrong("its time_increment is " + in_digits(scan.time_increment()) + " s; expected a finite time");
+  if (std::fabs(scan.time_increment()) * static_cast<double>(scan.ranges().size()) > kLongestSweep)
+    return wrong("its time_increment is " + in_digits(scan.time_increment()) + " s for each of " +
+                 std::to_string(scan.ranges().size()) + " beams; expected a sweep of at most 10 s");
   return ok();
 }
 

@@ -171,6 +171,20 @@ std::array<double, 9> covariance_of(const PoseInformation& information, double y
   return {c(0, 0), c(1, 0), c(2, 0), c(1, 0), c(1, 1), c(2, 1), c(2, 0), c(2, 1), c(2, 2)};
 }
 
+PoseInformation after(const PoseInformation& known, const Pose2& step, const PoseInformation& travel) {
+  const Vec2 ahead = direction(step.yaw);
+  Eigen::Matrix3d back;  // into the frame at the end of the step
+  back << ahead.x, ahead.y, 0, -ahead.y, ahead.x, 0, 0, 0, 1;
+  Eigen::Matrix3d moved = Eigen::Matrix3d::Identity();
+  moved(0, 2) = -step.y;
+  moved(1, 2) = step.x;
+  const Eigen::Matrix3d covariance =
+      back * (moved * matrix_of(known).inverse() * moved.transpose() + matrix_of(travel).inverse()) *
+      back.transpose();
+  const Eigen::Matrix3d i = covariance.inverse();
+  return {i(0, 0), i(0, 1), i(1, 1), i(0, 2), i(1, 2), i(2, 2)};
+}
+
 double misfit(const PoseRelation& relation, std::span<const Pose2> poses) {
   const Eigen::Vector3d e = error_of(relation, poses);
   return e.dot(matrix_of(relation.information) * e);
@@ -207,7 +221,9 @@ PoseGraphFit fit(PoseGraph& graph, const PoseGraphOptions& options) {
   PoseGraphFit result;
   std::vector<double> weights;
   result.misfit = misfit_of_all(graph, options, weights);
-  result.solved = true;
+  result.solved = std::isfinite(result.misfit);
+  if (!result.solved) return result;
+  const std::vector<Pose2> first = graph.poses;
   if (graph.poses.size() < 2) return result;
   Eigen::SimplicialLDLT<Sparse> solver;
   double damping = 0.0;
@@ -223,6 +239,7 @@ PoseGraphFit fit(PoseGraph& graph, const PoseGraphOptions& options) {
     analysed = true;
     solver.factorize(matrix);
     if (solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 0.0) {
+      graph.poses = first;
       result.solved = false;
       return result;
     }

@@ -38,9 +38,9 @@ void pull(Step& step, Vec2 point, const SurfacePoint& surface, const Pose2& X_MR
     const double e = dot(off, axis);
     step.add(e, axis, dot(axis, {-point.y, point.x}), weight(e));
     step.squares += e * e;
-    step.fit += weight(e);
   };
   ++step.pulled;
+  step.fit += weight(surface.normal == Vec2{} ? norm(off) : dot(off, rotated(surface.normal, -X_MR.yaw)));
   if (surface.normal == Vec2{}) {
     along({1.0, 0.0});
     along({0.0, 1.0});

@@ -11,11 +11,20 @@ struct Slam::Submap {
   std::size_t first = 0;
   std::size_t count = 0;
   SurfaceMap map;
-  Vec2 middle;                         // of the nodes, frame of the first
-  std::unique_ptr<ScanSearch> search;  // once it is complete
+  Vec2 middle;       // of the nodes, frame of the first
+  double way = 0.0;  // [m] that the robot had driven when its last node came
+  bool complete = false;
+  std::unique_ptr<ScanSearch> search{};  // of few, as it is large
 };
 
 namespace {
+
+// Between two nodes there is no time for more, and the next fit goes on where this one ends.
+constexpr int kStepsOnTheWay = 4;
+constexpr int kStepsAtTheEnd = 50;
+
+constexpr double kNearWay = 0.5;   // [m] to each side
+constexpr double kNearTurn = 0.2;  // [rad]
 
 // The way from one node to the next as odometry has it, in the frame of the first.
 PoseInformation information_of(const Pose2& moved, const TravelErrors& errors) {
@@ -30,12 +39,6 @@ PoseInformation both(const PoseInformation& a, const PoseInformation& b) {
   return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xt + b.xt, a.yt + b.yt, a.tt + b.tt};
 }
 
-// The rest after so many ways of which no more is known.
-PoseInformation shared(const PoseInformation& travel, std::size_t ways) {
-  const double share = 1.0 / static_cast<double>(ways);
-  return {share * travel.xx, 0.0, share * travel.yy, 0.0, 0.0, share * travel.tt};
-}
-
 }  // namespace
 
 Slam::Slam(SlamOptions options) : options_(options), known_(information_of({}, options.travel)) {}
@@ -43,7 +46,7 @@ Slam::~Slam() = default;
 
 // The older of the submaps that grow knows more.
 std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pose2& X_LR) const {
-  const Submap& older = submaps_.size() > 1 && !submaps_[submaps_.size() - 2]->search
+  const Submap& older = submaps_.size() > 1 && !submaps_[submaps_.size() - 2]->complete
                             ? *submaps_[submaps_.size() - 2]
                             : *submaps_.back();
   const PoseInformation travel = information_of(seen_from(nodes_.back().X_LR, X_LR), options_.travel);
@@ -76,7 +79,7 @@ Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR) {
   const std::optional<ScanMatch> match = lay(scan, X_LR);
   add_node(scan, X_OR, match ? match->X_MR : X_LR, match);
   close_loops(nodes_.size() - 1);
-  if (loops_ > loops_fitted_ && nodes_.size() >= fitted_ + options_.fit_every) work_in();
+  if (loops_ > loops_fitted_ && nodes_.size() >= fitted_ + options_.fit_every) work_in(kStepsOnTheWay);
   return nodes_.back().X_MR;
 }
 
@@ -88,15 +91,15 @@ void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const
   } else {
     const SlamNode& last = nodes_.back();
     const Pose2 moved = seen_from(last.X_LR, X_LR);
-    way_since_loop_ += norm(moved.position());
+    way_ += norm(moved.position());
     const Pose2 by_odometry = seen_from(last.X_OR, X_OR);
     const PoseInformation travel = information_of(by_odometry, options_.travel);
     relations_.push_back({node - 1, node, by_odometry, travel});
-    blind_ = match ? 0 : blind_ + 1;
-    known_ = match ? both(match->information, travel) : shared(travel, blind_);
+    known_ = after(known_, by_odometry, travel);
+    if (match) known_ = both(known_, match->information);
     nodes_.push_back({X_OR, X_LR, last.X_MR * moved, {scan.begin(), scan.end()}});
     for (const auto& submap : submaps_)
-      if (match && !submap->search)
+      if (match && !submap->complete)
         relations_.push_back(
             {submap->first, node, seen_from(nodes_[submap->first].X_LR, X_LR), match->information});
   }
@@ -106,30 +109,49 @@ void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const
 }
 
 void Slam::complete_submaps() {
-  for (const auto& submap : submaps_)
-    if (!submap->search) submap->search = std::make_unique<ScanSearch>(submap->map.points());
+  for (const auto& submap : submaps_) submap->complete = true;
 }
 
 void Slam::grow_submaps() {
   const std::size_t node = nodes_.size() - 1;
-  if (submaps_.empty() || submaps_.back()->search || submaps_.back()->count >= options_.submap / 2) {
+  if (submaps_.empty() || submaps_.back()->complete || submaps_.back()->count >= options_.submap / 2) {
     submaps_.push_back(std::make_unique<Submap>());
     submaps_.back()->first = node;
   }
   for (const auto& submap : submaps_) {
-    if (submap->search) continue;
+    if (submap->complete) continue;
     const Pose2 X_AR = seen_from(nodes_[submap->first].X_LR, nodes_[node].X_LR);
     submap->map.add(nodes_[node].scan, X_AR);
     submap->map.prepare();
     submap->middle =
         submap->middle + 1.0 / static_cast<double>(++submap->count) * (X_AR.position() - submap->middle);
-    if (submap->count >= options_.submap) submap->search = std::make_unique<ScanSearch>(submap->map.points());
+    submap->way = way_;
+    submap->complete = submap->count >= options_.submap;
   }
 }
 
-bool Slam::close_loop(std::size_t node, const Submap& submap, double way, double turn) {
+PoseInformation Slam::known_at(const Pose2& X_OR) const {
+  if (nodes_.empty()) return known_;
+  const Pose2 moved = seen_from(nodes_.back().X_OR, X_OR);
+  return after(known_, moved, information_of(moved, options_.travel));
+}
+
+// Keeps the searches that were used last.
+const ScanSearch& Slam::search_of(Submap& submap) {
+  constexpr std::size_t kMost = 16;
+  std::erase(searched_, &submap);
+  if (!submap.search) submap.search = std::make_unique<ScanSearch>(submap.map.points());
+  searched_.push_back(&submap);
+  if (searched_.size() > kMost) {
+    searched_.front()->search.reset();
+    searched_.erase(searched_.begin());
+  }
+  return *submap.search;
+}
+
+bool Slam::close_loop(std::size_t node, Submap& submap, double way, double turn) {
   const Pose2 guess = seen_from(nodes_[submap.first].X_MR, nodes_[node].X_MR);
-  const auto found = submap.search->best(nodes_[node].scan, {guess, way, turn}, options_.loop_score);
+  const auto found = search_of(submap).best(nodes_[node].scan, {guess, way, turn}, options_.loop_score);
   if (!found) return false;
   const std::optional<ScanMatch> match = refine(nodes_[node].scan, submap.map, found->X_MR, options_.match);
   if (!match || match->share < options_.loop_share) return false;
@@ -139,31 +161,37 @@ bool Slam::close_loop(std::size_t node, const Submap& submap, double way, double
 }
 
 void Slam::close_loops(std::size_t node) {
-  const double drift = options_.drift * way_since_loop_;
-  const double way = std::min(0.5 + drift, 7.0);
-  const double turn = std::min(0.2 + 0.02 * way_since_loop_, 0.8);
+  const double since = way_ - way_at_loop_;
+  const double drift = options_.drift * since;
   struct Near {
     double distance;
-    const Submap* submap;
+    Submap* submap;
   };
   std::vector<Near> near;
   for (const auto& submap : submaps_) {
-    if (!submap->search || submap->first + 2 * options_.submap > node) continue;
+    if (!submap->complete || submap->first + 2 * options_.submap > node) continue;
     const double distance = norm(nodes_[submap->first].X_MR * submap->middle - nodes_[node].X_MR.position());
     if (distance <= options_.loop_reach + drift) near.push_back({distance, submap.get()});
   }
   std::ranges::stable_sort(near, {}, &Near::distance);
   if (near.size() > options_.loops_per_node) near.resize(options_.loops_per_node);
-  bool closed = false;
-  for (const Near& candidate : near) closed |= close_loop(node, *candidate.submap, way, turn);
-  if (closed) way_since_loop_ = 0.0;
+  bool seen_again = false;
+  for (const Near& candidate : near) {
+    // Near by first: in a house of equal rooms the best place of a wide window may be the next room.
+    const bool fits = close_loop(node, *candidate.submap, kNearWay, kNearTurn);
+    // A place that was just left ties the map together, but says nothing of what has drifted on the way round.
+    if (way_ - candidate.submap->way < 2.0 * options_.loop_reach) continue;
+    const double turn = std::min(kNearTurn + 0.005 * since, 0.8);
+    seen_again |= fits || close_loop(node, *candidate.submap, std::min(kNearWay + drift, 7.0), turn);
+  }
+  if (seen_again) way_at_loop_ = way_;
 }
 
-void Slam::work_in() {
+void Slam::work_in(int iterations) {
   PoseGraph graph;
   for (const SlamNode& node : nodes_) graph.poses.push_back(node.X_MR);
   graph.relations = relations_;
-  if (fit(graph).solved)
+  if (fit(graph, {.iterations = iterations}).solved)
     for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].X_MR = graph.poses[i];
   fitted_ = nodes_.size();
   loops_fitted_ = loops_;
@@ -171,16 +199,17 @@ void Slam::work_in() {
 
 void Slam::finish() {
   complete_submaps();
-  work_in();
+  work_in(kStepsAtTheEnd);
+  loops_ = 0;
   std::erase_if(relations_, [](const PoseRelation& relation) { return relation.doubtful; });
-  for (std::size_t node = 0; node < nodes_.size(); ++node)
-    for (const auto& submap : submaps_) {
+  for (const auto& submap : submaps_)
+    for (std::size_t node = 0; node < nodes_.size(); ++node) {
       if (node >= submap->first && node < submap->first + submap->count) continue;
       const Vec2 middle = nodes_[submap->first].X_MR * submap->middle;
       if (norm(middle - nodes_[node].X_MR.position()) <= options_.loop_reach)
         (void)close_loop(node, *submap, 0.2, 0.05);
     }
-  work_in();
+  work_in(kStepsAtTheEnd);
 }
 
 }  // namespace orca::nav

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -27,13 +28,19 @@ class SlamLocalizer final : public orca::Component {
   explicit SlamLocalizer(orca::ComponentHost& host) : Component(host) {}
 
  private:
+  static constexpr double kFastest = 10.0;  // [m/s]
+  static constexpr double kRoom = 0.5;      // [m]
+
   orca::Status configure() override {
     lap_on("drifting");
     return orca::ok();
   }
 
+  // It may begin again on the way, with another client.
   orca::Status start() override {
-    begin_anew();
+    history_.clear();
+    scans_.clear();
+    if (!slam_) begin_anew();
     return orca::ok();
   }
 
@@ -52,27 +59,39 @@ class SlamLocalizer final : public orca::Component {
     const Pose2 X_DR = orca::plane_pose(*drifting);
     auto pose = poses_.loan();
     *pose = *drifting;
-    if (orca::is_anywhere(drifting->covariance())) {
+    if (orca::is_anywhere(drifting->covariance()) ||
+        has_jumped(X_DR, orca::to_time_point(drifting->stamp()))) {
       if (slam_) lose();
     } else {
       if (!slam_) begin_anew();
       history_.add(orca::to_time_point(drifting->stamp()), X_DR);
       if (const auto scan = scans_.take_until(history_.newest())) lay(*scan);
-      fill(X_MD_ * X_DR, *pose);
+      fill(X_DR, *pose);
     }
     poses_.push(std::move(pose));
     return orca::again();
   }
 
+  // Whether the drifting pose is elsewhere than a robot can have driven: somebody has said where the robot is.
+  [[nodiscard]] bool has_jumped(const Pose2& X_DR, orca::TimePoint stamp) const {
+    if (history_.empty()) return false;
+    const auto before = history_.at(history_.newest());
+    return before && norm(X_DR.position() - before->position()) >
+                         kRoom + kFastest * std::max(0.0, orca::to_seconds(stamp - history_.newest()));
+  }
+
   // The sender of the drifting pose has lost the robot: it may go on anywhere else, and in another map.
   void lose() {
     slam_.reset();
+    history_.clear();
     X_MD_ = {};
-    log_warning("the map is given up: the pose that it was made by is not known any more");
+    log_warning(
+        "the map is given up: the pose that it was made by is not known any more, or was set to another "
+        "place");
   }
 
   void take_scan(orca::ObjectPtr<LaserRangeReadings> scan) {
-    if (orca::check_reading(*scan).ok()) scans_.add(std::move(scan));
+    if (senders_.accepts(*scan)) scans_.add(std::move(scan));
   }
 
   // Lays a scan on the map. The robot's frame at its first beam is that in which its points are given.
@@ -91,15 +110,20 @@ class SlamLocalizer final : public orca::Component {
     X_MD_ = slam_->see(orca::nav::surface_of(points_, X_RS.position()), X_IR) * inverse(*first);
   }
 
-  void fill(const Pose2& X_MR, RobotPose& pose) {
+  void fill(const Pose2& X_DR, RobotPose& pose) {
+    const Pose2 X_MR = X_MD_ * X_DR;
     pose.x(X_MR.x);
     pose.y(X_MR.y);
     pose.orientation(orca::wrapped(X_MR.yaw));
-    pose.covariance(orca::nav::covariance_of(slam_->known(), X_MR.yaw));
+    pose.covariance(orca::nav::covariance_of(slam_->known_at(X_MI_ * X_DR), X_MR.yaw));
   }
 
   void save_state(orca::StateWriter& state) const override { state.write(X_MD_); }
-  orca::Status load_state(orca::StateReader& state) override { return state.read(X_MD_); }
+  orca::Status load_state(orca::StateReader& state) override {
+    orca::Status read = state.read(X_MD_);
+    begin_anew();
+    return read;
+  }
 
   orca::SenderWatch senders_{host()};
   std::optional<orca::nav::Slam> slam_;
@@ -116,10 +140,11 @@ class SlamLocalizer final : public orca::Component {
       *this,
       "RobotPosePush",
       {.text = "Pose of the robot in the map, once per lap; the map begins where the drifting pose did."}};
-  orca::Param<double> range_{*this,
-                             "map_range",
-                             20.0,
-                             {.unit = "m", .min = 1.0, .text = "Echoes that are farther away do not count."}};
+  orca::Param<double> range_{
+      *this,
+      "map_range",
+      20.0,
+      {.unit = "m", .min = 1.0, .max = 100.0, .text = "Echoes that are farther away do not count."}};
 };
 
 }  // namespace

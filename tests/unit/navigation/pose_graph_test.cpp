@@ -131,3 +131,21 @@ TEST_CASE("a covariance is the inverse of the information, turned into the outer
   CHECK(c[1] == Approx(0.0).margin(1e-12));
   CHECK(c[1] == c[3]);
 }
+
+TEST_CASE("after a step a pose is known as well as pose and step together", "[navigation]") {
+  // 0.1 m and 0.1 rad before, 0.2 m and 0.05 rad for a step of 10 m ahead: the direction moves the place aside by 1 m.
+  const auto c = covariance_of(after({100.0, 0.0, 100.0, 0.0, 0.0, 100.0},
+                                     {10.0, 0.0, std::numbers::pi / 2.0}, {25.0, 0.0, 25.0, 0.0, 0.0, 400.0}),
+                               std::numbers::pi / 2.0);
+  CHECK(c[0] == Approx(0.01 + 0.04));
+  CHECK(c[4] == Approx(0.01 + 0.04 + 1.0));
+  CHECK(c[8] == Approx(0.01 + 0.0025));
+}
+
+TEST_CASE("a relation that is no number leaves all poses as they were", "[navigation]") {
+  PoseGraph graph = circle(5);
+  graph.relations[2].measured.x = std::nan("");
+  const std::vector<Pose2> before = graph.poses;
+  CHECK_FALSE(fit(graph).solved);
+  CHECK(graph.poses == before);
+}

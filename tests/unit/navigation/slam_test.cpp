@@ -108,3 +108,19 @@ TEST_CASE("where scans show nothing, the pose is odometry's", "[navigation]") {
   slam.finish();
   CHECK(slam.nodes().back().X_MR.x == Approx(5.0));
 }
+
+TEST_CASE("along a corridor without an end the pose is known less and less, but not across", "[navigation]") {
+  RandomStream random(9, "test", "corridor");
+  const test::Walls corridor{{{-90.0, 1.0}, {90.0, 1.0}}, {{-90.0, -1.0}, {90.0, -1.0}}};
+  Slam slam;
+  for (int i = 0; i <= 80; ++i) {
+    const Pose2 here{0.25 * i - 10.0, 0.0, 0.0};
+    (void)slam.see(test::scan_of(corridor, here, 0.01, random), here);
+  }
+  const Pose2 there{10.0, 0.0, 0.0};
+  const auto c = covariance_of(slam.known_at(there), 0.0);
+  CHECK(std::sqrt(c[0]) > 3.0 * std::sqrt(c[4]));
+  CHECK(std::sqrt(c[4]) < 0.1);
+  // Without another scan odometry alone says where it is.
+  CHECK(covariance_of(slam.known_at({14.0, 0.0, 0.0}), 0.0)[4] > 0.1);
+}

@@ -24,6 +24,14 @@ struct PoseInformation {
 /// @thread  pure function; any thread.
 [[nodiscard]] std::array<double, 9> covariance_of(const PoseInformation& information, double yaw);
 
+/// Returns how much is known of a pose that lies `step` from one that is known, each in its own frame.
+/// @param travel  how much is known of the step, in the frame that it begins in.
+/// @pre  both are positive definite.
+/// @thread  pure function; any thread.
+/// @source  Smith, Self and Cheeseman 1990: compounding.
+[[nodiscard]] PoseInformation after(const PoseInformation& known, const Pose2& step,
+                                    const PoseInformation& travel);
+
 /// A measurement of one pose from another.
 struct PoseRelation {
   std::size_t from = 0;         ///< The number of a pose.
@@ -35,7 +43,7 @@ struct PoseRelation {
   bool doubtful = false;
 };
 
-/// Poses and what was measured between them.
+/// Poses and what was measured between them. The relations name poses of the graph.
 struct PoseGraph {
   std::vector<Pose2> poses;  ///< X_M, map frame.
   std::vector<PoseRelation> relations;

@@ -68,6 +68,7 @@ class ScanSearch {
   static constexpr double kSide = 0.05;  ///< [m] of a cell.
 
   /// @param points  of the map, its frame.
+  /// @pre  they lie within some hundred metres: it keeps six bytes for each cell of the rectangle around them.
   explicit ScanSearch(std::span<const SurfacePoint> points);
 
   /// @return the best place with at least that score; nothing, if there is none.

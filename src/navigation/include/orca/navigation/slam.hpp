@@ -36,7 +36,7 @@ struct SlamOptions {
   double loop_reach =
       4.0;  ///< [m] from a submap's middle at which a loop is looked for, besides what may have drifted.
   std::size_t loops_per_node = 4;  ///< at most: of the submaps nearest to it.
-  double drift = 0.05;             ///< [m] per m of way since the last loop.
+  double drift = 0.02;             ///< [m] per m of way since the last loop.
   std::size_t fit_every = 10;      ///< nodes after which loops are worked in.
   MatchOptions match;
   TravelErrors travel;
@@ -70,11 +70,10 @@ class Slam {
 
   [[nodiscard]] std::span<const SlamNode> nodes() const { return nodes_; }
   [[nodiscard]] std::size_t loops() const { return loops_; }
-  /// Returns how much is known of the last node's pose by the map around it, in its own frame: what its scan says, and where that fits on
-  /// nothing, what odometry says of the way since one that did.
-  [[nodiscard]] const PoseInformation& known() const { return known_; }
-  /// Returns how many nodes there are since a scan last fitted on the map; 0: the last one does.
-  [[nodiscard]] std::size_t blind() const { return blind_; }
+  /// Returns how much is known of the robot's pose in the map around it, in its own frame: what the scans say, and where they say nothing,
+  /// what odometry does.
+  /// @param X_OR  by odometry now.
+  [[nodiscard]] PoseInformation known_at(const Pose2& X_OR) const;
 
  private:
   struct Submap;
@@ -85,8 +84,9 @@ class Slam {
   void grow_submaps();
   void complete_submaps();
   void close_loops(std::size_t node);
-  bool close_loop(std::size_t node, const Submap& submap, double way, double turn);
-  void work_in();
+  bool close_loop(std::size_t node, Submap& submap, double way, double turn);
+  const ScanSearch& search_of(Submap& submap);
+  void work_in(int iterations);
 
   SlamOptions options_;
   std::vector<SlamNode> nodes_;
@@ -95,9 +95,10 @@ class Slam {
   std::size_t loops_ = 0;
   std::size_t fitted_ = 0;  // nodes at the last fit
   std::size_t loops_fitted_ = 0;
-  double way_since_loop_ = 0.0;  // [m]
-  PoseInformation known_;
-  std::size_t blind_ = 0;
+  double way_ = 0.0;               // [m] driven
+  double way_at_loop_ = 0.0;       // [m] when a place was last seen again
+  PoseInformation known_;          // of the last node's pose, its frame
+  std::vector<Submap*> searched_;  // those that have a search, the last used one at the end
 };
 
 }  // namespace orca::nav

@@ -17,7 +17,7 @@ struct SurfacePoint {
       normal;  ///< [1] unit vector across the surface, towards the sensor; (0, 0) where no neighbours show it.
 };
 
-/// Gives the points of a scan the normals of the surface through them and their neighbours, which lie within `reach` [m] and are at most six
+/// Gives the points of a scan the normals of the surface through them and their neighbours, which lie within `reach` [m] and are at most 15
 /// places away. A point whose neighbours lie on no line gets none.
 /// @param points  of one scan, in the order of its beams.  @param sensor  where it was taken from; the same frame.
 [[nodiscard]] std::vector<SurfacePoint> surface_of(std::span<const Vec2> points, Vec2 sensor,
