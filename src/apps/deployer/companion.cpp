@@ -177,14 +177,16 @@ void Recorders::look_at(Recorder& recorder) {
   if (!end) {
     if (now - recorder.begun < kProof) return;
     recorder.fault.clear();
-    recorder.patience = kFirstPatience;
+    if (now - recorder.begun >= kLongestPatience) recorder.patience = kFirstPatience;
     return;
   }
+  if (!recorder.ended) recorder.ended = now;
   recorder.fault = "nothing is recorded into " + recorder.target +
                    " any more, since its recorder has ended (" + *end + "); " +
                    (recorder.is_renewed ? "it is started again; its own words are on stderr"
                                         : "what it wrote is whole; go on with: orcactl record OTHER.mcap");
-  if (!recorder.is_renewed || now - recorder.begun < recorder.patience) return;
+  if (!recorder.is_renewed || now - *recorder.ended < recorder.patience) return;
+  recorder.ended.reset();
   recorder.patience = std::min(2 * recorder.patience, kLongestPatience);
   recorder.companion.reset();
   (void)start(recorder);  // the next look sees whether it runs

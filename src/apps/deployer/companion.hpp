@@ -88,7 +88,8 @@ class Recorders {
     std::optional<Companion> companion{};  // nothing: it could not be started
     std::string fault{};                   // of the last one
     std::chrono::steady_clock::time_point begun{};
-    std::chrono::seconds patience{1};  // until the next one
+    std::optional<std::chrono::steady_clock::time_point> ended{};  // if it has, and no other one was tried
+    std::chrono::seconds patience{1};                              // until the next one
   };
   void keep_always(const graph::Graph& graph, const std::string& name);
   Status start(Recorder& recorder);

@@ -277,6 +277,9 @@ Status cut(const std::vector<std::string>& words) {
     const Result<Stamp> time = time_of(words[i], all);
     if (!time) return time.error();
     (i == 2 ? wanted.begin : wanted.end) = *time;
+    // A time of day that the recording has not reached yet is not that of the day before.
+    const bool is_of_day = words[i].find(':') != std::string::npos && words[i].find('T') == std::string::npos;
+    if (i == 3 && is_of_day && wanted.end <= wanted.begin) wanted.end += kStampSecond * 24 * 3600;
   }
   if (std::ranges::none_of(*parts, [&](const Part& part) { return overlaps(part, wanted); }))
     return fail(Code::not_found, "nothing of that time is there; the recording goes from " +

@@ -170,6 +170,7 @@ void Page::lay_out(const Wish& wish) {
 }
 
 void Page::take_graph_file(const std::string& file, const Wish& wish) {
+  if (file.empty()) return refuse(wish.id, "this system does not say in which file its graph is");
   if (!wish.layout.empty())
     if (const Status kept = keep_layout(file, wish.layout); !kept.ok())
       return refuse(wish.id, kept.error().text());

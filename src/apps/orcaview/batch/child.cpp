@@ -12,11 +12,16 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/redirect_error.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 namespace orca::view {
 namespace {
+
+constexpr int kEndTicks = 500;
+constexpr std::chrono::milliseconds kEndTick{10};
 
 namespace asio = boost::asio;
 
@@ -83,6 +88,12 @@ Child::Child(const asio::any_io_executor& loop, pid_t process, int output)
 Child::~Child() {
   if (is_over_) return;
   kill(process_, SIGTERM);
+  // The pages stand meanwhile, so that not for longer than a deployer takes to end.
+  for (int i = 0; i < kEndTicks; ++i) {
+    if (waitpid(process_, nullptr, WNOHANG) != 0) return;
+    std::this_thread::sleep_for(kEndTick);
+  }
+  kill(process_, SIGKILL);
   wait();
 }
 
@@ -96,6 +107,8 @@ asio::awaitable<std::string> Child::read_some() {
 
 int Child::wait() {
   int status = 0;
+  boost::system::error_code ignored;
+  (void)output_.close(ignored);  // It may wait for somebody to read what it says.
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   is_over_ = true;

@@ -134,16 +134,17 @@ std::vector<Record> RecordedSystem::alarms(Stamp now) const {
     const std::string source = field(one.object, "source");
     const std::string key = kind + "\n" + source;
     if (field(one.object, "active") != "true") return active.erase(key), true;
-    active[key] = {{"number", ++number},
-                   {"time", to_seconds(one.passed.time_since_epoch()), 3},
-                   {"severity", field(one.object, "severity")},
-                   {"kind", kind},
-                   {"source", source},
-                   {"process", ""},
-                   {"times", 1},
-                   {"active", true},
-                   {"mission", 0},
-                   {"text", field(one.object, "text")}};
+    active[key] = {
+        {"number", ++number},
+        {"time", to_seconds(one.passed.time_since_epoch() - Duration(static_cast<std::int64_t>(begin()))), 3},
+        {"severity", field(one.object, "severity")},
+        {"kind", kind},
+        {"source", source},
+        {"process", ""},
+        {"times", 1},
+        {"active", true},
+        {"mission", 0},
+        {"text", field(one.object, "text")}};
     return true;
   });
   std::vector<Record> rows;

@@ -41,7 +41,7 @@ void Applying::apply(const std::string& file, bool untried, const ReplyPtr& repl
 }
 
 void Applying::show_present(Reply& reply) const {
-  if (const Status takes = takes_graphs(); !takes.ok()) return reply.refuse(takes.error());
+  if (const Status one = has_one_machine(); !one.ok()) return reply.refuse(one.error());
   reply.add(reply.as_json() ? graph::graph_json(present()) : graph::print(present()));
 }
 
@@ -101,15 +101,14 @@ void Applying::carry_out_saved(const std::string& file) {
 Status Applying::can_change() const {
   if (change_ != nullptr)
     return fail(Code::unavailable, "another graph is being compared or applied; try again when that is done");
-  return takes_graphs();
-}
-
-Status Applying::takes_graphs() const {
   if (!levers_.read)
     return fail(Code::unimplemented,
-                "a run in virtual time takes no other graph from an operator; give it to the deployer, with "
-                "its time: "
-                "--change GRAPH.xml@TIME");
+                "a run in virtual time takes no other graph from an operator; start it without --pace and "
+                "--view, with the time of the change: --change GRAPH.xml@TIME");
+  return has_one_machine();
+}
+
+Status Applying::has_one_machine() const {
   if (place_.graph.machines.size() < 2) return ok();
   std::vector<std::string> machines;
   for (const graph::MachineNode& node : place_.graph.machines) machines.push_back(node.name);

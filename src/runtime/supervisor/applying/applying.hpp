@@ -101,7 +101,7 @@ class Applying {
   void carry_out_saved(const std::string& file);
   void edit(const Result<std::string>& text, const ReplyPtr& reply);
   void accept(const CheckedSystem& system, std::string text);
-  [[nodiscard]] Status takes_graphs() const;
+  [[nodiscard]] Status has_one_machine() const;
   [[nodiscard]] graph::Graph present() const;
 
   const Place place_;
