@@ -20,7 +20,7 @@
 namespace orca::host {
 namespace {
 
-constexpr std::chrono::milliseconds kCloseLimit{500};
+constexpr std::chrono::milliseconds kCloseLimit{2000};
 // The thread looks for work by itself, because waking it would cost the component that pushes a system call.
 constexpr std::chrono::milliseconds kWriteInterval{20};
 
