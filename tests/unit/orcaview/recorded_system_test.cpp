@@ -104,6 +104,7 @@ TEST_CASE("alarms and lines of the log are those of the time", "[orcaview][recor
   const auto alarms = system.alarms(stamp(3.0));
   REQUIRE(alarms.size() == 1);
   CHECK(alarms[0][3].value == "HARDWARE_FAULT");
+  CHECK(std::stod(alarms[0][1].value) == Approx(2.0));  // since the beginning, as the lines of the log
   CHECK(system.alarms(stamp(5.0)).empty());
   CHECK(system.log(stamp(0.0), stamp(6.9)).empty());
   const auto lines = system.log(stamp(0.0), stamp(7.0));
