@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "codes.hpp"
-#include "companion.hpp"
+#include "companions.hpp"
 #include "console.hpp"
 #include "describe.hpp"
 #include "laps.hpp"
@@ -220,7 +220,8 @@ ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions r
     return ExitCode::could_not_start;
   }
   run.visitors = attendance->get();
-  const std::optional<Companion> viewer = options.view ? start_viewer(loaded.graph->name) : std::nullopt;
+  const std::optional<apps::ChildProgram> viewer =
+      options.view ? start_viewer(loaded.graph->name) : std::nullopt;
   return run_here(loaded, options, run, stop, **attendance);
 }
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "companion.hpp"
+#include "companions.hpp"
 #include "exit_code.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
@@ -195,7 +195,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   supervised.outputs.looks_on = options.progress.value_or(stderr_can_live());
   if (const Status opened = try_to_open(options.run); !opened.ok())
     return refuse(opened.error(), options.run.log_name, listener);
-  const std::optional<Companion> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
+  const std::optional<apps::ChildProgram> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
   Recorders recorders;
   if (const Status started = recorders.start(graph, machine, options.run.recordings); !started.ok())
     return refuse(started.error(), options.run.log_name, listener);

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "access.hpp"
-#include "batch/batch_door.hpp"
+#include "batch_door.hpp"
 #include "desk.hpp"
 #include "orca/base/result.hpp"
 #include "web_files.hpp"

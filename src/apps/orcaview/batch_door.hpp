@@ -2,17 +2,21 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
-#include "batch/child.hpp"
+#include "wire.hpp"
 
-// after child.hpp, which includes what Boost.Asio lacks
+// after wire.hpp, which includes what Boost.Asio lacks
+#include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/awaitable.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "access.hpp"
+#include "common/child_program.hpp"
 #include "orca/base/result.hpp"
 
 namespace orca::view {
@@ -39,11 +43,15 @@ class BatchDoor {
  private:
   /// A run that is made again.
   struct Watched {
+    Watched(const boost::asio::any_io_executor& loop, std::string run, apps::ChildProgram made)
+        : name(std::move(run)), program(std::move(made)), output(loop, program.output().release()) {}
+
     std::string name;
     std::string address;  // of its page; empty: there is none yet
     std::string said;     // the end of what it has printed
     int ended = -1;       // exit status; -1: it goes on
-    std::unique_ptr<Child> child;
+    apps::ChildProgram program;
+    boost::asio::posix::stream_descriptor output;
   };
   boost::asio::awaitable<void> refresh();
   Reply status(Role role) const;

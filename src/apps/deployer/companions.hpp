@@ -2,8 +2,6 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
-#include <sys/types.h>
-
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -12,53 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "orca/base/descriptor.hpp"
+#include "common/child_program.hpp"
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_outputs.hpp"
 
 namespace orca::deployer {
 
-/// A program beside a running system, such as orcaview: a client like those that people start. If it dies, nothing else
-/// notices; it is asked to end if this process is killed.
-///
-/// Thread contract: the main thread, which lives as long as the process.
-class Companion {
- public:
-  /// Starts a program of Orca.
-  /// @param name   of the program, which stands beside this one.
-  /// @param tells  whether first_line() is wanted; otherwise its stdout is this program's.
-  /// @errors  unavailable if it cannot be started.
-  [[nodiscard]] static Result<Companion> start(const std::string& name, const std::vector<std::string>& words,
-                                               bool tells);
-
-  Companion(Companion&& other) noexcept
-      : process_(std::exchange(other.process_, 0)),
-        status_(other.status_),
-        output_(std::move(other.output_)) {}
-  Companion& operator=(Companion&&) = delete;
-  ~Companion() { (void)end(); }
-
-  /// Waits for the first line that it prints; "" if it ends without one, or takes more than 10 s.
-  [[nodiscard]] std::string first_line() const;
-
-  /// Asks it to end, and waits for that; after 5 s it is killed.
-  /// @return whether it has ended with exit status 0.
-  bool end();
-  /// Returns how it has ended although nobody has asked it to: "exit status 1" or "signal 9"; nothing while it runs.
-  [[nodiscard]] std::optional<std::string> end_by_itself();
-
- private:
-  Companion(pid_t process, Descriptor output) : process_(process), output_(std::move(output)) {}
-
-  pid_t process_ = 0;            // 0: moved from, or ended
-  std::optional<int> status_{};  // as waitpid() gives it, of one that has ended by itself
-  Descriptor output_;            // what it prints
-};
-
 /// Starts orcaview for a system, and prints its address on stderr.
 /// @return nothing if that fails, after it was said: a system runs without its page, too.
-[[nodiscard]] std::optional<Companion> start_viewer(const std::string& system);
+[[nodiscard]] std::optional<apps::ChildProgram> start_viewer(const std::string& system);
 
 /// The processes that record a system of several processes: one `orcactl record` for each MCAP file, and one for the recording
 /// that its graph says is always made, in the user's state folder (docs/recordings.md). They wait for the system and end with it.
@@ -69,7 +30,7 @@ class Recorders {
  public:
   /// Starts them.
   /// @param machine  name of this one in the graph; empty: it declares none.
-  /// @errors  already_exists if a file is there; as Companion::start().
+  /// @errors  already_exists if a file is there; as apps::ChildProgram::start().
   Status start(const graph::Graph& graph, const std::string& machine,
                const std::vector<host::RecordingOptions>& recordings);
   [[nodiscard]] std::size_t count() const { return running_.size(); }
@@ -84,9 +45,9 @@ class Recorders {
   struct Recorder {
     std::string target;  // file or folder
     std::vector<std::string> words;
-    bool is_renewed;                       // if it ends too early
-    std::optional<Companion> companion{};  // nothing: it could not be started
-    std::string fault{};                   // of the last one
+    bool is_renewed;                              // if it ends too early
+    std::optional<apps::ChildProgram> program{};  // nothing: it could not be started
+    std::string fault{};                          // of the last one
     std::chrono::steady_clock::time_point begun{};
     std::optional<std::chrono::steady_clock::time_point> ended{};  // if it has, and no other one was tried
     std::chrono::seconds patience{1};                              // until the next one

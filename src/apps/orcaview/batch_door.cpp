@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "batch/batch_door.hpp"
+#include "batch_door.hpp"
 
+#include <array>
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,6 +20,7 @@ namespace orca::view {
 namespace {
 
 namespace asio = boost::asio;
+using apps::ChildProgram;
 using nlohmann::json;
 
 constexpr std::chrono::milliseconds kFresh{1000};  // so long a status is good enough
@@ -32,6 +37,15 @@ std::string address_in(const std::string& said) {
   const std::size_t begin = said.find("http://127.0.0.1:");
   const std::size_t end = begin == std::string::npos ? begin : said.find('\n', begin);
   return end == std::string::npos ? "" : said.substr(begin, end - begin);
+}
+
+// Returns what a program has printed next; empty: it has closed its output.
+asio::awaitable<std::string> read_some(asio::posix::stream_descriptor& output) {
+  std::array<char, 4096> buffer;
+  boost::system::error_code error;
+  const std::size_t size =
+      co_await output.async_read_some(asio::buffer(buffer), asio::redirect_error(asio::use_awaitable, error));
+  co_return error ? std::string() : std::string(buffer.data(), size);
 }
 
 }  // namespace
@@ -54,14 +68,16 @@ asio::awaitable<void> BatchDoor::refresh() {
   is_reading_ = true;
   std::string text;
   int ended = -1;
-  if (const Result<std::unique_ptr<Child>> child =
-          Child::start(loop_, {"simbatch", "status", folder_}, "/")) {
+  if (Result<ChildProgram> program =
+          ChildProgram::start({"simbatch", "status", folder_}, ChildProgram::Reads::everything)) {
+    asio::posix::stream_descriptor output(loop_, program->output().release());
     for (;;) {
-      const std::string more = co_await (*child)->read_some();
+      const std::string more = co_await read_some(output);
       if (more.empty() || text.size() > kLongestStatus) break;
       text += more;
     }
-    ended = (*child)->wait();
+    output.close();
+    ended = program->wait();
   }
   json status = read_json(text);
   fault_ = ended == 0 && status.is_object() ? "" : text.empty() ? "simbatch says nothing" : text;
@@ -102,14 +118,13 @@ BatchDoor::Reply BatchDoor::watch(const std::string& number) {
   const json run = failed_run(number);
   if (!run.contains("watch")) return refuse(404, "there is no such failed run");
   watched_.reset();  // a system of its name cannot run twice
-  auto next = std::make_shared<Watched>();
-  next->name = run.value("variant", "") + " in " + run.value("world", "") + ", seed " +
-               std::to_string(run.value("seed", std::uint64_t{0}));
+  const std::string name = run.value("variant", "") + " in " + run.value("world", "") + ", seed " +
+                           std::to_string(run.value("seed", std::uint64_t{0}));
   const std::string folder = std::filesystem::path(status_.value("file", "")).parent_path().string();
-  Result<std::unique_ptr<Child>> child =
-      Child::start(loop_, {"/bin/sh", "-c", "exec " + run.value("watch", "")}, folder);
-  if (!child) return refuse(500, child.error().text());
-  next->child = std::move(child).value();
+  Result<ChildProgram> program = ChildProgram::start({"/bin/sh", "-c", "exec " + run.value("watch", "")},
+                                                     ChildProgram::Reads::everything, folder);
+  if (!program) return refuse(500, program.error().text());
+  auto next = std::make_shared<Watched>(loop_, name, std::move(program).value());
   watched_ = next;
   asio::co_spawn(loop_, follow(std::move(next)), asio::detached);
   return {200, text_of({{"error", ""}})};
@@ -120,13 +135,13 @@ asio::awaitable<void> BatchDoor::follow(std::shared_ptr<Watched> watched) {
   watched.reset();
   std::string all;
   for (;;) {
-    Child* child = nullptr;
-    if (const auto still = whether_wanted.lock()) child = still->child.get();
-    if (child == nullptr) co_return;
-    const std::string more = co_await child->read_some();
+    asio::posix::stream_descriptor* output = nullptr;
+    if (const auto still = whether_wanted.lock()) output = &still->output;
+    if (output == nullptr) co_return;
+    const std::string more = co_await read_some(*output);
     const auto still = whether_wanted.lock();
     if (!still) co_return;
-    if (more.empty()) co_return still->ended = still->child->wait(), void();
+    if (more.empty()) co_return still->ended = still->program.wait(), void();
     still->said += more;
     if (still->address.empty()) still->address = address_in(still->said);
     if (still->said.size() > kLongestSaid) still->said.erase(0, still->said.size() - kLongestSaid);
