@@ -106,11 +106,13 @@ TEST_CASE("alarms and lines of the log are those of the time", "[orcaview][recor
   CHECK(alarms[0][3].value == "HARDWARE_FAULT");
   CHECK(std::stod(alarms[0][1].value) == Approx(2.0));  // since the beginning, as the lines of the log
   CHECK(system.alarms(stamp(5.0)).empty());
-  CHECK(system.log(stamp(0.0), stamp(6.9)).empty());
-  const auto lines = system.log(stamp(0.0), stamp(7.0));
+  CHECK(system.log(stamp(0.0), stamp(6.9), {}).empty());
+  const auto lines = system.log(system.log_begin(stamp(7.0)), stamp(7.0), {});
   REQUIRE(lines.size() == 1);
   CHECK(lines[0][1].value == "warning");
   CHECK(lines[0][3].value == "slips");
+  CHECK(system.log(stamp(0.0), stamp(7.0), {"base", "goto"}).size() == 1);
+  CHECK(system.log(stamp(0.0), stamp(7.0), {"goto"}).empty());
 }
 
 TEST_CASE("the graph is the recorded one; without it the ports that are recorded are there",

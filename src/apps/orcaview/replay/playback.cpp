@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
@@ -33,6 +32,14 @@ Result<double> number(const std::vector<std::string>& words, double min, double 
   if (rest != nullptr && *rest == '\0' && value >= min && value <= max) return value;
   return fail(Code::invalid_argument, "replay " + words[0] + " expects a number from " + std::to_string(min) +
                                           " to " + std::to_string(max));
+}
+
+// Returns what is no option among the words of `log`.
+std::set<std::string> names_in(const std::vector<std::string>& words) {
+  std::set<std::string> names;
+  for (const std::string& word : words)
+    if (!word.starts_with("--")) names.insert(word);
+  return names;
 }
 
 }  // namespace
@@ -82,7 +89,7 @@ bool Playback::show(const Ask& ask, const std::function<void(ControlAnswer)>& sa
   if (ask.command == "ports") return say(supervisor::TextAnswer{system_.ports()}), true;
   if (ask.command == "ps") return rows(system_.components());
   if (ask.command == "alarms" && ask.words.empty()) return rows(system_.alarms(now_));
-  if (ask.command == "log") return rows(system_.log(system_.begin(), now_));
+  if (ask.command == "log") return rows(system_.log(system_.log_begin(now_), now_, names_in(ask.words)));
   return empty.contains(ask.command);
 }
 
@@ -92,7 +99,11 @@ void Playback::answer(Client& client, const Ask& ask, std::uint64_t request) {
   };
   Status outcome = ok();
   if (show(ask, say)) {
-    if (std::ranges::find(ask.words, "--follow") != ask.words.end()) return (void)(client.log = request);
+    if (std::ranges::find(ask.words, "--follow") != ask.words.end()) {
+      client.log = request;
+      client.who = names_in(ask.words);
+      return;
+    }
   } else if (ask.command == "line" && !ask.words.empty() && ask.words.back() == "--objects") {
     outcome = open_line(client, ask.words.front(), request);
   } else if (ask.command == "replay") {
@@ -198,7 +209,7 @@ void Playback::pass_on(Stamp from, Stamp to) {
   now_ = read.ok() ? std::max(now_, reached) : to;  // a damaged chunk is passed over
   for (Client& client : clients_)
     if (client.log)
-      for (Record& line : system_.log(from, now_))
+      for (Record& line : system_.log(from, now_, client.who))
         (void)client.wire->post(
             supervisor::encode(ControlAnswer(supervisor::RecordAnswer{std::move(line)}), *client.log));
 }

@@ -12,6 +12,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "orca/base/result.hpp"
@@ -42,6 +43,7 @@ class Playback {
   struct Client {
     std::shared_ptr<Wire> wire;
     std::optional<std::uint64_t> log{};  // request of whoever follows the log
+    std::set<std::string> who{};         // whose
   };
   struct Line {
     std::string row;

@@ -21,7 +21,7 @@ using supervisor::Record;
 using supervisor::Tapped;
 
 constexpr std::size_t kEncapsulation = 4;  // [bytes] in front of each object
-constexpr int kMostOpened = 200;  // chunks that are opened for one object, in a file without an index
+constexpr std::size_t kMostOpened = 200;   // chunks that are opened for one object or for the log
 
 bool is_port(const std::string& row) { return row.find('.') != std::string::npos; }
 
@@ -40,6 +40,12 @@ std::string field(const ObjectRef& object, const std::string& name) {
   return texts && texts->size() == 1 ? texts->front().text : "";
 }
 
+// Without an index nobody knows.
+bool may_have(const recording::ChunkIndex& chunk, const std::set<std::uint16_t>& channels) {
+  const auto& in_it = chunk.message_index_offsets;
+  return in_it.empty() || std::ranges::any_of(channels, [&](auto id) { return in_it.contains(id); });
+}
+
 std::string text_in(const json& row, const char* name) {
   return row.contains(name) && row[name].is_string() ? row[name].get<std::string>() : "";
 }
@@ -55,6 +61,7 @@ Result<RecordedSystem> RecordedSystem::open(const std::string& path) {
   system.name_ = recording::fact(system.reader_.facts(), "graph");
   system.find_sources();
   system.read_structure();
+  system.read_alarms();
   return system;
 }
 
@@ -124,17 +131,17 @@ std::vector<Record> RecordedSystem::components() const {
   return rows;
 }
 
-std::vector<Record> RecordedSystem::alarms(Stamp now) const {
-  std::map<std::string, Record> active;  // by what identifies an alarm
+void RecordedSystem::read_alarms() {
   std::uint64_t number = 0;
   (void)reader_.objects({std::string(recording::kAlarmRow)}, [&](const recording::RecordedObject& one) {
-    if (static_cast<Stamp>(one.passed.time_since_epoch().count()) > now) return false;
     const std::string own = field(one.object, "own_kind");
     const std::string kind = own.empty() ? field(one.object, "kind") : own;
     const std::string source = field(one.object, "source");
-    const std::string key = kind + "\n" + source;
-    if (field(one.object, "active") != "true") return active.erase(key), true;
-    active[key] = {
+    AlarmChange& change = alarm_changes_.emplace_back();
+    change.time = static_cast<Stamp>(one.passed.time_since_epoch().count());
+    change.key = kind + "\n" + source;
+    if (field(one.object, "active") != "true") return true;
+    change.row = {
         {"number", ++number},
         {"time", to_seconds(one.passed.time_since_epoch() - Duration(static_cast<std::int64_t>(begin()))), 3},
         {"severity", field(one.object, "severity")},
@@ -147,12 +154,23 @@ std::vector<Record> RecordedSystem::alarms(Stamp now) const {
         {"text", field(one.object, "text")}};
     return true;
   });
+}
+
+std::vector<Record> RecordedSystem::alarms(Stamp now) const {
+  std::map<std::string, Record> active;
+  for (const AlarmChange& change : alarm_changes_) {
+    if (change.time > now) break;
+    if (change.row)
+      active[change.key] = *change.row;
+    else
+      active.erase(change.key);
+  }
   std::vector<Record> rows;
   for (auto& [key, row] : active) rows.push_back(std::move(row));
   return rows;
 }
 
-std::vector<Record> RecordedSystem::log(Stamp from, Stamp to) const {
+std::vector<Record> RecordedSystem::log(Stamp from, Stamp to, const std::set<std::string>& who) const {
   static const std::map<std::string, std::string> levels{{"LEVEL_DEBUG", "debug"},
                                                          {"LEVEL_INFO", "info"},
                                                          {"LEVEL_WARNING", "warning"},
@@ -162,15 +180,27 @@ std::vector<Record> RecordedSystem::log(Stamp from, Stamp to) const {
     ObjectLoan object = make_object(*find_object_type(passed.type));
     if (!object.type().deserialize(passed.object, object.get()).ok()) return true;
     const ObjectRef line = std::move(object).seal();
+    const std::string source = field(line, "source");
+    if (!who.empty() && !who.contains(source)) return true;
     const auto level = levels.find(field(line, "level"));
     if (rows.size() == kMostLines) rows.pop_front();
     rows.push_back({{"time", static_cast<double>(passed.passed - begin()) * 1e-9, 3},
                     {"level", level == levels.end() ? "info" : level->second},
-                    {"who", field(line, "source")},
+                    {"who", source},
                     {"text", field(line, "text")}});
     return true;
   });
   return {rows.begin(), rows.end()};
+}
+
+RecordedSystem::Stamp RecordedSystem::log_begin(Stamp now) const {
+  const std::set<std::uint16_t> channels = channels_of({std::string(recording::kLogRow)});
+  std::vector<Stamp> starts;
+  for (const recording::ChunkIndex& chunk : reader_.file().chunks())
+    if (chunk.start <= now && may_have(chunk, channels)) starts.push_back(chunk.start);
+  if (starts.size() <= kMostOpened) return begin();
+  std::ranges::nth_element(starts, starts.begin() + kMostOpened - 1, std::greater());
+  return starts[kMostOpened - 1];
 }
 
 std::string RecordedSystem::row_of(const std::string& port) const {
@@ -211,12 +241,9 @@ std::optional<Tapped> RecordedSystem::last(const std::string& row, Stamp now) co
   const std::set<std::uint16_t> channels = channels_of({row});
   std::vector<recording::ChunkIndex> chunks = reader_.file().chunks();
   std::ranges::stable_sort(chunks, std::greater(), &recording::ChunkIndex::start);
-  int opened = 0;
+  std::size_t opened = 0;
   for (const recording::ChunkIndex& chunk : chunks) {
-    const auto& in_it = chunk.message_index_offsets;
-    const bool may_have =
-        in_it.empty() || std::ranges::any_of(channels, [&](auto id) { return in_it.contains(id); });
-    if (chunk.start > now || !may_have) continue;
+    if (chunk.start > now || !may_have(chunk, channels)) continue;
     if (++opened > kMostOpened) break;
     std::optional<Tapped> found;
     (void)reader_.file().messages(

@@ -39,7 +39,11 @@ class RecordedSystem {
   /// Returns the rows of `alarms` at a time: what was raised last of each, as far as it is not cleared.
   [[nodiscard]] std::vector<supervisor::Record> alarms(Stamp now) const;
   /// Returns the rows of `log` of a span of time, the newest kMostLines at most.
-  [[nodiscard]] std::vector<supervisor::Record> log(Stamp from, Stamp to) const;
+  /// @param who  components, hardware or processes; empty: all.
+  [[nodiscard]] std::vector<supervisor::Record> log(Stamp from, Stamp to,
+                                                    const std::set<std::string>& who) const;
+  /// Returns where to begin for the newest lines at a time: so far back that a long recording is not read as a whole.
+  [[nodiscard]] Stamp log_begin(Stamp now) const;
   static constexpr std::size_t kMostLines = 2000;
 
   /// Returns the row in which the objects of a port are recorded: its own, or that of what is connected to it; empty: none.
@@ -60,9 +64,15 @@ class RecordedSystem {
     std::string row;
     std::string type;
   };
+  struct AlarmChange {
+    Stamp time;
+    std::string key;                        // what identifies the alarm
+    std::optional<supervisor::Record> row;  // nothing: it is cleared
+  };
   explicit RecordedSystem(recording::ObjectReader reader) : reader_(std::move(reader)) {}
   void find_sources();
   void read_structure();
+  void read_alarms();
   void make_up_structure();
   [[nodiscard]] supervisor::Tapped tapped(const recording::Message& message) const;
   [[nodiscard]] std::set<std::uint16_t> channels_of(const std::set<std::string>& rows) const;
@@ -73,6 +83,7 @@ class RecordedSystem {
   std::string ports_;
   std::map<std::uint16_t, Source> sources_;                    // by channel
   std::map<std::string, std::vector<std::string>> connected_;  // to a port
+  std::vector<AlarmChange> alarm_changes_;                     // in order
 };
 
 }  // namespace orca::view
