@@ -81,6 +81,19 @@ TEST_CASE("a frame that is cut short anywhere is an error and no object", "[patt
   }
 }
 
+TEST_CASE("a text that is cut short is an error, also as the last field", "[patterns][frames]") {
+  Frame written(FrameKind::taken, 1);
+  written.add(std::string("who"));
+  const auto bytes = bytes_of(written);
+  for (const std::size_t missing : {std::size_t{1}, std::size_t{3}}) {
+    const auto head = std::span(bytes).first(bytes.size() - missing);
+    FrameReader frame(head);
+    CHECK(frame.read_text().empty());
+    REQUIRE_FALSE(frame.status().ok());
+    CHECK(frame.status().error().code == Code::data_loss);
+  }
+}
+
 TEST_CASE("fields that nobody expects are an error", "[patterns][frames]") {
   Frame written(FrameKind::taken, 1);
   written.add(std::uint64_t{2});
