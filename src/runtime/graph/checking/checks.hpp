@@ -33,6 +33,8 @@ void check_hardware(const std::vector<Node>& nodes, Types& types, Model& model, 
 // warning, for the emulation may be another system's.
 // @param nodes  those of the model's hardware, in its order.
 void check_emulated_lines(const std::vector<Node>& nodes, const Model& model, Report& report);
+// Returns whether hardware emulates devices, so that drivers need it, whoever is bound to it.
+bool offers_lines(const HardwareNode& hardware);
 
 void check_components(const std::vector<Node>& nodes, Types& types, Model& model, Report& report);
 

@@ -54,6 +54,8 @@ void report_missing(const Node& node, const std::string& param, const std::strin
 
 }  // namespace
 
+bool offers_lines(const HardwareNode& hardware) { return hardware.params.contains(kOffer); }
+
 void check_emulated_lines(const std::vector<Node>& nodes, const Model& model, Report& report) {
   if (!std::ranges::all_of(model.hardware, &CheckedHardware::sound)) return;
   const std::vector<std::string> offered = offered_lines(model);

@@ -41,7 +41,7 @@ class Influence {
     Names bound;
     for (const CheckedComponent& component : model_.components) bound.insert(component.value.hardware);
     for (const CheckedHardware& hardware : model_.hardware) {
-      if (bound.contains(hardware.value.name)) continue;
+      if (bound.contains(hardware.value.name) || offers_lines(hardware.value)) continue;
       report_.warning(codes::kUnusedHardware, hardware.value.position,
                       "hardware " + in_quotes(hardware.value.name) +
                           ": no component is bound to it, so nothing comes of it");
