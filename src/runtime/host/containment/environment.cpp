@@ -261,13 +261,18 @@ std::string Environment::culprit(const Guests& possible) {
   return names;
 }
 
-void Environment::forked(const Activity& turn) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (!said_.emplace(turn.who(), idl::FORK).second) return;
+void Environment::at_fork(Fork moment, const Activity* turn) {
+  if (moment == Fork::begins) return mutex_.lock();
+  if (moment == Fork::is_over_in_copy) {
+    kept_ = false;
+    sink_ = only_log;
   }
-  const std::string hook = hook_text(turn.hook(), turn.port());
-  sink_(make_alarm(idl::FORK, turn.who(), hook,
+  const bool is_news =
+      moment == Fork::is_over && turn != nullptr && said_.emplace(turn->who(), idl::FORK).second;
+  mutex_.unlock();
+  if (!is_news) return;
+  const std::string hook = hook_text(turn->hook(), turn->port());
+  sink_(make_alarm(idl::FORK, turn->who(), hook,
                    hook + " has called fork(); the copy is ended, because two must not drive one robot. "
                           "Start programs with posix_spawn()"));
 }

@@ -60,8 +60,11 @@ class Environment {
     ++own_openings_;
     --opening_;
   }
-  /// Reports a fork(); called in a hook, by the process that has called it.
-  void forked(const Activity& turn);
+  enum class Fork { begins, is_over, is_over_in_copy };
+  /// To be called around each fork(): one that a component calls in a hook is reported. A copy, such as the one where Orca tries code out,
+  /// is not watched, and what another thread held does not stay held in it.
+  /// @param turn  in which it is called; null: outside of all components.
+  void at_fork(Fork moment, const Activity* turn);
 
  private:
   using Watches = std::vector<std::unique_ptr<Watch>>;

@@ -233,11 +233,14 @@ void on_exit_called(int status, void* /*unused*/) {
 }
 void on_quick_exit() { end_instead_of_exit("quick_exit()"); }
 
+using Fork = Environment::Fork;
+
+void before_fork() { Environment::of_process().at_fork(Fork::begins, nullptr); }
 void after_fork_here() {
-  const Activity* const activity = Activity::current();
-  if (g_armed.load() && activity != nullptr) Environment::of_process().forked(*activity);
+  Environment::of_process().at_fork(Fork::is_over, g_armed.load() ? Activity::current() : nullptr);
 }
 void after_fork_in_copy() {
+  Environment::of_process().at_fork(Fork::is_over_in_copy, nullptr);
   if (g_armed.exchange(false) && Activity::current() != nullptr)
     _exit(1);  // otherwise it is a copy made by Orca itself
 }
@@ -253,7 +256,7 @@ void register_once() {
   static const bool registered = [] {
     LastWords::catch_exit();
     std::at_quick_exit(on_quick_exit);
-    pthread_atfork(nullptr, after_fork_here, after_fork_in_copy);
+    pthread_atfork(before_fork, after_fork_here, after_fork_in_copy);
     return true;
   }();
   (void)registered;
