@@ -2,6 +2,7 @@
 #include "orca/navigation/occupancy_map.hpp"
 
 #include <cmath>
+#include <cstring>
 
 namespace orca::nav {
 namespace {
@@ -48,6 +49,27 @@ void OccupancyMap::follow(Vec2 place) {
     }
   cells_ = std::move(moved);
   lattice_.corner = lattice_.corner + lattice_.side * Vec2{double(shift.column), double(shift.row)};
+}
+
+std::string OccupancyMap::packed() const {
+  std::string text(sizeof lattice_ + sizeof scan_ + cells_.size() * sizeof(State), '\0');
+  std::memcpy(text.data(), &lattice_, sizeof lattice_);
+  std::memcpy(text.data() + sizeof lattice_, &scan_, sizeof scan_);
+  std::memcpy(text.data() + sizeof lattice_ + sizeof scan_, cells_.data(), cells_.size() * sizeof(State));
+  return text;
+}
+
+bool OccupancyMap::unpack(std::string_view text) {
+  Lattice lattice;
+  const std::size_t cells = cells_.size() * sizeof(State);
+  if (text.size() != sizeof lattice + sizeof scan_ + cells) return false;
+  std::memcpy(&lattice, text.data(), sizeof lattice);
+  if (lattice.side != lattice_.side || lattice.columns != lattice_.columns || lattice.rows != lattice_.rows)
+    return false;
+  lattice_ = lattice;
+  std::memcpy(&scan_, text.data() + sizeof lattice_, sizeof scan_);
+  std::memcpy(cells_.data(), text.data() + sizeof lattice_ + sizeof scan_, cells);
+  return true;
 }
 
 void OccupancyMap::see(std::span<const Beam> scan) {

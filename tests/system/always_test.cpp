@@ -8,6 +8,7 @@
 #include <fstream>
 #include <thread>
 
+#include "bags.hpp"
 #include "deployer.hpp"
 #include "process_table.hpp"
 #include "temp_folder.hpp"
@@ -22,8 +23,6 @@ using namespace std::chrono_literals;
 
 const std::string kName = "pioneer2dx_sick";
 const Words kRobot{source_file("graphs/pioneer2dx_sick.xml"), "--until", "60s"};
-
-Run bag(const Words& words) { return run_orcactl(Words{"bag"} + words); }
 
 // Waits until something is so. Returns whether it is.
 template <class Question>

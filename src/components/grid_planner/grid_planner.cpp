@@ -2,17 +2,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "asked_robot.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/geometry/objects/waiting_scans.hpp"
 #include "orca/goals/goal_follower.hpp"
-#include "orca/idl/hardware.hpp"
-#include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/navigator.hpp"
@@ -27,6 +28,9 @@ using orca::Status;
 using orca::Vec2;
 using orca::go::Step;
 using orca::go::Target;
+using orca::planner::Body;
+
+double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, most) : wish; }
 
 /// A behaviour that drives to goals by a plan: it maps what its laser sees, finds the cheapest way through the map and follows it.
 /// It takes the place of Goto and an avoid behaviour. See README.md.
@@ -35,21 +39,12 @@ class GridPlanner final : public orca::go::GoalFollower {
   explicit GridPlanner(orca::ComponentHost& host) : GoalFollower(host, kBlockedAfter) {}
 
  private:
+  static constexpr const char* kType = "orca.GridPlanner";
   static constexpr double kBlockedAfter = 60.0;  // [s]
   static constexpr double kBrakes = 0.8;         // of the change of speed that the base is capable of
   static constexpr double kSlow = 0.01;          // [m/s], [rad/s]
   static constexpr double kOwnEcho = 0.1;        // [m] what scanners see so near to the robot is the robot
   using Scanners = orca::PushProxyArray<orca::idl::LaserRangeReadings>;
-
-  // The robot's body, as the base reports it. Zero: it does not.
-  struct Body {
-    double radius = 0.0;        // [m]
-    double length = 0.0;        // [m]
-    double width = 0.0;         // [m]
-    double max_speed = 0.0;     // [m/s]
-    double max_rate = 0.0;      // [rad/s]
-    double acceleration = 0.0;  // [m/s2]
-  };
 
   Status configure() override {
     const Status sound = GoalFollower::configure();
@@ -68,12 +63,11 @@ class GridPlanner final : public orca::go::GoalFollower {
     heard_at_.reset();
     navigator_.reset();
     listened_.clear();
-    return ask_robot();
+    return robot_.ask();
   }
 
   void stop() override {
-    if (question_) robot_.query_forget(*question_);
-    question_.reset();
+    robot_.leave();
     scanners_.unsubscribe_all();
     GoalFollower::stop();
   }
@@ -83,38 +77,38 @@ class GridPlanner final : public orca::go::GoalFollower {
     return orca::ok();
   }
 
-  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Goto", 1}}; }
-
-  Status ask_robot() {
-    body_.reset();
-    if (!robot_.connected()) return orca::ok();
-    const orca::Result<orca::QueryId> sent = robot_.query_request(robot_.loan());
-    if (!sent)
-      return orca::fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
-    question_ = *sent;
-    return orca::ok();
+  // A successor that has this gives the commands that this object would have given.
+  void save_state(orca::StateWriter& state) const override {
+    GoalFollower::save_state(state);
+    state.write(robot_.body(), history_, X_MO_, scans_, twist_, heard_at_, wants_fix_);
+    state.write(navigator_.has_value());
+    if (navigator_) state.write(navigator_->map().packed(), *navigator_);
   }
 
-  Status learn_robot() {
-    const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
-    if (!answer) return orca::ok();
-    question_.reset();
-    if (!*answer)
-      return orca::fail(answer->error().code,
-                        "the base does not describe the robot: " + answer->error().message);
-    const orca::idl::Robot& robot = ***answer;
-    body_ = Body{std::max(robot.radius(), robot.bumper_radius()), robot.length(), robot.width()};
-    for (const orca::idl::Drive& drive : robot.drives()) {
-      body_->max_speed = drive.max_speed();
-      body_->max_rate = drive.max_steer_speed();
-      body_->acceleration = drive.speed_change();
-    }
-    return orca::ok();
+  Status load_state(orca::StateReader& state) override {
+    if (Status read = GoalFollower::load_state(state); !read.ok()) return read;
+    if (state.tag().version < state_version() || state.tag().type != kType) return orca::ok();
+    auto [body] = robot_.state();
+    bool has_navigator = false;
+    Status read = state.read(body, history_, X_MO_, scans_, twist_, heard_at_, wants_fix_, has_navigator);
+    if (!read.ok() || !has_navigator) return read;
+    navigator_.emplace(footprint(), rules());
+    std::string map;
+    read = state.read(map);
+    if (read.ok()) read = std::apply([&](auto&... part) { return state.read(part...); }, navigator_->state());
+    const bool fits = read.ok() && navigator_->unpack_map(map);
+    if (!fits) navigator_.emplace(footprint(), rules());  // also if the map has another size now
+    return read;
+  }
+
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
+    return {{"orca.Goto", 1}, {kType, 1}};
   }
 
   orca::Outcome work() override {
-    if (const Status learnt = learn_robot(); !learnt.ok()) return orca::failed(learnt.error().text());
-    if (!navigator_ && !question_) navigator_.emplace(footprint(), rules());
+    if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
+    if (!navigator_ && !robot_.is_asked()) navigator_.emplace(footprint(), rules());
     return GoalFollower::work();
   }
 
@@ -269,7 +263,7 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   [[nodiscard]] std::string why_deaf() const {
-    if (question_) return "the base has not described the robot yet";
+    if (robot_.is_asked()) return "the base has not described the robot yet";
     const auto scan = laser_.latest();
     const bool comes = scan && orca::check_reading(*scan).ok() &&
                        orca::to_seconds(now() - orca::to_time_point(scan->creation_time())) <= *deaf_after_;
@@ -297,20 +291,19 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   [[nodiscard]] orca::nav::Footprint footprint() const {
-    const Body body = body_.value_or(Body{*robot_radius_, *robot_length_, *robot_width_});
+    const Body body = robot_.body().value_or(Body{*robot_radius_, *robot_length_, *robot_width_});
     return {0.5 * body.length, 0.5 * body.width, body.radius};
   }
 
   [[nodiscard]] double deceleration() const {
     if (*deceleration_ > 0.0) return *deceleration_;
     constexpr double kCareful = 0.5;  // [m/s2]
-    return body_ && body_->acceleration > 0.0 ? kBrakes * body_->acceleration : kCareful;
+    const auto& body = robot_.body();
+    return body && body->acceleration > 0.0 ? kBrakes * body->acceleration : kCareful;
   }
 
-  static double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, most) : wish; }
-
   [[nodiscard]] orca::nav::NavigatorRules rules() const {
-    const Body body = body_.value_or(Body{});
+    const Body body = robot_.body().value_or(Body{});
     orca::nav::NavigatorRules rules;
     rules.pursuit.max_speed = at_most(*max_speed_, body.max_speed);
     rules.pursuit.turn_rate = at_most(*turn_rate_, body.max_rate);
@@ -333,11 +326,7 @@ class GridPlanner final : public orca::go::GoalFollower {
                      {.text = "Scans of lasers that stand somewhere and report their places in the world; "
                               "needs a localizer.",
                       .optional = true}};
-  orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
-      *this,
-      "robot",
-      {.text = "Base that is asked about the robot's outline and how fast it can be.", .optional = true}};
-
+  orca::planner::AskedRobot robot_{*this};
   orca::planner::Outlook outlook_{*this};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
@@ -431,8 +420,6 @@ class GridPlanner final : public orca::go::GoalFollower {
   orca::Param<double> robot_width_{
       *this, "robot_width", 0.0, {.unit = "m", .min = 0.0, .text = "Its width."}};
 
-  std::optional<orca::QueryId> question_;  // to the base, as long as it has not answered
-  std::optional<Body> body_;
   std::optional<orca::nav::Navigator> navigator_;  // from when the outline is known
   orca::nav::PoseHistory history_;                 // in the frame of the odometry; without one, of the goals
   std::optional<Pose2> X_MO_;  // the frame of the odometry in that of the goals; nothing: they are the same

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -54,12 +55,24 @@ struct Drive {
   int recoveries = 0;
 };
 
+// Returns another navigator that knows what this one knows.
+std::unique_ptr<Navigator> successor_of(Navigator& navigator) {
+  auto next = std::make_unique<Navigator>(kBase, NavigatorRules{});
+  next->state() = navigator.state();
+  REQUIRE(next->unpack_map(navigator.map().packed()));
+  return next;
+}
+
 // Drives a robot that obeys after one lap through a plane with walls.
-Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds) {
-  Navigator navigator(kBase, {});
+// @param relieved_every  laps after which another navigator goes on; 0: never.
+Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds, int relieved_every = 0) {
+  auto owned = std::make_unique<Navigator>(kBase, NavigatorRules{});
+  int laps = 0;
   Drive drive;
   orca::Twist2 twist;
   for (double time = 0.0; time < seconds && norm(drive.end.position() - goal) > 0.2; time += kLap) {
+    if (relieved_every > 0 && ++laps % relieved_every == 0) owned = successor_of(*owned);
+    Navigator& navigator = *owned;
     const std::vector<Beam> scan = scan_of(walls, drive.end);
     navigator.hear(scan, drive.end);
     const Steer steer = navigator.steer({TimePoint{orca::from_seconds(time)}, drive.end, twist}, {goal});
@@ -103,6 +116,32 @@ TEST_CASE("shut in, the navigator tries to recover and touches nothing", "[navig
   CHECK(std::abs(drive.end.y) < 1.0);
   CHECK(drive.recoveries > 0);
   CHECK(drive.least_clearance > 0.0);
+}
+
+TEST_CASE("a navigator that goes on with what another one knows drives the same, also while it recovers",
+          "[navigation]") {
+  const std::vector<Wall> u{
+      {{1.5, -1.0}, {1.5, 1.0}}, {{-0.5, 1.0}, {1.5, 1.0}}, {{-0.5, -1.0}, {1.5, -1.0}}};
+  const std::vector<Wall> cell{{{-1.0, -1.0}, {1.0, -1.0}},
+                               {{1.0, -1.0}, {1.0, 1.0}},
+                               {{1.0, 1.0}, {-1.0, 1.0}},
+                               {{-1.0, 1.0}, {-1.0, -1.0}}};
+  for (const auto& walls : {u, cell}) {
+    const Drive alone = drive_to({4.0, 0.0}, walls, 30.0);
+    const Drive relieved = drive_to({4.0, 0.0}, walls, 30.0, 7);
+    CHECK(relieved.end == alone.end);
+    CHECK(relieved.recoveries == alone.recoveries);
+  }
+}
+
+TEST_CASE("a map of another size is not taken over", "[navigation]") {
+  NavigatorRules small;
+  small.extent = 8.0;
+  Navigator navigator(kBase, small);
+  navigator.hear(scan_of({{{-1.0, 2.0}, {6.0, 2.0}}}, {}), {});
+  CHECK_FALSE(navigator.unpack_map(Navigator(kBase, {}).map().packed()));
+  CHECK_FALSE(navigator.unpack_map("rubbish"));
+  CHECK(navigator.map().occupied(navigator.map().lattice().cell_at({0.0, 2.0})));
 }
 
 TEST_CASE("the navigator names the place ahead on its path, and none while it knows no way", "[navigation]") {

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "orca/base/time.hpp"
@@ -60,6 +62,15 @@ class Navigator {
   [[nodiscard]] double room_ahead(const Moment& moment) const;
   /// Forgets the path: the robot does something else now.
   void drop_path();
+
+  /// Names what it knows besides its rules and its map, so that another one can go on from there.
+  [[nodiscard]] auto state() {
+    return std::tie(points_, plan_, planned_for_, planned_at_, along_, begun_, news_, turning_,
+                    blocked_since_, backs_off_since_, stood_at_, moved_at_, recoveries_, retreat_);
+  }
+  /// Takes over the map of another one, as OccupancyMap::packed() gives it.
+  /// @return whether it had the same size.
+  [[nodiscard]] bool unpack_map(std::string_view text) { return map_.unpack(text); }
 
   [[nodiscard]] const Path& path() const { return plan_.path; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }

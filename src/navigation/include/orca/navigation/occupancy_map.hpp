@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/navigation/lattice.hpp"
@@ -38,6 +40,12 @@ class OccupancyMap {
   void see(std::span<const Beam> scan);
   /// Makes unknown all that lies farther than `distance` [m] from `place`.
   void forget_beyond(Vec2 place, double distance);
+
+  /// Returns all that it knows, for unpack() of another map in a build of the same source.
+  [[nodiscard]] std::string packed() const;
+  /// Takes over what another map knew.
+  /// @return whether that one had as many cells of the same size; otherwise nothing changes.
+  [[nodiscard]] bool unpack(std::string_view text);
 
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
   /// @pre  lattice().holds(cell), also for free(), known() and point().

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "orca/geometry/vec2.hpp"
@@ -19,6 +20,9 @@ class Path {
   Path() = default;
   /// Points that equal the one before are left out.
   explicit Path(std::span<const Vec2> points);
+
+  /// Names what it consists of.
+  [[nodiscard]] auto state() { return std::tie(points_, along_); }
 
   [[nodiscard]] bool empty() const { return points_.empty(); }
   [[nodiscard]] const std::vector<Vec2>& points() const { return points_; }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <tuple>
 
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
@@ -19,6 +20,8 @@ class PoseHistory {
   void add(TimePoint stamp, const Pose2& pose);
   void clear() { poses_.clear(); }
   [[nodiscard]] bool empty() const { return poses_.empty(); }
+  /// Names what it consists of.
+  [[nodiscard]] auto state() { return std::tie(poses_); }
   /// Returns when the newest pose was. @pre not empty.
   [[nodiscard]] TimePoint newest() const { return poses_.back().stamp; }
   /// Returns the pose at an instant, on the straight line between its neighbours; nothing if it is not between two poses.

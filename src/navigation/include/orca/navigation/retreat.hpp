@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "orca/base/time.hpp"
@@ -33,6 +34,12 @@ class Retreat {
   void begin();
   /// Returns the next moment of it. It is blocked if no way leads out, or none any more.
   [[nodiscard]] Steer step(TimePoint now, const Scene& scene, const Seen& seen);
+  /// Names what it knows, but for the footprint.
+  [[nodiscard]] auto state() {
+    return std::tie(trail_, left_, direction_, has_turned_back_, has_moved_, retreated_, stood_at_,
+                    moved_at_);
+  }
+
   /// Forgets that there was no way out backwards.
   void reset() { direction_ = -1.0; }
 

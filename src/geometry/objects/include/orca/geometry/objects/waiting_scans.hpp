@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <tuple>
 #include <utility>
 
 #include "orca/base/time.hpp"
@@ -28,6 +29,8 @@ class WaitingScans {
     scans_.push_back(std::move(scan));
   }
   void clear() { scans_.clear(); }
+  /// Names what it consists of.
+  [[nodiscard]] auto state() { return std::tie(scans_); }
 
   /// Returns the newest scan whose last beam was taken by this time, and drops it with all that are older; null: none was.
   ScanPtr take_until(TimePoint time) {

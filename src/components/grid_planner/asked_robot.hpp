@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "orca/component.hpp"
+#include "orca/idl/hardware.hpp"
+#include "orca/idl/system.hpp"
+
+namespace orca::planner {
+
+/// The robot's body, as the base reports it. Zero: it does not.
+struct Body {
+  double radius = 0.0;        ///< [m]
+  double length = 0.0;        ///< [m]
+  double width = 0.0;         ///< [m]
+  double max_speed = 0.0;     ///< [m/s]
+  double max_rate = 0.0;      ///< [rad/s]
+  double acceleration = 0.0;  ///< [m/s2]
+};
+
+/// The port by which a planner asks the base about the robot, and the answer.
+///
+/// Thread contract: as the component that owns it.
+class AskedRobot {
+ public:
+  explicit AskedRobot(Component& owner)
+      : port_(owner, "robot",
+              {.text = "Base that is asked about the robot's outline and how fast it can be.",
+               .optional = true}) {}
+
+  /// Asks, unless the port is not connected.
+  /// @errors  those of the port.
+  Status ask() {
+    body_.reset();
+    if (!port_.connected()) return ok();
+    const Result<QueryId> sent = port_.query_request(port_.loan());
+    if (!sent) return fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
+    question_ = *sent;
+    return ok();
+  }
+  /// Looks for the answer.
+  /// @errors  those of the base.
+  Status learn() {
+    const auto answer = question_ ? port_.query_receive(*question_) : std::nullopt;
+    if (!answer) return ok();
+    question_.reset();
+    if (!*answer)
+      return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
+    const idl::Robot& robot = ***answer;
+    body_ = Body{std::max(robot.radius(), robot.bumper_radius()), robot.length(), robot.width()};
+    for (const idl::Drive& drive : robot.drives()) {
+      body_->max_speed = drive.max_speed();
+      body_->max_rate = drive.max_steer_speed();
+      body_->acceleration = drive.speed_change();
+    }
+    return ok();
+  }
+  /// Waits for no answer any more.
+  void leave() {
+    if (question_) port_.query_forget(*question_);
+    question_.reset();
+  }
+  /// Returns whether the answer is still to come.
+  [[nodiscard]] bool is_asked() const { return question_.has_value(); }
+  [[nodiscard]] const std::optional<Body>& body() const { return body_; }
+  /// Names what a successor of the component goes on with.
+  [[nodiscard]] auto state() { return std::tie(body_); }
+
+ private:
+  QueryProxy<idl::Ask, idl::Robot> port_;
+  std::optional<QueryId> question_;  // to the base, as long as it has not answered
+  std::optional<Body> body_;
+};
+
+}  // namespace orca::planner

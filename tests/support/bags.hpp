@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Looks into recordings by orcactl bag.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "deployer.hpp"
+
+namespace orca::test {
+
+/// Runs orcactl bag.
+inline Run bag(const Words& words) { return run_orcactl(Words{"bag"} + words); }
+
+/// Returns the cell of a topic in `bag info --json`; "" if there is no such topic.
+inline std::string cell_of(const std::string& info, const std::string& topic, const std::string& name) {
+  for (const std::string& line : split_lines(info)) {
+    if (line.find("\"" + topic + "\"") == std::string::npos) continue;
+    const std::size_t at = line.find("\"" + name + "\":");
+    if (at == std::string::npos) return "";
+    const std::size_t begin = line.find_first_not_of(" \"", at + name.size() + 3);
+    return line.substr(begin, line.find_first_of("\",}", begin) - begin);
+  }
+  return "";
+}
+
+/// Returns `bag info --json` of a file.
+inline std::string info_of(const std::string& file) {
+  const Run run = run_orcactl({"--json", "bag", "info", file});
+  INFO(run.err);
+  REQUIRE(run.exit_code() == 0);
+  return run.out;
+}
+
+/// Returns how many objects of a topic there are.
+inline int count_in(const std::string& info, const std::string& topic) {
+  const std::string count = cell_of(info, topic, "messages");
+  return count.empty() ? 0 : std::stoi(count);
+}
+
+}  // namespace orca::test
