@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "files/formats/image_file.hpp"
+#include "orca/image/grey_image.hpp"
 #include "orca/sim/world_file.hpp"
 
 namespace {
@@ -24,12 +24,8 @@ void check(const orca::sim::WorldModel& world) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-  if (bytes.starts_with("\x89PNG")) {
-    static_cast<void>(orca::sim::detail::decode_png(bytes, "fuzz.png"));
-    return 0;
-  }
-  if (bytes.starts_with("P2") || bytes.starts_with("P5")) {
-    static_cast<void>(orca::sim::detail::decode_pgm(bytes, "fuzz.pgm"));
+  if (orca::image::is_picture(bytes)) {
+    static_cast<void>(orca::image::decode_image(bytes, "fuzz.png"));
     return 0;
   }
   orca::xml::Diagnostics diagnostics;

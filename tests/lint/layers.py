@@ -36,7 +36,7 @@ SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
 SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
 SIM_WORLD = ("sim_motion", *SIM_MOTION)
-SIM_FILES = ("sim_generators", "sim_world", *SIM_WORLD)
+SIM_FILES = ("sim_generators", "sim_world", "image", *SIM_WORLD)
 
 LAYERS = (
     Layer("base", ("src/base",), ("orca/base/",), libraries=("fmt",)),
@@ -53,6 +53,8 @@ LAYERS = (
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
+    Layer("image", ("src/image",), ("orca/image/",), ("base",), ("png",)),
+    Layer("maps", ("src/maps",), ("orca/maps/",), ("image", "geometry", "xml", "idl", "base"), ("yaml",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
     Layer("patterns_endpoints", ("src/patterns/endpoints",),
           ("orca/patterns/endpoints/", "orca/patterns/counters.hpp", "orca/patterns/request_id.hpp",
@@ -102,6 +104,7 @@ LAYERS = (
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
+    Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
         "event", "figures", "floor", "gripper_order", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),
@@ -111,7 +114,7 @@ LAYERS = (
     Layer("sim_motion", ("sim/motion",), (), SIM_MOTION, ("bullet", "eigen", "fmt"), module="sim"),
     Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
-          SIM_FILES, ("urdfdom", "png", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
+          SIM_FILES, ("urdfdom", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
     Layer("emulators", ("sim/emulators",), ("orca/emulators/",), ("hw_framing", "geometry", "base")),
     Layer("sim_plugin", ("sim/plugin",), (), ("geometry_objects", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
     Layer("sim_emulated", ("sim/emulated",), (), ("emulators", "sim_plugin", "hw_link", "sim_files", *SIM_FILES, *DEVICE), ("fmt",)),
@@ -206,7 +209,7 @@ LAYERS = (
           "batch_experiment", "batch_results", "batch_measures", "batch_statistics", "supervisor_attending",
           "supervisor_run", "supervisor_starting", "supervisor_hosted", "supervisor_agreed", "supervisor_processes", "supervisor_channel",
           "host_run", "host", "host_containment", "host_picture", "graph", "plugin", "recording_objects", "recording",
-          "ros", "text", "xml", "hw_link", *DEVICE), ("fmt",)),
+          "ros", "maps", "text", "xml", "hw_link", *DEVICE), ("fmt",)),
     Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "recording_objects", "recording", "ros", "text", "xml", *DEVICE),
           ("boost", "nlohmann")),
 )
@@ -226,6 +229,7 @@ LIBRARY_HEADERS = {
     "boost": ("boost/",),
     "nlohmann": ("nlohmann/",),
     "png": ("png.h", "libpng"),
+    "yaml": ("yaml-cpp/",),
     "zlib": ("zlib.h",),
     "zstd": ("zstd.h",),
     "lz4": ("lz4frame.h",),

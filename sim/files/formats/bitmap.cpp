@@ -167,7 +167,7 @@ std::optional<std::string> doubt_about(const GreyImage& image) {
 
 Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale, double height,
                                      std::optional<std::string>* doubt) {
-  const Result<GreyImage> image = read_image(path);
+  const Result<GreyImage> image = image::read_image(path);
   if (!image) return image.error();
   if (doubt != nullptr) *doubt = doubt_about(*image);
   const Result<double> pixel = pixel_size(scale, *image);

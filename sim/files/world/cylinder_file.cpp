@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "codes.hpp"
-#include "files/formats/image_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/robot_file/values.hpp"
 #include "orca/xml/number.hpp"

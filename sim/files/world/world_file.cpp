@@ -8,7 +8,6 @@
 
 #include "codes.hpp"
 #include "cylinder_file.hpp"
-#include "files/formats/image_file.hpp"
 #include "orca/base/input_file.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
@@ -46,8 +45,8 @@ std::string yaml_value(const std::string& text, const std::string& key) {
 
 // Returns what to do with a file that is known but not read as a world; empty: it may be one.
 std::string advice_about_other(const std::string& file, const std::string& bytes) {
-  if (const std::string format = detail::foreign_picture(bytes); !format.empty())
-    return detail::advice_about(format, file);
+  if (const std::string format = image::foreign_picture(bytes); !format.empty())
+    return image::advice_about(format, file);
   const std::string image = yaml_value(bytes, "image"), resolution = yaml_value(bytes, "resolution");
   if (image.empty() || resolution.empty()) return "";
   return "this is the YAML file of a map of ROS; name its picture instead, with world=\"" +
@@ -103,7 +102,7 @@ std::optional<WorldModel> read_bitmap(const Reference& from, const BitmapScale& 
     return std::nullopt;
   };
   if (from.number) refuse(world_codes::kNumber, "a picture holds one world; leave \"#N\" out");
-  const Result<GreyImage> image = read_image(from.file);
+  const Result<GreyImage> image = image::read_image(from.file);
   if (!image) return refuse(world_codes::kUnreadable, image.error().message);
   if (const auto doubt = doubt_about(*image))
     diagnostics.warning(world_codes::kLightGrey, {from.file, 0, 0}, *doubt);
@@ -135,7 +134,7 @@ std::optional<WorldModel> read_world(const std::string& path, const BitmapScale&
     diagnostics.error(world_codes::kOtherFormat, {from->file, 0, 0}, advice);
     return std::nullopt;
   }
-  const Format format = detail::is_picture(beginning) ? Format::bitmap : format_of(from->file);
+  const Format format = image::is_picture(beginning) ? Format::bitmap : format_of(from->file);
   if (format == Format::bitmap) return read_bitmap(*from, scale, diagnostics);
   refuse_scale(from->file, scale, diagnostics);
   if (format == Format::cylinders) {

@@ -12,20 +12,20 @@
 #include "temp_folder.hpp"
 
 using namespace orca::sim;
-using namespace orca::sim::test;
+using namespace orca::test;
 using Samples = std::vector<std::uint32_t>;
 using Greys = std::vector<int>;
 
 namespace {
 
 Greys greys_of_file(const std::string& path) {
-  const auto image = read_image(path);
+  const auto image = orca::image::read_image(path);
   if (!image) FAIL(image.error().text());
   return {image->grey.begin(), image->grey.end()};
 }
 
 Greys greys_of(const std::string& picture, const std::string& name = "picture.png") {
-  const orca::test::TempFolder folder;
+  const TempFolder folder;
   return greys_of_file(folder.write(name, picture));
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("what is partly transparent is laid on white by its light", "[sim][bit
 }
 
 TEST_CASE("a dark room drawn with 16 bits is solid", "[sim][bitmap][png]") {
-  const orca::test::TempFolder folder;
+  const TempFolder folder;
   const std::string file =
       folder.write("dark.png", png_row(PngColour::grey, 16, {100 * 257, 200 * 257, 127 * 257, 128 * 257}));
   const auto world = read_bitmap_world(file, {.map_width = 4.0, .resolution = {}});
@@ -161,7 +161,7 @@ TEST_CASE("PNG pictures that Netpbm makes have the grey of their samples", "[sim
     std::cout << "SKIPPED: pnmtopng, of Debian's package netpbm, is not installed\n";
     return;
   }
-  const orca::test::TempFolder folder;
+  const TempFolder folder;
   const auto made = [&](const std::string& options, const std::string& text) {
     const std::string source = folder.write("source.pnm", text + "\n");
     const std::string result = folder.file("made.png");

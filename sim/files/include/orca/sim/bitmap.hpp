@@ -1,41 +1,23 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/image/grey_image.hpp"
 #include "orca/sim/world_model.hpp"
 
 namespace orca::sim {
 
-/// A grey image; `grey` holds rows from the top of the picture down, 0 black to 255 white, on the scale of sRGB.
-struct GreyImage {
-  std::size_t width = 0;   ///< [pixels]
-  std::size_t height = 0;  ///< [pixels]
-  std::vector<std::uint8_t> grey;
-};
+using image::GreyImage;
 
 /// The scale of an occupancy bitmap. Exactly one of the two must be set.
 struct BitmapScale {
   std::optional<double> map_width;   ///< [m] Width of the whole picture, > 0.
   std::optional<double> resolution;  ///< [m] Side of one pixel, > 0.
 };
-
-/// Reads a PNG or PGM (P2, P5) file, distinguished by its first bytes.
-///
-/// The grey of a PNG is what a viewer shows. An `sRGB` tag is followed, else a `gAMA` tag; without either, samples of
-/// any depth are sRGB. Colours count by their luminance, and transparent parts are laid on white; both mix light, not
-/// numbers. Where a conversion is needed, sRGB stands for `gAMA` 1 / 2.2, as the standard says. Colour profiles are
-/// ignored. The values of a PGM, which has no tags, are proportional to the grey.
-///
-/// @source  W3C, Portable Network Graphics (PNG) Specification, 2nd edition, 11.3.3.2 and 11.3.3.5, 13.13 to 13.16.
-/// @errors  not_found if the file cannot be opened; data_loss if it is damaged; invalid_argument if it is
-///          neither format or larger than 100 million pixels.
-[[nodiscard]] Result<GreyImage> read_image(const std::string& path);
 
 /// Returns what is doubtful about a picture of which grey below 128 is solid: that much of it is light grey, away from what is
 /// solid, as where walls are drawn in light grey, or not known in a map of ROS. Nothing if all of it is clear.
@@ -67,7 +49,7 @@ struct BitmapScale {
 /// Reads an occupancy bitmap as such a world, named after its file.
 ///
 /// @param doubt  receives what doubt_about() says; null: nobody wants to know.
-/// @errors  those of read_image, pixel_size and bitmap_world.
+/// @errors  those of image::read_image, pixel_size and bitmap_world.
 [[nodiscard]] Result<WorldModel> read_bitmap_world(const std::string& path, const BitmapScale& scale,
                                                    double height = 2.5,
                                                    std::optional<std::string>* doubt = nullptr);

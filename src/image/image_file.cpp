@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "image_file.hpp"
-
 #include <array>
 #include <filesystem>
 
+#include "decoders.hpp"
 #include "orca/base/input_file.hpp"
 
-namespace orca::sim {
+namespace orca::image {
 namespace {
 
 using namespace std::string_view_literals;
@@ -29,8 +28,6 @@ constexpr std::array kForeign{Format{"\xFF\xD8\xFF", "JPEG"},
 
 }  // namespace
 
-namespace detail {
-
 bool is_picture(std::string_view bytes) {
   return bytes.starts_with(kPng) || bytes.starts_with("P5") || bytes.starts_with("P2");
 }
@@ -51,7 +48,7 @@ std::string advice_about(const std::string& format, const std::string& path) {
          " " + std::filesystem::path(name).replace_extension(".png").string() + "\"";
 }
 
-Status check_size(std::size_t width, std::size_t height, const std::string& path) {
+Status detail::check_size(std::size_t width, std::size_t height, const std::string& path) {
   if (width == 0 || height == 0) return fail(Code::data_loss, "the picture has no pixels", path);
   if (width > kMaxPixels / height)
     return fail(Code::invalid_argument,
@@ -60,8 +57,6 @@ Status check_size(std::size_t width, std::size_t height, const std::string& path
                 path);
   return ok();
 }
-
-}  // namespace detail
 
 namespace {
 
@@ -72,13 +67,16 @@ constexpr std::size_t kMaxImageBytes = 1'000'000'000;  // a text of 100 million 
 Result<GreyImage> read_image(const std::string& path) {
   const Result<std::string> read = read_input_file(path, kMaxImageBytes);
   if (!read) return fail(read.error().code, "cannot read the picture: " + read.error().message, path);
-  const std::string& bytes = *read;
+  return decode_image(*read, path);
+}
+
+Result<GreyImage> decode_image(std::string_view bytes, const std::string& path) {
   if (bytes.empty()) return fail(Code::data_loss, "the file is empty; expected a PNG or PGM picture", path);
   if (bytes.starts_with(kPng)) return detail::decode_png(bytes, path);
-  if (detail::is_picture(bytes)) return detail::decode_pgm(bytes, path);
-  if (const std::string format = detail::foreign_picture(bytes); !format.empty())
-    return fail(Code::invalid_argument, detail::advice_about(format, path), path);
+  if (is_picture(bytes)) return detail::decode_pgm(bytes, path);
+  if (const std::string format = foreign_picture(bytes); !format.empty())
+    return fail(Code::invalid_argument, advice_about(format, path), path);
   return fail(Code::invalid_argument, "neither a PNG nor a PGM picture (P2 or P5); convert it to PNG", path);
 }
 
-}  // namespace orca::sim
+}  // namespace orca::image

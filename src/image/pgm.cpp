@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "image_file.hpp"
+#include "decoders.hpp"
 
-namespace orca::sim::detail {
+namespace orca::image::detail {
 namespace {
 
 // Reads the header's and P2's numbers: white space and #-comments may stand between them.
@@ -91,6 +91,7 @@ Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path) {
   // Checked before the allocation, so that a short file cannot reserve memory for a huge picture.
   if (bytes.size() < *width * *height) return damaged_pgm("fewer pixels than the header announces", path);
   GreyImage image{*width, *height, {}};
+  image.deep = *largest > 255;
   image.grey.resize(*width * *height);
   const Status read = bytes[1] == '2' ? read_text_pixels(tokens, *largest, image, path)
                                       : read_binary_pixels(tokens, *largest, image, path);
@@ -98,4 +99,4 @@ Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path) {
   return image;
 }
 
-}  // namespace orca::sim::detail
+}  // namespace orca::image::detail

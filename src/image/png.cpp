@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "image_file.hpp"
+#include "decoders.hpp"
 #include "orca/base/portable_math.hpp"
 
-namespace orca::sim::detail {
+namespace orca::image::detail {
 namespace {
 
 // libpng's simplified reader, which never jumps out of our frames; frees its state in every case.
@@ -84,7 +84,10 @@ void append_greys(const std::vector<std::uint8_t>& samples, bool coloured, bool 
   result.grey.reserve(samples.size() / step);
   for (std::size_t i = 0; i < samples.size(); i += step) {
     const std::uint8_t alpha = transparent ? samples[i + colours] : std::uint8_t{255};
-    result.grey.push_back(grey_of({samples[i], samples[i + colours / 2], samples[i + colours - 1], alpha}));
+    const Pixel pixel{samples[i], samples[i + colours / 2], samples[i + colours - 1], alpha};
+    result.grey.push_back(grey_of(pixel));
+    if (transparent) result.opaque.push_back(alpha);
+    result.coloured |= pixel.red != pixel.green || pixel.green != pixel.blue;
   }
 }
 
@@ -99,15 +102,17 @@ Result<GreyImage> decode_png(std::string_view bytes, const std::string& path) {
   if (const Status size = check_size(image.width, image.height, path); !size) return size.error();
   const bool coloured = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
   const bool transparent = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
-  image.format &= PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_ALPHA;  // 8 bits a sample, no palette
+  const bool deep = (image.format & PNG_FORMAT_FLAG_LINEAR) != 0;  // 16 bits in the file
+  image.format &= PNG_FORMAT_FLAG_COLOR | PNG_FORMAT_FLAG_ALPHA;   // 8 bits a sample, no palette
   image.flags |=
       PNG_IMAGE_FLAG_16BIT_sRGB;  // otherwise it takes 16-bit samples without a tag for linear ones
   std::vector<std::uint8_t> samples(PNG_IMAGE_SIZE(image));
   if (png_image_finish_read(&image, nullptr, samples.data(), 0, nullptr) == 0)
     return damaged_png(image.message, path);
   GreyImage result{image.width, image.height, {}};
+  result.deep = deep;
   append_greys(samples, coloured, transparent, result);
   return result;
 }
 
-}  // namespace orca::sim::detail
+}  // namespace orca::image::detail

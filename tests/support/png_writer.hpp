@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace orca::sim::test {
+namespace orca::test {
 
 /// Writes PNG pictures for tests without libpng, which the reader under test uses. The pixels are stored without
 /// compression, each row without a filter (W3C, PNG Specification, 2nd edition, 5, 10 and 11; RFC 1950 and 1951).
@@ -82,4 +82,4 @@ inline std::string png_row(PngColour colour, int depth, const std::vector<std::u
          png_chunk("IEND", "");
 }
 
-}  // namespace orca::sim::test
+}  // namespace orca::test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "orca/component.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/maps/map_file.hpp"
+#include "orca/sim/occupancy.hpp"
+#include "orca/sim/world_file.hpp"
+
+namespace {
+
+using orca::ObjectPtr;
+using orca::idl::OccupancyGrid;
+
+/// A server of the map that a file has: one of ROS's map_server, a floor plan as a picture, or a world of the simulator, drawn as it is
+/// without people. See README.md.
+class MapServer final : public orca::Component {
+ public:
+  explicit MapServer(orca::ComponentHost& host) : Component(host) { lap_every(std::chrono::seconds(1)); }
+
+ private:
+  static constexpr double kWorldCell = 0.05;   // [m] unless the graph says it
+  static constexpr double kWorldHeight = 1.0;  // [m] what stands between the floor and this is on the map
+
+  orca::Status configure() override {
+    if (file_->empty()) return file_.refuse("it is not set; name a map, such as \"office.yaml\"");
+    orca::Result<OccupancyGrid> map = is_world() ? draw_world() : orca::maps::read_map(*file_, *resolution_);
+    if (!map) return file_.refuse(map.error().text());
+    auto made = orca::make_object<OccupancyGrid>();
+    *made = std::move(*map);
+    map_ = std::move(made).seal();
+    return orca::ok();
+  }
+
+  // A new subscriber gets the map, and with it all.
+  orca::Outcome work() override {
+    const std::size_t subscribers = maps_.subscriber_count();
+    if (subscribers > subscribers_) maps_.push(orca::copy_value(map_));
+    subscribers_ = subscribers;
+    return orca::again();
+  }
+
+  void stop() override { subscribers_ = 0; }
+
+  [[nodiscard]] bool is_world() const {
+    const std::string file = file_->substr(0, file_->rfind('#'));
+    return file.ends_with(".xml") || file.ends_with(".csv") || file.ends_with(".csv.gz");
+  }
+
+  [[nodiscard]] orca::Result<OccupancyGrid> draw_world() const {
+    orca::xml::Diagnostics diagnostics;
+    const std::optional<orca::sim::WorldModel> world = orca::sim::read_world(*file_, {}, diagnostics);
+    if (!world) return orca::fail(orca::Code::invalid_argument, diagnostics.sorted().front().text());
+    const double cell = *resolution_ > 0.0 ? *resolution_ : kWorldCell;
+    const orca::Result<orca::sim::Occupancy> drawn = orca::sim::occupancy_of(*world, cell, kWorldHeight);
+    if (!drawn) return drawn.error();
+    OccupancyGrid map;
+    map.name(world->name);
+    map.corner().x(drawn->corner.x);
+    map.corner().y(drawn->corner.y);
+    map.resolution(drawn->resolution);
+    map.columns(static_cast<std::uint32_t>(drawn->columns));
+    map.rows(static_cast<std::uint32_t>(drawn->rows));
+    for (const bool covered : drawn->cells) map.cells().push_back(covered ? 100 : 0);
+    return map;
+  }
+
+  orca::Result<orca::Loan<OccupancyGrid>> on_ask(const ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    return orca::copy_value(map_);
+  }
+
+  ObjectPtr<OccupancyGrid> map_;
+  std::size_t subscribers_ = 0;  // in the last lap
+  orca::QueryServer<orca::idl::Ask, OccupancyGrid> question_{
+      *this, "OccupancyGridQuery", &MapServer::on_ask, {.text = "The whole map: about is not read."}};
+  orca::PushServer<OccupancyGrid> maps_{
+      *this, "OccupancyGridPush", {.text = "The whole map, to a new subscriber, and with it to all."}};
+  orca::Param<std::string> file_{
+      *this,
+      "map",
+      "",
+      {.file = true,
+       .fixed = true,
+       .text = "Map: a .yaml file of ROS, a picture (.png, .pgm), or a world (.xml, .csv, .csv.gz)."}};
+  orca::Param<double> resolution_{
+      *this,
+      "resolution",
+      0.0,
+      {.unit = "m",
+       .min = 0.0,
+       .fixed = true,
+       .text = "Side of a pixel of a picture that has no .yaml file, or of a cell of a world, 0: 0.05 m."}};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(MapServer, "orca.MapServer")

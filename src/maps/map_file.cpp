@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/maps/map_file.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "map_header.hpp"
+#include "map_picture.hpp"
+#include "orca/base/input_file.hpp"
+#include "orca/base/output_file.hpp"
+
+namespace orca::maps {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostText = 64 * 1024;  // [bytes] of a YAML file
+
+constexpr double kHalf = 0.5;  // of darkness: grey 127 is occupied, 128 free, as in worlds of the simulator
+
+Result<idl::OccupancyGrid> map_from(const image::GreyImage& image, const MapHeader& header,
+                                    const fs::path& picture, const fs::path& named) {
+  if (const Status sound = check_picture(image, header.mode, picture.string()); !sound.ok())
+    return sound.error();
+  idl::OccupancyGrid map = map_of(image, header);
+  map.name(named.stem().string());
+  return map;
+}
+
+Result<idl::OccupancyGrid> read_plan(const std::string& path, double resolution) {
+  const Result<image::GreyImage> image = image::read_image(path);
+  if (!image) return image.error();
+  if (!(resolution > 0.0))
+    return fail(Code::invalid_argument,
+                "a picture has no size of its own; give the resolution, the side of a pixel in metres, or "
+                "the YAML file "
+                "that belongs to it",
+                path);
+  MapHeader header;
+  header.resolution = resolution;
+  header.occupied_from = kHalf;
+  header.free_to = kHalf;
+  return map_from(*image, header, path, path);
+}
+
+Result<idl::OccupancyGrid> read_with_header(const std::string& text, const std::string& path,
+                                            double resolution) {
+  const Result<MapHeader> header = parse_header(text, path);
+  if (!header) return header.error();
+  if (resolution != 0.0)
+    return fail(Code::invalid_argument, "the file has a resolution of its own; leave the other one out",
+                path);
+  const fs::path picture = (fs::path(path).parent_path() / header->image).lexically_normal();
+  const Result<image::GreyImage> image = image::read_image(picture.string());
+  if (!image)
+    return fail(
+        image.error().code,
+        image.error().message + "; " + path + " names it as its image: put it there, or correct the name",
+        picture.string());
+  return map_from(*image, *header, picture, path);
+}
+
+// A temporary file that is gone unless it has got its name.
+class Draft {
+ public:
+  explicit Draft(std::string name) : name_(std::move(name)), draft_(name_ + ".new") {}
+  ~Draft() {
+    std::error_code ignored;
+    if (!kept_) fs::remove(draft_, ignored);
+  }
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  Status write(const std::string& bytes) const {
+    OutputFile file("the map");
+    if (Status opened = file.open(draft_); !opened.ok()) return opened;
+    file.write(bytes);
+    return file.close();
+  }
+
+  Status keep() {
+    std::error_code error;
+    fs::rename(draft_, name_, error);
+    if (error) return fail(Code::unavailable, "cannot give the map its name: " + error.message(), name_);
+    kept_ = true;
+    return ok();
+  }
+
+ private:
+  const std::string name_;
+  const std::string draft_;
+  bool kept_ = false;
+};
+
+}  // namespace
+
+Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution) {
+  const Result<std::string> beginning = read_input_file(path, kMostText + 1);
+  if (!beginning)
+    return fail(beginning.error().code, "cannot read the map: " + beginning.error().message, path);
+  const bool is_picture = image::is_picture(*beginning) || !image::foreign_picture(*beginning).empty();
+  if (is_picture || beginning->size() > kMostText) return read_plan(path, resolution);
+  return read_with_header(*beginning, path, resolution);
+}
+
+Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view picture_name) {
+  const std::size_t cells = map.cells().size();
+  if (cells == 0 || cells != std::size_t{map.columns()} * map.rows() || !(map.resolution() > 0.0))
+    return fail(Code::invalid_argument, "the map has " + std::to_string(map.columns()) + " x " +
+                                            std::to_string(map.rows()) + " cells of " +
+                                            std::to_string(map.resolution()) + " m, and values for " +
+                                            std::to_string(cells) + "; there is nothing to write");
+  MapHeader header;
+  header.image = picture_name;
+  header.resolution = map.resolution();
+  header.corner = {map.corner().x(), map.corner().y(), map.corner().orientation()};
+  const Result<std::string> picture = image::encode_png(picture_of(map));
+  if (!picture) return picture.error();
+  return MapTexts{*picture, header_text(header)};
+}
+
+// The YAML file comes last: whoever sees it finds its picture.
+Status write_map(const idl::OccupancyGrid& map, const std::string& name) {
+  const std::string stem = name.ends_with(".yaml") ? name.substr(0, name.size() - 5) : name;
+  for (const std::string& path : {stem + ".png", stem + ".yaml"})
+    if (fs::exists(fs::symlink_status(path)))
+      return fail(Code::already_exists, "it is there already; choose another name, or remove it first", path);
+  const Result<MapTexts> texts = texts_of(map, fs::path(stem).filename().string() + ".png");
+  if (!texts) return texts.error();
+  Draft picture(stem + ".png"), header(stem + ".yaml");
+  if (Status written = picture.write(texts->picture); !written.ok()) return written;
+  if (Status written = header.write(texts->header); !written.ok()) return written;
+  if (Status kept = picture.keep(); !kept.ok()) return kept;
+  const Status kept = header.keep();
+  std::error_code ignored;
+  if (!kept.ok()) fs::remove(stem + ".png", ignored);
+  return kept;
+}
+
+}  // namespace orca::maps

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Map files that are wrong, and what people are told to do.
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "map_files.hpp"
+#include "png_writer.hpp"
+
+using namespace orca;
+using namespace orca::maps;
+using namespace orca::maps::test;
+using Catch::Contains;
+using orca::test::TempFolder;
+
+namespace {
+
+const std::string kOne = pgm(1, 1, {0});
+
+// A room of 60 x 40 pixels, from the outside of its walls, with a slanted one in it.
+std::vector<int> room(int width = 60, int height = 40) {
+  return drawn(width, height, [&](int column, int row) {
+    const bool wall = column < 2 || row < 2 || column >= width - 2 || row >= height - 2;
+    return wall || std::abs(column - row - 5) < 2 ? 0 : 254;
+  });
+}
+
+std::string refusal(const std::string& header) { return fault_of(read_files(header, kOne)); }
+std::string refusal_of_picture(const std::string& picture) { return fault_of(read_files(kHeader, picture)); }
+
+}  // namespace
+
+TEST_CASE("a map of ROS without a key is refused with its name", "[maps][refused]") {
+  for (const std::string key :
+       {"image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"}) {
+    CAPTURE(key);
+    const std::string text = with(kHeader, key + ":", "x" + std::string(20, 'x') + ":");
+    CHECK_THAT(refusal(text), Contains("office.yaml:1: " + key) && Contains(" is missing"));
+  }
+}
+
+TEST_CASE("a key that is misspelt is refused at its line, even if others are right", "[maps][refused]") {
+  CHECK_THAT(refusal(kHeader + "resolutoin: 0.05\n"),
+             Contains("office.yaml:7: unknown key \"resolutoin\"; did you mean \"resolution\"?"));
+}
+
+TEST_CASE("values that no map can have are refused at their lines", "[maps][refused]") {
+  using Pair = std::pair<std::string, std::string>;
+  const std::vector<std::pair<Pair, std::string>> wrong{
+      {{"resolution: 0.05", "resolution: 0"}, ":2: resolution is 0; it is the side of a pixel in metres"},
+      {{"resolution: 0.05", "resolution: -0.05"}, ":2: resolution is -0.05"},
+      {{"resolution: 0.05", "resolution: .nan"}, ":2: resolution: "},
+      {{"resolution: 0.05", "resolution: 0,05"}, ":2: resolution: "},
+      {{"resolution: 0.05", "resolution: 5 cm"}, ":2: resolution: "},
+      {{"resolution: 0.05", "resolution: [0.05]"}, ":2: resolution must be one word or number"},
+      {{"[-1.0, 2.0, 0.0]", "[-1.0, 2.0]"}, ":3: origin must be three numbers"},
+      {{"[-1.0, 2.0, 0.0]", "0"}, ":3: origin must be three numbers"},
+      {{"[-1.0, 2.0, 0.0]", "[-1.0, 2.0, north]"}, ":3: origin: "},
+      {{"negate: 0", "negate: 2"}, ":4: negate is \"2\"; it must be 0 or 1"},
+      {{"0.65", "65"}, ":5: occupied_thresh is 65; it must be from 0 to 1"},
+      {{"0.196", "0.7"}, ":6: free_thresh must be less than occupied_thresh"},
+      {{"negate: 0", "mode: ternary\nnegate: 0"},
+       ":4: mode is \"ternary\"; it must be trinary, scale or raw"},
+      {{"negate: 0", "mode: raw\nnegate: 1"}, ":5: negate is not possible with mode: raw"},
+      {{"origin: [", "origin: ["}, ""}};
+  for (const auto& [change, text] : wrong) {
+    CAPTURE(change.second);
+    CHECK_THAT(refusal(with(kHeader, change.first, change.second)), Contains(text));
+  }
+}
+
+TEST_CASE("what is no YAML, and no list of keys, is refused", "[maps][refused]") {
+  CHECK_THAT(refusal("image: [map.pgm\n"), Contains("this is no YAML: "));
+  CHECK_THAT(refusal("a map\n"), Contains("this is no map: expected lines such as \"resolution: 0.05\""));
+  CHECK_THAT(refusal(""), Contains("this is no map"));
+  CHECK_THAT(refusal(std::string(10'000, '[')), Contains("this is no YAML: "));
+}
+
+TEST_CASE("files that are not there are refused with who names them", "[maps][refused]") {
+  const TempFolder folder;
+  CHECK_THAT(fault_of(read_map(folder.file("none.yaml"))), Contains("cannot read the map: "));
+  const std::string alone = folder.write("alone.yaml", kHeader);
+  CHECK_THAT(fault_of(read_map(alone)),
+             Contains(folder.file("map.pgm")) &&
+                 Contains(alone + " names it as its image: put it there, or correct the name"));
+}
+
+TEST_CASE("a picture that is cut off is refused", "[maps][refused]") {
+  const std::string whole = pgm(60, 40, room());
+  CHECK(refusal_of_picture(whole).empty());
+  CHECK_THAT(refusal_of_picture(whole.substr(0, whole.size() / 2)),
+             Contains("fewer pixels than the header announces"));
+}
+
+TEST_CASE("a picture of 16 bits is refused", "[maps][refused]") {
+  CHECK_THAT(refusal_of_picture(pgm(1, 1, {60000}, 65535)),
+             Contains("16 bits a pixel") && Contains("-depth 8"));
+  const std::string png = orca::test::png_row(orca::test::PngColour::grey, 16, {0, 65535});
+  CHECK_THAT(refusal_of_picture(png), Contains("16 bits a pixel"));
+}
+
+TEST_CASE("a picture in colours is refused, one whose colours are greys is read", "[maps][refused]") {
+  using orca::test::png_row;
+  using orca::test::PngColour;
+  CHECK_THAT(refusal_of_picture(png_row(PngColour::rgb, 8, {0, 0, 0, 250, 0, 0})),
+             Contains("the picture has colours"));
+  CHECK(refusal_of_picture(png_row(PngColour::rgb, 8, {0, 0, 0, 254, 254, 254})).empty());
+}
+
+TEST_CASE("what is transparent in a picture is not known", "[maps]") {
+  const auto map = read_files(
+      kHeader, orca::test::png_row(orca::test::PngColour::grey_alpha, 8, {0, 255, 0, 0, 254, 255}));
+  REQUIRE(map);
+  CHECK(cells_of(*map) == std::vector<int>{100, 255, 0});
+}
+
+TEST_CASE("a picture whose width and height are exchanged is refused", "[maps][refused]") {
+  CHECK_THAT(refusal_of_picture(pgm(40, 60, room())),
+             Contains("width and height seem to be exchanged") &&
+                 Contains("which says 40 x 60; correct it to 60 x 40"));
+  CHECK(refusal_of_picture(pgm(40, 60, room(40, 60))).empty());
+}
+
+TEST_CASE("a photograph is refused, greys as probabilities with mode: scale are not", "[maps][refused]") {
+  const auto shaded = drawn(60, 40, [](int column, int row) { return 20 + 3 * column + row; });
+  CHECK_THAT(refusal_of_picture(pgm(60, 40, shaded)),
+             Contains("as in a photograph") && Contains("mode: scale"));
+  CHECK(fault_of(read_files("mode: scale\n" + kHeader, pgm(60, 40, shaded))).empty());
+}
+
+TEST_CASE("the one grey of what is not known makes no photograph", "[maps]") {
+  const auto mostly_unknown = drawn(60, 40, [](int column, int) {
+    return column < 5 ? 0 : column < 10 ? 254 : 205;
+  });
+  CHECK(refusal_of_picture(pgm(60, 40, mostly_unknown)).empty());
+}
+
+TEST_CASE("a picture that is too large for a map is refused", "[maps][refused]") {
+  const std::string large = "P5 5001 5000 255\n" + std::string(5001 * 5000, '\xFE');
+  CHECK_THAT(refusal_of_picture(large), Contains("5001 x 5000 pixels, and a map at most 25 million"));
+}
