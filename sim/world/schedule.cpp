@@ -159,7 +159,7 @@ std::vector<std::string> Schedule::silent(std::string_view robot, TimePoint now)
   for (const Outage& one : outages_)
     if (one.robot == robot && holds_at(one, now - TimePoint{})) all.push_back(text_of(one));
   std::ranges::sort(all);
-  all.erase(std::ranges::unique(all).begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 
