@@ -65,6 +65,15 @@ constexpr std::string_view kBagDetails =
     "checked "
     "and recovered, too.";
 
+constexpr std::string_view kMapDetails =
+    "Asks the part of the system that has a map, by its port OccupancyGridQuery, and writes NAME.png, a "
+    "picture, and "
+    "NAME.yaml beside it, which orca.MapServer and the tools of ROS read. With several maps, or a port of "
+    "another name, "
+    "give the PORT, such as slam.OccupancyGridQuery. Cells from 65 % on are occupied (black), up to 19 % "
+    "free (white), "
+    "others not known (grey 205). A file is never overwritten, and neither is there before both are whole.";
+
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
     "deployer's command line, and compared with what runs now: what was changed with set and swap counts. "
@@ -138,6 +147,11 @@ std::vector<Command> port_commands() {
                      {"MORE", Names::port, true, true}},
        .text = "show, check, repair, convert or compare a recording; no system needs to run",
        .details = kBagDetails},
+      {.name = "map",
+       .arguments = {{"save"}, {"NAME", Names::file}, {"PORT", Names::port, true}},
+       .options = {kTimeout},
+       .text = "save the map of a running system as NAME.yaml and NAME.png",
+       .details = kMapDetails},
       {.name = "hz",
        .arguments = {kPort},
        .options = {kFor},

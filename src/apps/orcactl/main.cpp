@@ -12,10 +12,11 @@
 #include "common/manual.hpp"
 #include "common/output.hpp"
 #include "exit_code.hpp"
+#include "map_saving.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "recording.hpp"
-#include "tapping.hpp"
+#include "tapping/tapping.hpp"
 
 namespace {
 
@@ -25,8 +26,8 @@ namespace apps = orca::apps;
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
   static const std::map<std::string_view, Way> ways{
-      {"echo", tap},          {"hz", tap},        {"latency", tap},   {"send", offer}, {"query", offer},
-      {"names", print_names}, {"record", record}, {"bag", handle_bag}};
+      {"echo", tap},          {"hz", tap},        {"latency", tap},    {"send", offer},    {"query", offer},
+      {"names", print_names}, {"record", record}, {"bag", handle_bag}, {"map", handle_map}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

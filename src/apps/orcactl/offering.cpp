@@ -25,8 +25,6 @@ using supervisor::Channel;
 using supervisor::LineAnswer;
 using supervisor::OfferOutcome;
 
-constexpr Duration kDefaultTimeout = 5s;
-
 // Finds the first number of an object that is none.
 class NanSearch final : public FieldVisitor {
  public:
@@ -84,13 +82,19 @@ Result<OfferOutcome> exchange(Channel& line, const ObjectLoan& object, Duration 
   return std::move(*outcome);
 }
 
-Status print_reply(const OfferOutcome& outcome, bool as_json) {
+Result<ObjectLoan> reply_in(const OfferOutcome& outcome) {
   const ObjectType* const type = find_object_type(outcome.type);
   if (type == nullptr)
     return fail(Code::data_loss, "replies of the type " + outcome.type + " are not known here");
   ObjectLoan object = make_object(*type);
-  if (Status read = type->deserialize(outcome.object, object.get()); !read.ok()) return read;
-  const std::string xml = to_xml(*type, object.get());
+  if (Status read = type->deserialize(outcome.object, object.get()); !read.ok()) return read.error();
+  return object;
+}
+
+Status print_reply(const OfferOutcome& outcome, bool as_json) {
+  const Result<ObjectLoan> object = reply_in(outcome);
+  if (!object) return object.error();
+  const std::string xml = to_xml(object->type(), object->get());
   std::fputs(as_json ? record_json({{"type", outcome.type}, {"xml", xml}}).c_str() : (xml + "\n").c_str(),
              stdout);
   return ok();
@@ -106,7 +110,7 @@ Status carry_out(const apps::Call& call, LineAnswer& answer) {
   if (!object) return object.error();
   Channel line(std::move(answer.line));
   const Result<OfferOutcome> outcome =
-      exchange(line, *object, call.duration("--timeout").value_or(kDefaultTimeout));
+      exchange(line, *object, call.duration("--timeout").value_or(kAnswerLimit));
   if (!outcome) return outcome.error();
   if (!outcome->outcome.ok()) return outcome->outcome;
   return outcome->type.empty() ? ok() : print_reply(*outcome, call.has("--json"));
@@ -125,6 +129,18 @@ Result<ObjectLoan> object_from(const std::string& text, const std::string& sourc
     return fail(Code::invalid_argument, "nothing was sent: " + name + " of the " + type_name +
                                             " is nan, which is no number; give it a value");
   return std::move(*object);
+}
+
+Result<ObjectLoan> ask_port(Client& client, const std::string& port, const ObjectLoan& question,
+                            Duration limit) {
+  Result<LineAnswer> answer = client.open_line(port, {});
+  if (!answer) return answer.error();
+  if (answer->reply.empty()) return fail(Code::invalid_argument, port + " answers no questions");
+  Channel line(std::move(answer->line));
+  const Result<OfferOutcome> outcome = exchange(line, question, limit);
+  if (!outcome) return outcome.error();
+  if (!outcome->outcome.ok()) return outcome->outcome.error();
+  return reply_in(*outcome);
 }
 
 ExitCode offer(const apps::Call& call) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "client.hpp"
 #include "common/command_line.hpp"
 #include "exit_code.hpp"
 #include "orca/base/result.hpp"
@@ -20,6 +21,16 @@ namespace orca::orcactl {
 ///          here.
 [[nodiscard]] Result<ObjectLoan> object_from(const std::string& text, const std::string& source,
                                              const std::string& type, xml::Diagnostics& diagnostics);
+
+inline constexpr Duration kAnswerLimit =
+    std::chrono::seconds(5);  ///< Longest wait for an answer, without --timeout.
+
+/// Asks a QueryServer.
+/// @return its reply.
+/// @errors  those of the server; unavailable if its process ends; deadline_exceeded after `limit`; invalid_argument if the port
+///          answers no questions.
+[[nodiscard]] Result<ObjectLoan> ask_port(Client& client, const std::string& port, const ObjectLoan& question,
+                                          Duration limit);
 
 /// Carries out send or query: hands an object to a port, and prints the reply.
 [[nodiscard]] ExitCode offer(const apps::Call& call);

@@ -30,7 +30,7 @@
 #include "orca/recording/objects/ring_writer.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/values.hpp"
-#include "tapping.hpp"
+#include "tapping/tapping.hpp"
 
 namespace orca::orcactl {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "causes.hpp"
+#include "tapping/causes.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "following.hpp"
+#include "tapping/following.hpp"
 
 using namespace orca::orcactl;
 

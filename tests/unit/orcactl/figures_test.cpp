@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures.hpp"
+#include "tapping/figures.hpp"
 
 #include <catch2/catch.hpp>
 

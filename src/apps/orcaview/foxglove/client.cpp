@@ -12,7 +12,7 @@
 #include "foxglove/ros_messages.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
-#include "tapping.hpp"
+#include "tapping/tapping.hpp"
 
 namespace orca::view {
 namespace {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// orcactl map save: the map of a running system as files.
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+
+namespace {
+
+// A running system with maps.
+class System {
+ public:
+  System(const std::string& profile, std::size_t maps)
+      : program_(deployer({system_graph("maps.xml"), "--profile", profile})) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (count_of(run_orcactl({"ps"}).out, " WORK ") < maps) {
+      INFO(program_.err());
+      REQUIRE(std::chrono::steady_clock::now() < end);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+  ~System() { (void)run_orcactl({"stop"}); }
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+ private:
+  static std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+  }
+
+  Subprocess program_;
+};
+
+}  // namespace
+
+TEST_CASE("orcactl map save writes the map of a running system, and never over another", "[system][maps]") {
+  const System system("one", 1);
+  const TempFolder folder;
+  const Run saved = run_orcactl({"map", "save", folder.file("hall")});
+  INFO(saved.err);
+  REQUIRE(saved.exit_code() == 0);
+  CHECK_THAT(saved.err, Contains("cells of 0.05 m, 100 % of them known"));
+  const std::string text = read_text(folder.path() / "hall.yaml");
+  CHECK_THAT(text, Contains("image: \"hall.png\"\n") && Contains("resolution: 0.05\n"));
+  CHECK(std::filesystem::exists(folder.path() / "hall.png"));
+
+  const Run again = run_orcactl({"map", "save", folder.file("hall")});
+  CHECK(again.exit_code() == 1);
+  CHECK_THAT(again.err, Contains("hall.png: it is there already; choose another name, or remove it first"));
+  CHECK(read_text(folder.path() / "hall.yaml") == text);
+
+  // What was saved is served.
+  const Run checked =
+      run_deployer({system_graph("maps.xml"), "--check", "--set", "map=" + folder.file("hall.yaml")});
+  CHECK(checked.exit_code() == 0);
+}
+
+TEST_CASE("orcactl map save asks which map if there are several, and takes any port that answers with one",
+          "[system][maps]") {
+  const System system("two", 2);
+  const TempFolder folder;
+  const Run unclear = run_orcactl({"map", "save", folder.file("hall")});
+  CHECK(unclear.exit_code() == 1);
+  CHECK_THAT(unclear.err, Contains("office.OccupancyGridQuery, other.OccupancyGridQuery; name one"));
+  CHECK(run_orcactl({"map", "save", folder.file("hall"), "other.OccupancyGridQuery"}).exit_code() == 0);
+  CHECK_THAT(read_text(folder.path() / "hall.yaml"), Contains("resolution: 0.1\n"));
+
+  CHECK_THAT(run_orcactl({"map", "save", folder.file("x"), "office.OccupancyGridPush"}).err,
+             Contains("answers no questions"));
+  CHECK(run_orcactl({"map", "load", folder.file("hall")}).exit_code() == 2);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "x.png"));
+}
