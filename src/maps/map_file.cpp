@@ -111,6 +111,8 @@ Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view pictur
                                             std::to_string(map.rows()) + " cells of " +
                                             std::to_string(map.resolution()) + " m, and values for " +
                                             std::to_string(cells) + "; there is nothing to write");
+  if (!is_file_name(picture_name))
+    return fail(Code::invalid_argument, "the name holds control characters; choose another one");
   MapHeader header;
   header.image = picture_name;
   header.resolution = map.resolution();

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -118,6 +119,8 @@ MapMode mode_of(const Values& values) {
 MapHeader header_of(const Values& values) {
   MapHeader header;
   header.image = values.text("image");
+  if (!is_file_name(header.image))
+    values.refuse("image", "holds control characters, which no file's name has");
   header.resolution = values.number("resolution");
   if (!(header.resolution > 0.0))
     values.refuse("resolution",
@@ -152,6 +155,11 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+bool is_file_name(std::string_view name) {
+  constexpr unsigned char kDelete = 0x7F;
+  return std::ranges::none_of(name, [](unsigned char c) { return c < ' ' || c == kDelete; });
+}
 
 Result<MapHeader> parse_header(std::string_view text, const std::string& path) {
   const auto refused = [&](const YAML::Mark& mark, const std::string& why) {

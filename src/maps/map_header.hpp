@@ -33,7 +33,11 @@ struct MapHeader {
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<MapHeader> parse_header(std::string_view text, const std::string& path);
 
+/// Returns whether the file of a picture may have this name: it holds no control characters.
+[[nodiscard]] bool is_file_name(std::string_view name);
+
 /// Returns the text of such a file.
+/// @pre  is_file_name(header.image).
 [[nodiscard]] std::string header_text(const MapHeader& header);
 
 }  // namespace orca::maps

@@ -76,6 +76,17 @@ TEST_CASE("what is no YAML, and no list of keys, is refused", "[maps][refused]")
   CHECK_THAT(refusal(std::string(10'000, '[')), Contains("this is no YAML: "));
 }
 
+TEST_CASE("a picture whose name holds control characters is refused, in both directions", "[maps][refused]") {
+  CHECK_THAT(refusal(with(kHeader, "map.pgm", "\"map\\0.pgm\"")),
+             Contains(":1: image holds control characters"));
+  idl::OccupancyGrid map;
+  map.columns(1);
+  map.rows(1);
+  map.resolution(0.05);
+  map.cells({0});
+  CHECK_FALSE(texts_of(map, "map\n.png"));
+}
+
 TEST_CASE("files that are not there are refused with who names them", "[maps][refused]") {
   const TempFolder folder;
   CHECK_THAT(fault_of(read_map(folder.file("none.yaml"))), Contains("cannot read the map: "));
