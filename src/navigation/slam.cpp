@@ -65,9 +65,10 @@ std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pos
   return match;
 }
 
-Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR) {
+Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR, Vec2 sensor) {
   if (nodes_.empty()) {
     add_node(scan, X_OR, X_OR, std::nullopt);
+    nodes_.back().sensor = sensor;
     return nodes_.back().X_MR;
   }
   const SlamNode& last = nodes_.back();
@@ -78,6 +79,7 @@ Pose2 Slam::see(std::span<const SurfacePoint> scan, const Pose2& X_OR) {
     return by_odometry;
   const std::optional<ScanMatch> match = lay(scan, X_LR);
   add_node(scan, X_OR, match ? match->X_MR : X_LR, match);
+  nodes_.back().sensor = sensor;
   close_loops(nodes_.size() - 1);
   if (loops_ > loops_fitted_ && nodes_.size() >= fitted_ + options_.fit_every) work_in(kStepsOnTheWay);
   return nodes_.back().X_MR;
@@ -87,7 +89,7 @@ void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const
                     const std::optional<ScanMatch>& match) {
   const std::size_t node = nodes_.size();
   if (node == 0) {
-    nodes_.push_back({X_OR, X_LR, X_LR, {scan.begin(), scan.end()}});
+    nodes_.push_back({X_OR, X_LR, X_LR, {scan.begin(), scan.end()}, {}});
   } else {
     const SlamNode& last = nodes_.back();
     const Pose2 moved = seen_from(last.X_LR, X_LR);
@@ -97,7 +99,7 @@ void Slam::add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const
     relations_.push_back({node - 1, node, by_odometry, travel});
     known_ = after(known_, by_odometry, travel);
     if (match) known_ = both(known_, match->information);
-    nodes_.push_back({X_OR, X_LR, last.X_MR * moved, {scan.begin(), scan.end()}});
+    nodes_.push_back({X_OR, X_LR, last.X_MR * moved, {scan.begin(), scan.end()}, {}});
     for (const auto& submap : submaps_)
       if (match && !submap->complete)
         relations_.push_back(

@@ -9,16 +9,20 @@
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/geometry/objects/waiting_scans.hpp"
+#include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/pose_history.hpp"
 #include "orca/navigation/slam.hpp"
+#include "shown_map.hpp"
 
 namespace {
 
 using orca::Pose2;
 using orca::idl::LaserRangeReadings;
+using orca::idl::OccupancyGrid;
 using orca::idl::RobotPose;
 
 /// A localizer without a map: it makes one while the robot drives, and says where the robot is in it (thesis 11.1, SlamLocalizer). The pose
@@ -47,6 +51,7 @@ class SlamLocalizer final : public orca::Component {
   // The pose must not jump, so the correction stays.
   void begin_anew() {
     slam_.emplace();
+    map_.begin_anew();
     history_.clear();
     scans_.clear();
     X_MI_ = X_MD_;
@@ -67,6 +72,7 @@ class SlamLocalizer final : public orca::Component {
       history_.add(orca::to_time_point(drifting->stamp()), X_DR);
       if (const auto scan = scans_.take_until(history_.newest())) lay(*scan);
       fill(X_DR, *pose);
+      map_.show(slam_->nodes(), now());
     }
     poses_.push(std::move(pose));
     return orca::again();
@@ -107,7 +113,8 @@ class SlamLocalizer final : public orca::Component {
     for (const orca::nav::Beam& beam : beams_)
       if (beam.echo) points_.push_back(seen_from(*first, beam.to));
     const Pose2 X_IR = X_MI_ * *first;
-    X_MD_ = slam_->see(orca::nav::surface_of(points_, X_RS.position()), X_IR) * inverse(*first);
+    X_MD_ =
+        slam_->see(orca::nav::surface_of(points_, X_RS.position()), X_IR, X_RS.position()) * inverse(*first);
   }
 
   void fill(const Pose2& X_DR, RobotPose& pose) {
@@ -116,6 +123,13 @@ class SlamLocalizer final : public orca::Component {
     pose.y(X_MR.y);
     pose.orientation(orca::wrapped(X_MR.yaw));
     pose.covariance(orca::nav::covariance_of(slam_->known_at(X_MI_ * X_DR), X_MR.yaw));
+  }
+
+  orca::Result<orca::Loan<OccupancyGrid>> on_map(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    if (!slam_)
+      return orca::fail(orca::Code::failed_precondition,
+                        "there is no map yet: no drifting pose has come that is known");
+    return map_.whole(slam_->nodes());
   }
 
   void save_state(orca::StateWriter& state) const override { state.write(X_MD_); }
@@ -140,6 +154,12 @@ class SlamLocalizer final : public orca::Component {
       *this,
       "RobotPosePush",
       {.text = "Pose of the robot in the map, once per lap; the map begins where the drifting pose did."}};
+  orca::slam::ShownMap map_{*this};
+  orca::QueryServer<orca::idl::Ask, OccupancyGrid> map_question_{
+      *this,
+      "OccupancyGridQuery",
+      &SlamLocalizer::on_map,
+      {.text = "The whole map as it is now: about is not read."}};
   orca::Param<double> range_{
       *this,
       "map_range",

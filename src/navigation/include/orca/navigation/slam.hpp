@@ -48,6 +48,7 @@ struct SlamNode {
   Pose2 X_LR;                      ///< In the frame of the scans laid one upon the other, without loops.
   Pose2 X_MR;                      ///< Map frame, as far as is known now.
   std::vector<SurfacePoint> scan;  ///< Robot frame.
+  Vec2 sensor;                     ///< Where it was taken from, robot frame: what lies between is free.
 };
 
 /// Finds where a robot is and what its map is, at once: each scan is laid into a submap of some nodes before it; a scan that comes by an older
@@ -62,8 +63,9 @@ class Slam {
 
   /// Takes the next scan. The map frame is odometry's at the first one.
   /// @param X_OR    by odometry, when it was taken.
+  /// @param sensor  where it was taken from, robot frame.
   /// @return where the robot is, map frame.
-  Pose2 see(std::span<const SurfacePoint> scan, const Pose2& X_OR);
+  Pose2 see(std::span<const SurfacePoint> scan, const Pose2& X_OR, Vec2 sensor = {});
 
   /// Looks once more for all places that were seen twice, and fits all poses: worth its time (about that of all so far) before a map is kept.
   void finish();

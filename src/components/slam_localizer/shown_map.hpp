@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "orca/base/time.hpp"
+#include "orca/component.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/navigation/drawn_map.hpp"
+
+namespace orca::slam {
+
+/// The map that a SlamLocalizer makes, as others have it: what changes of it goes to whoever takes it. While nobody does, nothing is drawn.
+///
+/// Thread contract: the component's strand.
+class ShownMap {
+ public:
+  explicit ShownMap(Component& owner)
+      : port_(owner, "OccupancyGridPush",
+              {.text = "What has changed of the map, at most once a second: a rectangle of it, with a corner "
+                       "of its own "
+                       "and the name of the map. The whole map to a new subscriber, and with it to all."}) {}
+
+  /// Forgets the map; the next one has another name.
+  void begin_anew() {
+    map_ = nav::DrawnMap(kCell);
+    ++number_;
+    subscribers_ = 0;
+  }
+
+  /// Draws some of what is new, and pushes it once a second.
+  /// @param nodes  of the Slam that makes the map.
+  void show(std::span<const nav::SlamNode> nodes, TimePoint now) {
+    constexpr std::size_t kMost = 10;  // per lap, so that none takes long
+    constexpr Duration kPeriod = std::chrono::seconds(1);
+    if (port_.subscriber_count() == 0) {
+      subscribers_ = 0;
+      return;
+    }
+    (void)map_.draw(nodes, kMost);
+    if (now < due_) return;
+    due_ = now + kPeriod;
+    const bool is_new = port_.subscriber_count() > std::exchange(subscribers_, port_.subscriber_count());
+    const auto news = map_.news();
+    if (is_new)
+      port_.push(whole(nodes));
+    else if (news)
+      port_.push(grid_of(*news));
+  }
+
+  /// Returns all of the map, as its nodes lie now.
+  [[nodiscard]] Loan<idl::OccupancyGrid> whole(std::span<const nav::SlamNode> nodes) {
+    (void)map_.draw(nodes, nodes.size());
+    return grid_of(map_.whole());
+  }
+
+ private:
+  static constexpr double kCell = 0.05;  // [m]
+
+  [[nodiscard]] Loan<idl::OccupancyGrid> grid_of(const nav::MapPart& part) const {
+    auto grid = port_.loan();
+    grid->name(number_ == 1 ? "slam" : "slam " + std::to_string(number_));
+    grid->corner().x(part.lattice.corner.x);
+    grid->corner().y(part.lattice.corner.y);
+    grid->resolution(part.lattice.side);
+    grid->columns(static_cast<std::uint32_t>(part.lattice.columns));
+    grid->rows(static_cast<std::uint32_t>(part.lattice.rows));
+    grid->cells(part.cells);
+    return grid;
+  }
+
+  nav::DrawnMap map_{kCell};
+  int number_ = 0;
+  TimePoint due_{};
+  std::size_t subscribers_ = 0;  // at the last push
+  PushServer<idl::OccupancyGrid> port_;
+};
+
+}  // namespace orca::slam

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The map that a SlamLocalizer makes, as its clients have it.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/testing/component_trial.hpp"
+
+using namespace orca;
+using namespace orca::testing;
+
+namespace {
+
+constexpr int kNotKnown = 255;
+constexpr double kRange = 8.0;                                // [m] of the laser
+constexpr std::array<double, 4> kRoom{-6.0, -2.0, 6.0, 3.0};  // least x and y, largest x and y
+
+struct Mapper final : Partner {
+  using Partner::Partner;
+  PushServer<idl::RobotPose> drifting{*this, "drifting"};
+  PushServer<idl::LaserRangeReadings> laser{*this, "laser"};
+  PushProxy<idl::RobotPose> pose{*this, "RobotPosePush"};
+  QueryProxy<idl::Ask, idl::OccupancyGrid> asked{*this, "OccupancyGridQuery"};
+  PushProxy<idl::OccupancyGrid> pushed{*this, "OccupancyGridPush", {.manual = true}};
+
+  /// Sends the pose and what a laser in the middle of the robot sees of the room.
+  void stand(double x, double y) {
+    auto scan = laser.loan();
+    scan->stamp().ns(now().time_since_epoch().count());
+    scan->min_range(0.1);
+    scan->max_range(kRange);
+    scan->angle_start(-0.5 * std::numbers::pi);
+    scan->angle_increment(std::numbers::pi / 180.0);
+    for (int i = 0; i <= 180; ++i)
+      scan->ranges().push_back(range(x, y, scan->angle_start() + i * scan->angle_increment()));
+    auto here = drifting.loan();
+    here->x(x);
+    here->y(y);
+    here->stamp().ns(now().time_since_epoch().count());
+    here->covariance({1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4});
+    laser.push(std::move(scan));
+    drifting.push(std::move(here));
+    (void)pose.get_update_wait();
+    sleep(std::chrono::milliseconds(100));
+  }
+
+  void drive(double from, double to) {
+    for (double x = from; x < to; x += 0.1) stand(x, 0.5);
+  }
+
+  ObjectPtr<idl::OccupancyGrid> whole() { return asked.query(asked.loan()).value(); }
+
+ private:
+  static double range(double x, double y, double angle) {
+    const double ahead = std::cos(angle), left = std::sin(angle);
+    const auto to = [](double distance, double speed) {
+      return speed * distance > 0.0 ? distance / speed : std::numeric_limits<double>::infinity();
+    };
+    return std::min({to(kRoom[0] - x, ahead), to(kRoom[2] - x, ahead), to(kRoom[1] - y, left),
+                     to(kRoom[3] - y, left), kRange});
+  }
+};
+
+int value_at(const idl::OccupancyGrid& map, double x, double y) {
+  const double column = std::floor((x - map.corner().x()) / map.resolution());
+  const double row = std::floor((y - map.corner().y()) / map.resolution());
+  if (column < 0 || row < 0 || column >= map.columns() || row >= map.rows()) return kNotKnown;
+  return map.cells().at(static_cast<std::size_t>(row) * map.columns() + static_cast<std::size_t>(column));
+}
+
+// A client's map, of all that it was pushed.
+struct Pasted {
+  idl::OccupancyGrid all;
+
+  Pasted() {
+    all.corner().x(-20.0);
+    all.corner().y(-20.0);
+    all.resolution(0.05);
+    all.columns(800);
+    all.rows(800);
+    all.cells().assign(std::size_t{800} * 800, kNotKnown);
+  }
+  void paste(const idl::OccupancyGrid& part) {
+    for (std::size_t i = 0; i < part.cells().size(); ++i) {
+      const double x = part.corner().x() + (static_cast<double>(i % part.columns()) + 0.5) * 0.05;
+      const double y = part.corner().y() + (static_cast<double>(i / part.columns()) + 0.5) * 0.05;
+      const auto column = static_cast<std::size_t>((x + 20.0) / 0.05);
+      const auto row = static_cast<std::size_t>((y + 20.0) / 0.05);
+      all.cells().at(row * 800 + column) = part.cells()[i];
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a SlamLocalizer answers with the map that it has made", "[testing][slam]") {
+  ObjectPtr<idl::OccupancyGrid> map;
+  try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
+    robot.drive(-5.0, 3.0);
+    map = robot.whole();
+  });
+  CHECK(map->name() == "slam");
+  CHECK(map->resolution() == 0.05);
+  CHECK(value_at(*map, 0.02, 0.52) == 0);                    // on the way
+  CHECK(value_at(*map, 0.02, kRoom[3] + 0.3) == kNotKnown);  // behind a wall
+  const auto wall = [&](double x) {
+    return std::max(value_at(*map, x, kRoom[3] - 0.02), value_at(*map, x, kRoom[3] + 0.02));
+  };
+  for (double x = -4.0; x < 5.0; x += 0.25) CHECK(wall(x) == 100);
+}
+
+TEST_CASE("what a SlamLocalizer pushes are changes, which together make its map", "[testing][slam]") {
+  Pasted client;
+  std::vector<std::size_t> sizes;
+  ObjectPtr<idl::OccupancyGrid> map;
+  int after = 0;
+  try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
+    const auto take = [&] {
+      for (; robot.pushed.new_data_arrived(); ++after) {
+        const auto part = robot.pushed.get_update();
+        CHECK(part->name() == "slam");
+        client.paste(*part);
+        sizes.push_back(part->cells().size());
+      }
+    };
+    robot.drive(-5.0, -3.0);
+    robot.pushed.subscribe();
+    for (double x = -3.0; x < 3.0; x += 0.5) {
+      robot.drive(x, x + 0.5);
+      (void)robot.whole();  // Others who ask take nothing away.
+      take();
+    }
+    for (int i = 0; i < 20; ++i) robot.stand(3.0, 0.5);
+    take();
+    after = 0;
+    for (int i = 0; i < 50; ++i) robot.stand(3.0, 0.5);
+    take();
+    map = robot.whole();
+  });
+  REQUIRE(sizes.size() > 3);
+  CHECK(sizes.size() < 10);  // At most once a second of the 8 s.
+  CHECK(after == 0);         // Nothing changes where it stands.
+  int different = 0;
+  for (double x = -6.975; x < 7.0; x += 0.05)
+    for (double y = -2.975; y < 4.0; y += 0.05)
+      different += value_at(client.all, x, y) != value_at(*map, x, y) ? 1 : 0;
+  CHECK(different == 0);
+}
+
+TEST_CASE("a SlamLocalizer that was set to another place has a map of another name there",
+          "[testing][slam]") {
+  ObjectPtr<idl::OccupancyGrid> map;
+  try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
+    robot.drive(-5.0, -4.0);
+    robot.stand(4.0, 0.5);
+    robot.stand(4.0, 0.5);
+    map = robot.whole();
+  });
+  CHECK(map->name() == "slam 2");
+  CHECK(value_at(*map, -4.5, 0.52) == kNotKnown);
+}
