@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <thread>
 
 #include "deployer.hpp"
@@ -10,16 +11,19 @@
 
 using namespace orca::test;
 using Catch::Contains;
+using Catch::StartsWith;
 
 namespace {
 
 // A running system with maps.
 class System {
  public:
-  System(const std::string& profile, std::size_t maps)
-      : program_(deployer({system_graph("maps.xml"), "--profile", profile})) {
+  /// @param working  components to wait for.
+  System(const Words& words, std::size_t working) : program_(deployer(words)) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (count_of(run_orcactl({"ps"}).out, " WORK ") < maps) {
+    for (;;) {
+      const Run run = run_orcactl({"ps"});
+      if (run.exit_code() == 0 && count_of(run.out, " WORK ") >= working) return;
       INFO(program_.err());
       REQUIRE(std::chrono::steady_clock::now() < end);
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -42,7 +46,7 @@ class System {
 }  // namespace
 
 TEST_CASE("orcactl map save writes the map of a running system, and never over another", "[system][maps]") {
-  const System system("one", 1);
+  const System system({system_graph("maps.xml")}, 1);
   const TempFolder folder;
   const Run saved = run_orcactl({"map", "save", folder.file("hall")});
   INFO(saved.err);
@@ -65,7 +69,7 @@ TEST_CASE("orcactl map save writes the map of a running system, and never over a
 
 TEST_CASE("orcactl map save asks which map if there are several, and takes any port that answers with one",
           "[system][maps]") {
-  const System system("two", 2);
+  const System system({system_graph("maps.xml"), "--profile", "two"}, 2);
   const TempFolder folder;
   const Run unclear = run_orcactl({"map", "save", folder.file("hall")});
   CHECK(unclear.exit_code() == 1);
@@ -77,4 +81,25 @@ TEST_CASE("orcactl map save asks which map if there are several, and takes any p
              Contains("answers no questions"));
   CHECK(run_orcactl({"map", "load", folder.file("hall")}).exit_code() == 2);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "x.png"));
+}
+
+TEST_CASE("the map that a robot has made is a YAML file and a picture for programs of others",
+          "[system][maps][tool]") {
+  const TempFolder folder;
+  {
+    const System system({source_file("graphs/pioneer_slam.xml"), "--clock", "virtual", "--pace", "0"}, 0);
+    REQUIRE(run_orcactl({"step", "30s"}).exit_code() == 0);
+    REQUIRE(run_orcactl({"map", "save", folder.file("office")}).exit_code() == 0);
+  }
+  Subprocess reader(
+      {"/usr/bin/env", "python3", source_file("tests/unit/maps/read_map.py"), folder.file("office.yaml")});
+  const Run read = finish(reader, Seconds(20));
+  if (read.exit_code() == 77) {
+    std::cout << "SKIPPED: " << read.out;
+    return;
+  }
+  INFO(read.err);
+  REQUIRE(read.exit_code() == 0);
+  CHECK_THAT(read.out, StartsWith("L (") && Contains(" 0.05 [") && Contains(" 254") && Contains(" 205") &&
+                           Contains(" 0,"));
 }
