@@ -36,7 +36,7 @@ endfunction()
 
 # orca_export(): lets other projects use this build, with find_package(Orca) and -DOrca_DIR=BUILD: see docs/first_component.md.
 function(orca_export)
-  export(TARGETS orca_language orca_options orca_base orca_idl orca_xml orca_text orca_geometry orca_geometry_objects orca_recording_reading orca_recording orca_ros orca_object_reading orca_object_recording orca_robot_file orca_patterns
+  export(TARGETS orca_language orca_options orca_base orca_idl orca_xml orca_text orca_geometry orca_geometry_objects orca_carmen orca_recording_reading orca_recording orca_ros orca_object_reading orca_object_recording orca_robot_file orca_patterns
                  orca_patterns_local orca_patterns_frames orca_patterns_shm orca_patterns_dds orca_component_api orca_hw_framing orca_hw_link orca_hw_api orca_hw_driver orca_graph orca_plugin orca_host orca_testing
          NAMESPACE orca:: FILE ${CMAKE_BINARY_DIR}/OrcaTargets.cmake)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/OrcaConfig.cmake.in ${CMAKE_BINARY_DIR}/OrcaConfig.cmake @ONLY)

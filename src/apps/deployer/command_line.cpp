@@ -83,7 +83,10 @@ std::vector<OptionSpec> writing_options() {
       {"--record", "FILE",
        "records the run: FILE.mcap everything, or FILE.mcap=PORT,... what passes these ports, as an MCAP "
        "file for "
-       "Foxglove, PlotJuggler, rosbag readers and orcactl bag; FILE.csv=PORT,... a table of all objects that "
+       "Foxglove, PlotJuggler, rosbag readers and orcactl bag; FILE.carmen, or FILE.carmen=PORT,..., "
+       "odometry "
+       "and scans as a CARMEN log, which many programs that make maps read; FILE.csv=PORT,... a table of all "
+       "objects that "
        "a "
        "PushServer pushes, a SendProxy sends, or that arrive at another port, for a spreadsheet or pandas; "
        "--list-ports lists the ports; each time with another file",

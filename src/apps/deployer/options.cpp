@@ -59,16 +59,16 @@ Status add_change(Options& options, const std::string& value) {
   return ok();
 }
 
-// Reads FILE.csv=PORT,... or FILE.mcap[=PORT,...]
+// Reads FILE.csv=PORT,... or FILE.mcap[=PORT,...] or FILE.carmen[=PORT,...]
 Status add_recording(Options& options, const std::string& value) {
   const bool is_whole_bag = host::is_bag_file(value);
   const auto equals = is_whole_bag ? std::string::npos : value.rfind('=');
   const std::string file = value.substr(0, equals);
   const bool is_table = file.ends_with(".csv") && file != ".csv" && equals != std::string::npos;
-  if (!is_table && (!host::is_bag_file(file) || file == ".mcap"))
+  if (!is_table && (!host::is_bag_file(file) || file == ".mcap" || file == ".carmen"))
     return expected("--record",
                     "FILE.csv=PORT,..., such as poses.csv=localizer.RobotPosePush, or FILE.mcap, or "
-                    "FILE.mcap=PORT,...",
+                    "FILE.mcap=PORT,..., and likewise FILE.carmen",
                     value);
   for (const host::RecordingOptions& other : options.run.recordings)
     if (other.file == file)

@@ -135,11 +135,12 @@ std::vector<Command> port_commands() {
            "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
            "that come faster than they can be printed are left out, and counted on stderr."},
       {.name = "record",
-       .arguments = {{"FILE.mcap|FOLDER", Names::file}, {"PORT", Names::port, true, true}},
+       .arguments = {{"FILE.mcap|FILE.carmen|FOLDER", Names::file}, {"PORT", Names::port, true, true}},
        .options = {{"--ring", "SIZE", "keep the newest in a folder, in so much room, such as \"2 GB\""},
                    {"--for", "DURATION", "end after this time"},
                    {"--wait", "DURATION", "for a system that does not run yet"}},
-       .text = "record everything, or what passes these ports, into an MCAP file",
+       .text = "record everything, or what passes these ports, into an MCAP file, or odometry and scans into "
+               "a CARMEN log",
        .details = kRecordDetails},
       {.name = "bag",
        .arguments = {{"info|check|recover|cut|csv|carmen|diff"},

@@ -26,6 +26,7 @@
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
+#include "orca/recording/objects/carmen_writer.hpp"
 #include "orca/recording/objects/object_writer.hpp"
 #include "orca/recording/objects/ring_writer.hpp"
 #include "orca/supervisor/control_socket.hpp"
@@ -390,14 +391,17 @@ std::variant<Sink, Failure> open_sink(const apps::Call& call) {
     return Failure{fail(Code::invalid_argument, why), ExitCode::usage};
   };
   const std::string& name = call.words.front();
-  const bool names_file = name.ends_with(".mcap");
+  const bool names_log = name.ends_with(".carmen");
+  const bool names_file = names_log || name.ends_with(".mcap");
   const std::optional<std::string> room = call.text("--ring");
-  if (!room && !names_file) return refuse("name a file that ends in .mcap, not " + in_quotes(name));
+  if (!room && !names_file)
+    return refuse("name a file that ends in .mcap or .carmen, not " + in_quotes(name));
   if (room && names_file)
     return refuse("--ring keeps several files; name a folder for them, not " + in_quotes(name));
   if (!room) {
     auto output = recording::open_file_in_background(name, kDiskBound);
     if (!output) return Failure{output.error()};
+    if (names_log) return Sink(std::make_unique<recording::CarmenWriter>(*std::move(output)));
     return Sink(std::make_unique<recording::ObjectWriter>(*std::move(output)));
   }
   constexpr xml::ValueRule kRoom{

@@ -7,7 +7,7 @@
 
 namespace orca::orcactl {
 
-/// Records a running system into an MCAP file, until the system ends, the time is over, or a signal comes.
+/// Records a running system into an MCAP file or a log of CARMEN, until the system ends, the time is over, or a signal comes.
 [[nodiscard]] ExitCode record(const apps::Call& call);
 
 }  // namespace orca::orcactl

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,13 +14,14 @@
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/recording/objects/object_reader.hpp"
+#include "recorded_run.hpp"
 #include "time_shift.hpp"
 
 namespace {
 
 using namespace orca;
 using namespace orca::hw;
-using recording::ObjectReader;
+using log_replay::RecordedRun;
 using recording::RecordedObject;
 
 constexpr Duration kMaxCommandAge = 200ms;
@@ -33,8 +35,9 @@ class RecordedSensor final : public SensorEndpoint {
 };
 
 /// The sensors of a robot as they were recorded: each reading comes again when it came then, counted from the beginning of the
-/// recording, with its stamps moved by as much. Commands to the base are taken and change nothing. Poses of the robot (RobotPose)
-/// are served by TruthLocalizer; the description of the robot is the first one in the recording, with lasers as their scans say.
+/// recording, which is when somebody uses the robot first, with its stamps moved by as much. Commands to the base are taken and change nothing. Poses of the robot (RobotPose)
+/// are served by TruthLocalizer; the description of the robot is the first one in the recording, with lasers as their scans say. What is wrong in a log,
+/// such as damaged lines and stamps that run backwards, is a warning when the graph is checked, and does not end the replay.
 ///
 /// Components of today see what those of then saw, so in virtual time they do the same each time.
 class LogReplay final : public HardwareContainer {
@@ -45,14 +48,18 @@ class LogReplay final : public HardwareContainer {
     if (ports_->empty()) return {};
     if (recording_->empty())
       return {{.param = "recording", .text = "it names no file; record one with deployer --record run.mcap"}};
-    Result<ObjectReader> opened = ObjectReader::open(*recording_);
+    Result<std::unique_ptr<RecordedRun>> opened = RecordedRun::open(*recording_);
     if (!opened) return {{.param = "recording", .text = opened.error().message}};
-    reader_.emplace(*std::move(opened));
+    run_ = *std::move(opened);
     std::vector<HardwareFault> faults;
     for (const std::string& port : *ports_) declare(port, faults);
     if (!faults.empty()) return faults;
     if (const Status read = load(); !read.ok())
       faults.push_back({.param = "recording", .text = read.error().message});
+    for (const std::string& flaw : run_->flaws())
+      faults.push_back(
+          {.param = "recording", .text = in_quotes(*recording_) + ": " + flaw, .only_warns = true});
+    run_.reset();  // everything that is needed of it is here
     describe_lasers();
     motion_ = std::make_unique<MotionHW>(limits(), kMaxCommandAge);
     set_motion(*motion_);
@@ -62,12 +69,19 @@ class LogReplay final : public HardwareContainer {
   [[nodiscard]] idl::Robot description() const override { return robot_; }
 
  protected:
-  Status open() override {
+  // The recording begins when somebody uses the robot for the first time, so that nothing of it is missed.
+  Status start() override {
+    if (std::exchange(has_begun_, true)) return ok();
     shift_ = host().now() - begin_;
+    char times[96];
+    std::snprintf(times, sizeof times, "the recording begins at %.6f s of its clock, %.6f s of this one",
+                  to_seconds(begin_), to_seconds(host().now()));
+    host().write_log(log::Level::info, times);
     return ok();
   }
 
   Status poll() override {
+    if (!has_begun_) return ok();
     while (next_ < readings_.size() && readings_[next_].passed + shift_ <= host().now())
       publish(readings_[next_++]);
     if (next_ == readings_.size() && !std::exchange(is_over_, true))
@@ -76,7 +90,7 @@ class LogReplay final : public HardwareContainer {
   }
 
   [[nodiscard]] TimePoint next_poll() const override {
-    return next_ < readings_.size() ? readings_[next_].passed + shift_ : kForever;
+    return has_begun_ && next_ < readings_.size() ? readings_[next_].passed + shift_ : kForever;
   }
 
   Status drive(const DriveSetpoint& /*setpoint*/) override { return ok(); }
@@ -89,10 +103,10 @@ class LogReplay final : public HardwareContainer {
   };
 
   void declare(const std::string& port, std::vector<HardwareFault>& faults) {
-    const auto row = reader_->rows().find(port);
-    if (row == reader_->rows().end()) {
+    const auto row = run_->rows().find(port);
+    if (row == run_->rows().end()) {
       std::vector<std::string> known;
-      for (const auto& [name, found] : reader_->rows()) known.push_back(name);
+      for (const auto& [name, found] : run_->rows()) known.push_back(name);
       faults.push_back(
           {.param = "ports",
            .text = "the recording has nothing of " + in_quotes(port) + "; it has: " + listed(known)});
@@ -110,24 +124,19 @@ class LogReplay final : public HardwareContainer {
 
   // Returns the mean time between two of them, in whole milliseconds.
   [[nodiscard]] Duration period_of(std::uint64_t count) const {
-    const recording::Statistics& numbers = reader_->file().statistics();
-    if (count < 2 || numbers.end <= numbers.start) return kUsualPeriod;
-    const auto mean = (numbers.end - numbers.start) / (count - 1);
-    return std::max<Duration>(
-        1ms, std::chrono::round<std::chrono::milliseconds>(Duration(static_cast<Duration::rep>(mean))));
+    if (count < 2 || run_->length() <= Duration{0}) return kUsualPeriod;
+    const Duration mean = run_->length() / static_cast<Duration::rep>(count - 1);
+    return std::max<Duration>(1ms, std::chrono::round<std::chrono::milliseconds>(mean));
   }
 
   Status load() {
-    begin_ = reader_->is_virtual()
-                 ? TimePoint{}
-                 : TimePoint(Duration(static_cast<Duration::rep>(reader_->file().statistics().start)));
+    begin_ = run_->begin();
     bool has_robot = false;
-    return reader_->objects({}, [&](const RecordedObject& one) {
+    return run_->objects([&](const RecordedObject& one) {
       if (const auto sensor = sensors_.find(std::string(one.row)); sensor != sensors_.end())
         readings_.push_back({sensor->second.get(), one.object, one.passed});
       if (const auto robot = object_cast<idl::Robot>(one.object); robot && !std::exchange(has_robot, true))
         robot_ = *robot;
-      return true;
     });
   }
 
@@ -174,11 +183,12 @@ class LogReplay final : public HardwareContainer {
     reading.sensor->publish(std::move(object));
   }
 
-  Param<std::string> recording_{
-      *this,
-      "recording",
-      "",
-      {.fixed = true, .text = "The recording, an MCAP file of deployer --record or orcactl record"}};
+  Param<std::string> recording_{*this,
+                                "recording",
+                                "",
+                                {.fixed = true,
+                                 .text = "The recording: an MCAP file of deployer --record or orcactl "
+                                         "record, or a CARMEN log, packed by gzip or not"}};
   Param<std::vector<std::string>> ports_{*this,
                                          "ports",
                                          {},
@@ -194,7 +204,7 @@ class LogReplay final : public HardwareContainer {
                             .text = "Limit of the base, if the recording has no description of the robot"}};
   Param<double> max_turn_rate_{
       *this, "max_turn_rate", 1.0, {.unit = "rad/s", .min = 0.0, .fixed = true, .text = "Likewise"}};
-  std::optional<ObjectReader> reader_;
+  std::unique_ptr<RecordedRun> run_;                                // until everything is read
   std::map<std::string, std::unique_ptr<RecordedSensor>> sensors_;  // by port
   std::unique_ptr<MotionHW> motion_;
   std::vector<Reading> readings_;  // in the order in which they passed
@@ -202,6 +212,7 @@ class LogReplay final : public HardwareContainer {
   TimePoint begin_{};  // of the recording
   Duration shift_{0};  // from its times to those of this run
   std::size_t next_ = 0;
+  bool has_begun_ = false;
   bool is_over_ = false;
 };
 

@@ -1,38 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mapping on public data: pose graphs with published optima, and a log of a real robot (docs/validation.md has the figures).
-#include <zlib.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <iostream>
 #include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "measured_relations.hpp"
 #include "orca/navigation/pose_graph.hpp"
 #include "orca/navigation/slam.hpp"
-#include "public_data.hpp"
 
 using namespace orca;
 using namespace orca::nav;
+using namespace orca::test;
 
 namespace {
-
-// Returns the text of a compressed file of public data; none, if it is not there.
-std::string public_text(const std::string& file) {
-  const std::string path = test::public_data(file);
-  std::string text;
-  if (path.empty()) return text;
-  const gzFile in = gzopen(path.c_str(), "rb");
-  REQUIRE(in != nullptr);
-  std::vector<char> part(1 << 16);
-  for (int count = 0; (count = gzread(in, part.data(), static_cast<unsigned>(part.size()))) > 0;)
-    text.append(part.data(), static_cast<std::size_t>(count));
-  gzclose(in);
-  return text;
-}
 
 // Reads a graph as g2o writes it. The weights are those of the published optima: 2 / trace of the inverse for places, and for directions the
 // chord of matrices, whose square is twice that of unit vectors.
@@ -83,49 +67,15 @@ std::vector<LogScan> read_log(const std::string& text) {
   return log;
 }
 
-/// Mean errors against relations that people have measured.
-struct Errors {
-  int count = 0, loops = 0;
-  double place = 0.0, turn = 0.0, of_loops = 0.0;  // [m], [rad], [m]
-};
-
-// Relations count whose two stamps are those of nodes within 1 ms; a loop lies more than 60 s apart.
-// The measure is that of Kuemmerle and others, "On measuring the accuracy of SLAM algorithms", Autonomous Robots 2009.
-Errors errors_of(const std::string& relations, std::span<const double> stamps,
-                 std::span<const SlamNode> nodes) {
-  Errors errors;
-  const auto node_at = [&](double stamp) -> const SlamNode* {
-    const auto found = std::ranges::lower_bound(stamps, stamp - 1e-3);
-    return found != stamps.end() && std::fabs(*found - stamp) <= 1e-3
-               ? &nodes[static_cast<std::size_t>(found - stamps.begin())]
-               : nullptr;
-  };
-  std::istringstream lines(relations);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    double begin = 0.0;
-    double end = 0.0;
-    double unused = 0.0;
-    Pose2 right;
-    words >> begin >> end >> right.x >> right.y >> unused >> unused >> unused >> right.yaw;
-    const SlamNode* const a = node_at(begin);
-    const SlamNode* const b = node_at(end);
-    if (a == nullptr || b == nullptr) continue;
-    const Pose2 off = seen_from(right, seen_from(a->X_MR, b->X_MR));
-    ++errors.count;
-    errors.place += norm(off.position());
-    errors.turn += std::fabs(off.yaw);
-    if (std::fabs(end - begin) <= 60.0) continue;
-    ++errors.loops;
-    errors.of_loops += norm(off.position());
-  }
-  errors.place /= errors.count;
-  errors.turn /= errors.count;
-  errors.of_loops /= errors.loops;
-  return errors;
+// Returns how wrong the nodes are.
+RelationErrors errors_of_nodes(const std::string& relations, std::span<const double> stamps,
+                               std::span<const SlamNode> nodes) {
+  std::vector<Pose2> poses;
+  for (const SlamNode& node : nodes) poses.push_back(node.X_MR);
+  return test::errors_of(relations, stamps, poses);
 }
 
-void check(const char* when, const Errors& errors) {
+void check(const char* when, const RelationErrors& errors) {
   constexpr double kDegree = std::numbers::pi / 180.0;
   std::cout << when << ": " << errors.count << " relations, " << errors.place << " m, "
             << errors.turn / kDegree << " degrees; " << errors.loops << " of loops, " << errors.of_loops
@@ -171,7 +121,7 @@ TEST_CASE("the log of the Intel lab becomes a map as right as people have measur
     (void)slam.see(scan.scan, scan.X_OR);
     if (slam.nodes().size() > stamps.size()) stamps.push_back(scan.stamp);
   }
-  check("as it drives", errors_of(relations, stamps, slam.nodes()));
+  check("as it drives", errors_of_nodes(relations, stamps, slam.nodes()));
   slam.finish();
-  check("at the end", errors_of(relations, stamps, slam.nodes()));
+  check("at the end", errors_of_nodes(relations, stamps, slam.nodes()));
 }

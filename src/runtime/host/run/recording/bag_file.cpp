@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "orca/recording/objects/carmen_writer.hpp"
 #include "orca/recording/objects/object_writer.hpp"
 
 namespace orca::host {
@@ -18,7 +19,10 @@ BagFile::~BagFile() = default;
 Status BagFile::open(const BagOrigin& run, const std::vector<std::string>& ports, bool at_once) {
   auto output = at_once ? recording::open_file(path_) : recording::open_file_in_background(path_, kBound);
   if (!output) return output.error();
-  writer_ = std::make_unique<recording::ObjectWriter>(*std::move(output));
+  if (path_.ends_with(".carmen"))
+    writer_ = std::make_unique<recording::CarmenWriter>(*std::move(output));
+  else
+    writer_ = std::make_unique<recording::ObjectWriter>(*std::move(output));
   Status begun = writer_->begin({run.name, at_once, ports, run.more});
   return begun.ok() ? writer_->attach_graph(run.graph) : begun;
 }

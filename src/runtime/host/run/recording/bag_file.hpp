@@ -13,7 +13,7 @@
 #include "orca/idl/object.hpp"
 
 namespace orca::recording {
-class ObjectWriter;
+class ObjectSink;
 }
 
 namespace orca::host {
@@ -25,7 +25,7 @@ struct BagOrigin {
   std::map<std::string, std::string> more;  ///< "seed"
 };
 
-/// A recording of objects as an MCAP file.
+/// A recording of objects as an MCAP file, or as a log of CARMEN if its name ends so.
 ///
 /// Thread contract: not synchronised.
 class BagFile {
@@ -50,7 +50,7 @@ class BagFile {
 
  private:
   const std::string path_;
-  std::unique_ptr<recording::ObjectWriter> writer_;  // null: it is not open
+  std::unique_ptr<recording::ObjectSink> writer_;  // null: it is not open
   Status status_ = ok();
 };
 

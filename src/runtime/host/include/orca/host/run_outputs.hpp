@@ -10,11 +10,11 @@
 
 namespace orca::host {
 
-/// What a run records: what passes through some ports, as a table in a CSV file, or as an MCAP file, which has the log and the
-/// alarms as well.
+/// What a run records: what passes through some ports, as a table in a CSV file; as an MCAP file, which has the log and the
+/// alarms as well; or, of odometry and scans, as a log of CARMEN.
 struct RecordingOptions {
   std::string file;
-  /// "component.port", by their names in the graph; empty, of an MCAP file: all through which objects leave their component.
+  /// "component.port", by their names in the graph; empty, not of a table: all through which objects leave their component.
   std::vector<std::string> ports;
 };
 
@@ -24,8 +24,10 @@ struct RecordingOptions {
   return port.pattern == Pattern::query || (port.pattern == Pattern::push) == (port.role == Role::server);
 }
 
-/// Returns whether a recording is an MCAP file, by its name.
-[[nodiscard]] inline bool is_bag_file(std::string_view file) { return file.ends_with(".mcap"); }
+/// Returns whether a recording is an MCAP file or a log of CARMEN, by its name.
+[[nodiscard]] inline bool is_bag_file(std::string_view file) {
+  return file.ends_with(".mcap") || file.ends_with(".carmen");
+}
 
 /// What a run leaves behind and shows besides its log. A plain value.
 struct RunOutputs {
