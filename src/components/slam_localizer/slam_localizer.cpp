@@ -52,6 +52,7 @@ class SlamLocalizer final : public orca::Component {
   void begin_anew() {
     slam_.emplace();
     map_.begin_anew();
+    seen_.clear();
     history_.clear();
     scans_.clear();
     X_MI_ = X_MD_;
@@ -89,6 +90,7 @@ class SlamLocalizer final : public orca::Component {
   // The sender of the drifting pose has lost the robot: it may go on anywhere else, and in another map.
   void lose() {
     slam_.reset();
+    seen_.clear();
     history_.clear();
     X_MD_ = {};
     log_warning(
@@ -115,6 +117,15 @@ class SlamLocalizer final : public orca::Component {
     const Pose2 X_IR = X_MI_ * *first;
     X_MD_ =
         slam_->see(orca::nav::surface_of(points_, X_RS.position()), X_IR, X_RS.position()) * inverse(*first);
+    seen_.resize(slam_->nodes().size(), orca::to_time_point(scan.stamp()));
+  }
+
+  orca::Result<orca::Loan<orca::idl::Path>> on_question(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    auto path = orca::make_object<orca::idl::Path>();
+    path->name("way so far");
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      path->poses().push_back(orca::level_pose(slam_->nodes()[i].X_MR, 0.0, seen_[i]));
+    return path;
   }
 
   void fill(const Pose2& X_DR, RobotPose& pose) {
@@ -141,6 +152,7 @@ class SlamLocalizer final : public orca::Component {
 
   orca::SenderWatch senders_{host()};
   std::optional<orca::nav::Slam> slam_;
+  std::vector<orca::TimePoint> seen_;  // stamps of its nodes
   orca::nav::PoseHistory history_;
   orca::WaitingScans scans_;
   Pose2 X_MD_;  // the frame in which the pose drifts, in the map's
@@ -160,6 +172,12 @@ class SlamLocalizer final : public orca::Component {
       "OccupancyGridQuery",
       &SlamLocalizer::on_map,
       {.text = "The whole map as it is now: about is not read."}};
+  orca::QueryServer<orca::idl::Ask, orca::idl::Path> way_{
+      *this,
+      "PathQuery",
+      &SlamLocalizer::on_question,
+      {.text = "Where the robot was at the scans that the map is made of, with their stamps, as it is known "
+               "now."}};
   orca::Param<double> range_{
       *this,
       "map_range",
