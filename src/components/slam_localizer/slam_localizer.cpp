@@ -120,7 +120,7 @@ class SlamLocalizer final : public orca::Component {
     seen_.resize(slam_->nodes().size(), orca::to_time_point(scan.stamp()));
   }
 
-  orca::Result<orca::Loan<orca::idl::Path>> on_question(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+  orca::Result<orca::Loan<orca::idl::Path>> on_way(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
     auto path = orca::make_object<orca::idl::Path>();
     path->name("way so far");
     for (std::size_t i = 0; i < seen_.size(); ++i)
@@ -175,7 +175,7 @@ class SlamLocalizer final : public orca::Component {
   orca::QueryServer<orca::idl::Ask, orca::idl::Path> way_{
       *this,
       "PathQuery",
-      &SlamLocalizer::on_question,
+      &SlamLocalizer::on_way,
       {.text = "Where the robot was at the scans that the map is made of, with their stamps, as it is known "
                "now."}};
   orca::Param<double> range_{
