@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kSoft = 0.07;  // [m] by which a point may be off and still count 0.6
 constexpr int kReach = 5;       // [cells] beyond which it counts nothing
-constexpr double kFull = 255.0;
 
 std::vector<std::uint8_t> field_of(const Lattice& lattice, std::span<const SurfacePoint> points) {
   std::vector<std::uint8_t> hit(lattice.size(), 0);
@@ -21,9 +20,9 @@ std::vector<std::uint8_t> field_of(const Lattice& lattice, std::span<const Surfa
   const std::span<const std::int32_t> squared = transform(hit, lattice.columns, lattice.rows, kReach);
   std::array<std::uint8_t, kReach * kReach + 1> value{};
   for (std::size_t i = 0; i < value.size(); ++i)
-    value[i] =
-        static_cast<std::uint8_t>(std::lround(kFull * portable::exp(-static_cast<double>(i) * lattice.side *
-                                                                    lattice.side / (2.0 * kSoft * kSoft))));
+    value[i] = static_cast<std::uint8_t>(
+        std::lround(ScanSearch::kFull * portable::exp(-static_cast<double>(i) * lattice.side * lattice.side /
+                                                      (2.0 * kSoft * kSoft))));
   std::vector<std::uint8_t> field(lattice.size());
   for (std::size_t i = 0; i < field.size(); ++i)
     field[i] = squared[i] <= kReach * kReach ? value[static_cast<std::size_t>(squared[i])] : 0;
@@ -84,13 +83,7 @@ struct ScanSearch::Search {
   std::vector<std::vector<Cell>> turned{};
 
   [[nodiscard]] int sum_of(int turn, int x, int y, int level) const {
-    const std::vector<std::uint8_t>& field = map.levels_[static_cast<std::size_t>(level)];
-    int sum = 0;
-    for (const Cell& cell : turned[static_cast<std::size_t>(turn)]) {
-      const Cell at{cell.column + x, cell.row + y};
-      if (map.lattice_.holds(at)) sum += field[map.lattice_.index(at)];
-    }
-    return sum;
+    return map.bound(turned[static_cast<std::size_t>(turn)], {x, y}, level);
   }
 
   void look_into(const Block& block, int level) {

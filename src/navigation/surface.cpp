@@ -2,10 +2,12 @@
 #include "orca/navigation/surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/navigation/known_map.hpp"
 
 namespace orca::nav {
 namespace {
@@ -40,7 +42,88 @@ Vec2 normal_of(const Spread& s) {
   return direction(portable::atan2(2.0 * xy, xx - yy) / 2.0 + std::numbers::pi / 2.0);
 }
 
+constexpr std::array<Cell, 4> kSides{Cell{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+
+Cell beside(Cell cell, Cell step) { return {cell.column + step.column, cell.row + step.row}; }
+
+// Returns for each cell towards which of the four sides it shows a surface, as bits.
+std::vector<std::uint8_t> faces_of(const FloorGrid& grid) {
+  std::vector<std::uint8_t> faces(grid.cells.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Cell cell = grid.lattice.cell_of(i);
+    if (!grid.occupied(cell)) continue;
+    for (std::size_t side = 0; side < kSides.size(); ++side)
+      if (grid.free(beside(cell, kSides[side]))) faces[i] |= static_cast<std::uint8_t>(1U << side);
+  }
+  return faces;
+}
+
+/// The neighbours of a cell that face the same side.
+struct Face {
+  const FloorGrid& grid;
+  std::span<const std::uint8_t> faces;
+  int reach;  // [cells]
+
+  // Walks along the surface in both directions, as far as it goes on.
+  [[nodiscard]] SurfacePoint at(Cell cell, std::size_t side) const {
+    const Cell out = kSides[side];
+    const Cell along{-out.row, out.column};
+    Spread spread;
+    spread.add({});
+    for (const int way : {1, -1})
+      for (int step = 1, off = 0; step <= reach; ++step) {
+        const Cell next = beside(
+            cell, {way * step * along.column + off * out.column, way * step * along.row + off * out.row});
+        const int found = follow(next, side);
+        if (found == kNone) break;
+        off += found;
+        spread.add(grid.lattice.side * Vec2{static_cast<double>(way * step * along.column + off * out.column),
+                                            static_cast<double>(way * step * along.row + off * out.row)});
+      }
+    Vec2 normal = normal_of(spread);
+    const Vec2 middle = grid.lattice.middle_of(cell);
+    if (normal == Vec2{}) return {middle, {}};
+    if (dot(normal, {static_cast<double>(out.column), static_cast<double>(out.row)}) < 0.0)
+      normal = -1.0 * normal;
+    return {middle + dot(normal, 1.0 / spread.count * spread.sum) * normal, normal};
+  }
+
+ private:
+  static constexpr int kNone = 9;
+
+  // Returns by how many cells towards that side the surface has moved.
+  [[nodiscard]] int follow(Cell cell, std::size_t side) const {
+    for (const int off : {0, 1, -1}) {
+      const Cell there = beside(cell, {off * kSides[side].column, off * kSides[side].row});
+      if (grid.lattice.holds(there) && (faces[grid.lattice.index(there)] & (1U << side)) != 0) return off;
+    }
+    return kNone;
+  }
+};
+
 }  // namespace
+
+std::vector<SurfacePoint> surface_of(const FloorGrid& grid) {
+  constexpr double kAlong = 0.25;  // [m]
+  constexpr double kFacing = 0.6;  // cosine; at 45 degrees two sides show the same surface
+  const std::vector<std::uint8_t> faces = faces_of(grid);
+  const Face face{grid, faces, std::max(3, static_cast<int>(kAlong / grid.lattice.side))};
+  std::vector<SurfacePoint> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    bool shown = faces[i] == 0;
+    const Cell cell = grid.lattice.cell_of(i);
+    for (std::size_t side = 0; side < kSides.size(); ++side) {
+      if ((faces[i] & (1U << side)) == 0) continue;
+      const SurfacePoint point = face.at(cell, side);
+      const Vec2 out{static_cast<double>(kSides[side].column), static_cast<double>(kSides[side].row)};
+      if (dot(point.normal, out) < kFacing) continue;
+      result.push_back(point);
+      shown = true;
+    }
+    if (!shown) result.push_back({grid.lattice.middle_of(cell), {}});
+  }
+  return result;
+}
 
 std::vector<SurfacePoint> surface_of(std::span<const Vec2> points, Vec2 sensor, double reach) {
   std::vector<SurfacePoint> result;

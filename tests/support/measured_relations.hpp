@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
-#include "public_data.hpp"
+#include "public_text.hpp"
 
 namespace orca::test {
-
-/// Returns the text of a file of public data that is packed by gzip; none, with a word on stdout, if it is not there.
-inline std::string public_text(const std::string& file) {
-  const std::string path = public_data(file);
-  std::string text;
-  if (path.empty()) return text;
-  const gzFile in = gzopen(path.c_str(), "rb");
-  if (in == nullptr) throw std::runtime_error("cannot open " + path);
-  std::vector<char> part(1 << 16);
-  for (int count = 0; (count = gzread(in, part.data(), static_cast<unsigned>(part.size()))) > 0;)
-    text.append(part.data(), static_cast<std::size_t>(count));
-  gzclose(in);
-  return text;
-}
 
 /// Mean errors of poses against relations between them that people have measured.
 struct RelationErrors {

@@ -77,9 +77,23 @@ class ScanSearch {
   /// Returns the score of a scan at a pose, from the finest grid.
   [[nodiscard]] double score(std::span<const SurfacePoint> scan, const Pose2& X_MR) const;
 
- private:
-  static constexpr int kLevels = 6;
+  static constexpr int kLevels = 6;       ///< Of blocks: those of a level have sides of 2^level cells.
+  static constexpr double kFull = 255.0;  ///< Value of a cell with a point of the map.
+  [[nodiscard]] const Lattice& lattice() const { return lattice_; }
+  /// Returns the greatest sum of values that the points of a scan can have, in whichever place of a block it is; at level 0 that which they have.
+  /// @param turned  the cells of the points, if the scan was taken at the middle of cell (0, 0).
+  /// @param corner  the cell of least x and y of the block.
+  [[nodiscard]] int bound(std::span<const Cell> turned, Cell corner, int level) const {
+    const std::vector<std::uint8_t>& field = levels_[static_cast<std::size_t>(level)];
+    int sum = 0;
+    for (const Cell& cell : turned) {
+      const Cell at{cell.column + corner.column, cell.row + corner.row};
+      if (lattice_.holds(at)) sum += field[lattice_.index(at)];
+    }
+    return sum;
+  }
 
+ private:
   struct Search;
 
   // For each cell the greatest value in the square of 2^level cells to the right and up from it.

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
+#include "orca/navigation/known_map.hpp"
+#include "orca/navigation/particles.hpp"
+#include "orca/navigation/place_search.hpp"
+
+namespace orca::nav {
+
+/// Where odometry has a robot at an instant, and how well it knows that since its start.
+struct Reckoned {
+  double time = 0.0;  ///< [s] from any beginning.
+  Pose2 X_OR;
+  std::array<double, 9> covariance{};  ///< [m2, m rad, rad2]
+};
+
+/// Returns how wrong a way between two poses of odometry may be: standard deviations ahead, to the left [m] and of the turn [rad], by how the
+/// covariance has grown. Never less than a floor, since odometry knows nothing of a bump or a slip, and never more than a fifth of the way: what
+/// grows with the way since the start, as the error of a wheel's radius does, is no error of this step.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::array<double, 3> deviations_of(const Reckoned& before, const Reckoned& now);
+
+/// A laser's scan, robot frame at its first beam.
+struct RobotScan {
+  std::size_t sensor = 1;  ///< A number of the laser from 1 on.
+  Vec2 from;               ///< Where it was taken from.
+  std::vector<SurfacePoint> echoes;
+  std::size_t beams = 0;  ///< that could have had an echo.
+};
+
+/// An echo of a sonar, or that none came.
+struct SonarEcho {
+  Pose2 X_RS;              ///< Of the sonar in the robot frame now; its x axis is that of the cone.
+  double range = 0.0;      ///< [m]; at max_range or above: no echo.
+  double max_range = 0.0;  ///< [m]
+  double half_lobe = 0.0;  ///< [rad]
+};
+
+/// Whether it is known where the robot is.
+enum class Known : std::uint8_t {
+  unknown,    ///< Nobody has said it, and nothing was found yet.
+  ambiguous,  ///< One of several places.
+  localized,
+  lost,  ///< It was known, but what is sensed does not fit there any more, or nothing has been sensed for too long.
+};
+
+/// When a place is believed. The defaults are those with which all was measured.
+struct LocalizerOptions {
+  double believed_from =
+      0.72;  ///< [1] how well scans fit at a place (Explanation::fit) for it to be believed.
+  double doubted_below =
+      0.45;              ///< [1] the same, on the average of the last scans, below which a place is doubted.
+  double fallen = 0.75;  ///< [1] the same as a part of what it was before, on a long average.
+  double update_way = 0.1;   ///< [m] after which a scan counts.
+  double update_turn = 0.1;  ///< [rad] after which it does.
+  double check_time = 0.5;   ///< [s] after which it is looked at even if the robot has not moved.
+  double blind_way = 2.0;    ///< [m] after which a robot that senses nothing that says where it is, is lost.
+  double blind_time = 3.0;   ///< [s] after which it is, if no scan comes at all.
+  double apart = 0.02;       ///< [1] shares that differ by less say nothing.
+  double evidence =
+      80.0;  ///< [1/1] logarithm of the odds by each share that a place explains more of a scan than another.
+  std::size_t looks = 4000000;  ///< values of the map that are looked up for a search, with each scan.
+  MatchOptions match{.error = 0.03, .together = 10.0};
+  ParticleOptions particles;
+};
+
+/// Finds where a robot is in a map: particles in each place where it may be, which move by odometry; scans that are laid on the map draw them
+/// together, echoes of sonars weigh them; and where nothing fits, a search in the whole map for other places.
+///
+/// Thread contract: one thread at a time.
+/// @source  README.md
+class MapLocalizer {
+ public:
+  MapLocalizer(std::shared_ptr<const KnownMap> map, const RandomStream& random,
+               const LocalizerOptions& options = {});
+  ~MapLocalizer();
+
+  /// Goes on in another map. The place is kept, but doubted.
+  void change_map(std::shared_ptr<const KnownMap> map);
+  /// Takes somebody's word for where the robot is.
+  void place(const PoseSpread& where, const Reckoned& now);
+  /// Begins with a place that may be wrong, such as where the robot was before it was switched off: it is checked before it is believed.
+  void suggest(const PoseSpread& where, const Reckoned& now);
+
+  /// Goes on to where odometry is now.
+  void move(const Reckoned& now);
+  /// Goes on with odometry that counts from another place than before. The place is kept, but doubted.
+  void reckon_anew(const Reckoned& now);
+  /// Returns whether it is time for what a sensor says: the robot has moved, or some time has passed.
+  /// @param sensor  as in RobotScan; kSonars: all sonars.
+  [[nodiscard]] bool is_time_for(std::size_t sensor, const Reckoned& now) const;
+  static constexpr std::size_t kSonars = 0;
+  /// Takes a scan, if it is time for it. @pre  move() was called for when it was taken.
+  void see(const RobotScan& scan);
+  /// Takes the echoes of sonars since the last time. @pre  as see().
+  void hear(std::span<const SonarEcho> echoes);
+
+  /// Returns when move() was called for [s].
+  [[nodiscard]] double time() const { return now_.time; }
+  /// Returns how well it is known where the robot is.
+  [[nodiscard]] Known known(const Reckoned& now) const;
+  /// Returns where the robot is if it is anywhere: at the best of the places.
+  [[nodiscard]] std::optional<PoseSpread> where(const Reckoned& now) const;
+  /// Returns the number of places where it may be.
+  [[nodiscard]] std::size_t places() const { return places_.size(); }
+  /// Returns where they are, as where(), the best first.
+  [[nodiscard]] std::vector<PoseSpread> all_places(const Reckoned& now) const;
+  /// Returns the share [1] of the last scans that the map explains at the best place.
+  [[nodiscard]] double share() const { return places_.empty() ? 0.0 : places_.front().quick; }
+  [[nodiscard]] bool searches() const { return search_ != nullptr; }
+
+ private:
+  /// A place where the robot may be.
+  struct Place {
+    Particles particles;
+    double odds = 0.0;    // logarithm, relative to the best
+    double quick = -1.0;  // share that is explained, on a short average; below 0: never seen
+    double slow = -1.0;   // on a long one
+    bool believed = false;
+  };
+  struct Search;
+
+  void doubt_all();
+  bool begin_update(std::size_t sensor);
+  void settle();
+  void lay(Place& place, const RobotScan& scan);
+  void weigh(Place& place, const RobotScan& scan) const;
+  [[nodiscard]] std::optional<ScanMatch> match(const RobotScan& scan, const PoseSpread& prior) const;
+  void compare(std::span<const double> fits);
+  void note(Place& place, double share) const;
+  [[nodiscard]] bool doubts(const Place& place) const;
+  void begin_search(const RobotScan& scan);
+  void go_on_searching();
+  void take_found();
+  void scatter_everywhere();
+  [[nodiscard]] double likelihood(const SonarEcho& echo, const Pose2& X_MR) const;
+  [[nodiscard]] double heard_share(std::span<const SonarEcho> echoes, const Pose2& X_MR) const;
+  void drop_unlikely();
+  void believe();
+  [[nodiscard]] Place place_at(const PoseSpread& where, std::size_t count);
+
+  std::shared_ptr<const KnownMap> map_;
+  RandomStream random_;
+  LocalizerOptions options_;
+  std::vector<Place> places_;  // the best first
+  Reckoned now_;
+  Reckoned settled_;        // where the particles are
+  double unsettled_ = 0.0;  // [m], [rad] moved since
+  bool moved_ = false;      // move() was called
+  bool was_known_ = false;
+  double way_ = 0.0;        // [m] driven
+  double changed_ = 0.0;    // [m] by which the view has changed since places were compared
+  double seen_way_ = 0.0;   // [m] when something was sensed last that says where it is
+  double seen_time_ = 0.0;  // [s] when anything was
+  double searched_way_ = -1e9;
+  double searched_time_ = -1e9;
+  std::vector<Reckoned> counted_;  // of each sensor: when its last scan counted
+  std::unique_ptr<Search> search_;
+};
+
+}  // namespace orca::nav

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "orca/base/random.hpp"
+#include "orca/geometry/pose2.hpp"
+
+namespace orca::nav {
+
+/// A mean pose and how far poses lie from it.
+struct PoseSpread {
+  Pose2 mean;
+  std::array<double, 9> covariance{};  ///< [m2, m rad, rad2] of x, y and direction, row by row; map frame.
+};
+
+/// Fuses what two sources say of a pose whose errors are independent, to first order.
+/// @pre  the covariances are positive definite.
+/// @thread  pure function; any thread.
+[[nodiscard]] PoseSpread fused(const PoseSpread& a, const PoseSpread& b);
+
+/// Returns the pose of a robot after a step, whose standard deviations ahead, to the left [m] and of the turn [rad] are given.
+/// @param step  seen from where the robot was.
+/// @thread  pure function; any thread.
+/// @source  Smith, Self and Cheeseman 1990: compounding.
+[[nodiscard]] PoseSpread after(const PoseSpread& before, const Pose2& step,
+                               const std::array<double, 3>& deviations);
+
+/// Returns the squared distance of a pose from a mean, in units of the covariance (Mahalanobis).
+/// @pre  the covariance is positive definite.
+[[nodiscard]] double squared_distance(const PoseSpread& spread, const Pose2& pose);
+
+/// How many particles are kept.
+struct ParticleOptions {
+  std::size_t least = 100;
+  std::size_t most = 5000;
+  /// At the end, with a probability of 99 %, the distance (Kullback and Leibler) between the particles and what they stand for is at most this.
+  double error = 0.05;
+  double bin = 0.2;        ///< [m] of a bin in which particles count as one and the same pose.
+  double bin_turn = 0.17;  ///< [rad]
+};
+
+/// Where a robot may be, as a set of poses with weights.
+///
+/// Thread contract: one thread at a time.
+/// @source  Thrun, Burgard and Fox, "Probabilistic Robotics", 2005, ch. 8.3; the number: Fox, "Adapting the sample size in particle filters
+///          through KLD-sampling", IJRR 22(12), 2003.
+class Particles {
+ public:
+  struct Particle {
+    Pose2 X_MR;
+    double weight = 0.0;
+  };
+
+  explicit Particles(const ParticleOptions& options = {}) : options_(options) {}
+
+  /// Replaces all by `count` around a mean, drawn from a normal distribution.
+  void scatter(const PoseSpread& around, std::size_t count, RandomStream& random);
+  /// Replaces all by these, with equal weights.
+  void put(std::span<const Pose2> poses);
+  /// Moves each by the step of a robot, seen from where it was before, and by an error of its own.
+  /// @param deviations [m, m, rad]  standard deviations of the step, ahead, to the left and of the turn.
+  void move(const Pose2& step, const std::array<double, 3>& deviations, RandomStream& random);
+  /// Multiplies each weight by `likelihood(pose)`, greater than 0, and scales them to a sum of 1.
+  /// @return their sum before: the mean likelihood.
+  template <typename Likelihood>
+  double weigh(Likelihood likelihood) {
+    double sum = 0.0;
+    for (Particle& particle : particles_) sum += particle.weight *= likelihood(particle.X_MR);
+    for (Particle& particle : particles_) particle.weight /= sum;
+    return sum;
+  }
+  /// Draws anew, as many as are needed, each as often as its weight says, where the weights have become unequal: low-variance sampling.
+  void resample(RandomStream& random);
+  /// Moves all so that their mean and covariance become these; their shape stays as far as it can.
+  void shape(const PoseSpread& wanted);
+
+  [[nodiscard]] PoseSpread spread() const;
+  [[nodiscard]] std::span<const Particle> all() const { return particles_; }
+
+ private:
+  [[nodiscard]] std::size_t needed(RandomStream& random) const;
+
+  ParticleOptions options_;
+  std::vector<Particle> particles_;
+};
+
+}  // namespace orca::nav

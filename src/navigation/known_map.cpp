@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/navigation/known_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "orca/navigation/distance_transform.hpp"
+
+namespace orca::nav {
+namespace {
+
+constexpr double kCentimetre = 0.01;
+
+// Returns how far each cell is from the next one that is chosen [cm].
+template <typename Chosen>
+std::vector<std::uint8_t> distances_of(const FloorGrid& grid, Chosen chosen) {
+  std::vector<std::uint8_t> marks(grid.lattice.size());
+  for (std::size_t i = 0; i < marks.size(); ++i) marks[i] = chosen(grid.lattice.cell_of(i)) ? 1 : 0;
+  const int reach = static_cast<int>(std::ceil(KnownMap::kReach / grid.lattice.side));
+  DistanceTransform transform;
+  const auto squared = transform(marks, grid.lattice.columns, grid.lattice.rows, reach);
+  std::vector<std::uint8_t> distances(squared.size());
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    distances[i] = static_cast<std::uint8_t>(
+        std::min(KnownMap::kReach / kCentimetre,
+                 std::sqrt(static_cast<double>(squared[i])) * grid.lattice.side / kCentimetre));
+  return distances;
+}
+
+SurfaceMap surface_map_of(const FloorGrid& grid) {
+  SurfaceMap map;
+  map.add(surface_of(grid), {});
+  map.prepare();
+  return map;
+}
+
+}  // namespace
+
+KnownMap::KnownMap(FloorGrid grid)
+    : grid_(std::move(grid)),
+      distance_(distances_of(grid_, [this](Cell cell) { return grid_.occupied(cell); })),
+      clear_(distances_of(grid_, [this](Cell cell) { return !grid_.free(cell); })),
+      surface_(surface_map_of(grid_)),
+      search_(surface_.points()) {}
+
+double KnownMap::distance(Vec2 place) const {
+  const Cell cell = grid_.lattice.cell_at(place);
+  return grid_.lattice.holds(cell) ? kCentimetre * distance_[grid_.lattice.index(cell)] : kReach;
+}
+
+// Strides as far as nothing can be in the way.
+Sight KnownMap::look(Vec2 from, Vec2 ahead, double most) const {
+  const double side = grid_.lattice.side;
+  for (double range = 0.0; range < most;) {
+    const Cell cell = grid_.lattice.cell_at(from + range * ahead);
+    if (grid_.occupied(cell)) return {range, Sight::End::wall};
+    if (!grid_.free(cell)) return {range, Sight::End::unknown};
+    range += std::max(0.5 * side, kCentimetre * clear_[grid_.lattice.index(cell)] - 1.5 * side);
+  }
+  return {most, Sight::End::nothing};
+}
+
+Explanation KnownMap::explain(std::span<const SurfacePoint> scan, Vec2 sensor, const Pose2& X_MR) const {
+  Explanation result;
+  const Vec2 from = X_MR * sensor;
+  const Vec2 turned = direction(X_MR.yaw);
+  for (const SurfacePoint& point : scan) {
+    const Vec2 to = X_MR.position() + rotated(point.at, turned);
+    const double off = distance_to_surface(to);
+    result.fit += 1.0 / (1.0 + off * off / (kSoft * kSoft));
+    if (off <= kOff) {
+      result.hits += 1.0;
+      continue;
+    }
+    const double range = norm(to - from);
+    const Sight sight = look(from, 1.0 / std::max(range, 1e-9) * (to - from), range);
+    if (sight.end == Sight::End::nothing) result.shorts += 1.0;
+    if (sight.end == Sight::End::wall) result.longs += 1.0;
+  }
+  // What stands in front counts half, where the map knows nothing in full: a wrong place would gain by it.
+  result.fit /= std::max(1.0, static_cast<double>(scan.size()) - 0.5 * result.shorts);
+  return result;
+}
+
+double KnownMap::distance_to_surface(Vec2 place) const {
+  const SurfacePoint* const surface = surface_.nearest(place, kBeside);
+  if (surface == nullptr) return kReach;
+  const Vec2 off = place - surface->at;
+  return surface->normal == Vec2{} ? norm(off) : std::fabs(dot(off, surface->normal));
+}
+
+}  // namespace orca::nav

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/navigation/map_localizer.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "grids.hpp"
+
+using namespace orca;
+using namespace orca::nav;
+using test::apart;
+
+namespace {
+
+constexpr PoseSpread around(const Pose2& pose) { return {pose, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.02}}; }
+
+/// A robot that drives in circles through the door of two rooms, with odometry that is 3 % too long and drifts to one side.
+struct Drive {
+  test::Walls walls = test::two_rooms();
+  std::shared_ptr<const KnownMap> map = std::make_shared<const KnownMap>(test::two_rooms_grid());
+  RandomStream random{3, "test", "drive"};
+  MapLocalizer localizer{map, RandomStream(1, "test", "particles")};
+  Pose2 X_MR{3.0, 3.0, 0.0};
+  Reckoned reckoned{};
+  bool sees = true;
+
+  void drive(const Pose2& step) {
+    X_MR = X_MR * step;
+    reckoned.X_OR = reckoned.X_OR * Pose2{1.03 * step.x, 0.0, step.yaw + 0.01 * step.x};
+    reckoned.time += 0.1;
+    localizer.move(reckoned);
+    if (sees) localizer.see(test::robot_scan(walls, X_MR, random));
+  }
+  void go_on(int steps, const Pose2& step = {0.05, 0.0, 0.0}) {
+    for (int i = 0; i < steps; ++i) drive(step);
+  }
+  void stand(int steps) { go_on(steps, {}); }
+  // Two metres to and fro through the door, with turns at the ends.
+  void wander() {
+    for (int i = 0; i < 2; ++i) {
+      go_on(60);
+      go_on(30, {0.0, 0.0, std::numbers::pi / 30.0});
+    }
+  }
+  [[nodiscard]] Known known() const { return localizer.known(reckoned); }
+  [[nodiscard]] double off() const {
+    const auto where = localizer.where(reckoned);
+    return where ? apart(where->mean, X_MR).way : 1e9;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a robot whose place is said is followed, whatever its wheels do", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around({3.2, 2.9, 0.1}), drive.reckoned);
+  drive.stand(1);
+  double worst = 0.0;
+  for (int round = 0; round < 3; ++round)
+    for (int i = 0; i < 2; ++i) {
+      drive.go_on(60);
+      worst = std::max(worst, drive.off());
+      drive.go_on(30, {0.0, 0.0, std::numbers::pi / 30.0});
+      worst = std::max(worst, drive.off());
+    }
+  CHECK(drive.known() == Known::localized);
+  CHECK(worst < 0.06);
+  const auto where = drive.localizer.where(drive.reckoned);
+  REQUIRE(where);
+  CHECK(where->covariance[0] < 0.05 * 0.05);
+}
+
+TEST_CASE("a robot whose place nobody has said is found, at once or by what it sees on its way",
+          "[navigation]") {
+  for (const Pose2& start : {Pose2{3.0, 3.0, 0.0}, {8.0, 2.5, 2.0}, {1.0, 1.0, 0.8}}) {
+    Drive drive;
+    drive.X_MR = start;
+    CHECK(drive.known() == Known::unknown);
+    drive.stand(10);
+    const bool at_once = drive.known() == Known::localized;
+    CHECK((at_once ? drive.off() < 0.05 : drive.known() == Known::ambiguous));
+    drive.go_on(20);
+    drive.go_on(40, {0.0, 0.0, std::numbers::pi / 20.0});
+    CHECK(drive.known() == Known::localized);
+    CHECK(drive.off() < 0.05);
+  }
+}
+
+TEST_CASE("a robot in one of two rooms alike is at either, until it sees more", "[navigation]") {
+  Drive drive;
+  // Two equal rooms to the left and right of a door; only the corner of one of them holds a box, which no other place shows.
+  drive.walls = test::box({0.03, 0.02}, {4.03, 4.02});
+  const test::Walls other = test::box({6.03, 0.02}, {10.03, 4.02});
+  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 4.5}));
+  drive.localizer.change_map(drive.map);
+  drive.X_MR = {1.3, 1.7, 0.3};
+  drive.stand(40);
+  CHECK(drive.known() == Known::ambiguous);
+  CHECK(drive.localizer.places() >= 2);
+  drive.go_on(20);
+  drive.go_on(60, {0.0, 0.0, 0.1});
+  CHECK(drive.known() == Known::ambiguous);
+}
+
+TEST_CASE("a robot that was carried off notices, and is found again", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  REQUIRE(drive.known() == Known::localized);
+  drive.X_MR = {8.2, 2.2, 2.5};
+  int steps = 0;
+  while (drive.known() == Known::localized && drive.off() > 0.1 && steps < 100) drive.stand(1), ++steps;
+  CHECK(steps <= 30);  // 3 s
+  drive.go_on(20);
+  CHECK(drive.known() == Known::localized);
+  CHECK(drive.off() < 0.05);
+}
+
+TEST_CASE("people around a robot do not make it lost", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.stand(2);
+  double worst = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    drive.sees = false;
+    drive.go_on(1);
+    RobotScan scan = test::robot_scan(drive.walls, drive.X_MR, drive.random);
+    // Three people, each of whom hides a tenth of the beams.
+    for (std::size_t beam = 0; beam < scan.echoes.size(); ++beam) {
+      Vec2& at = scan.echoes[beam].at;
+      if (beam % 60 < 18 && norm(at) > 0.8) at = 0.7 / norm(at) * at;
+    }
+    drive.localizer.see(scan);
+    worst = std::max(worst, drive.off());
+    CHECK(drive.known() == Known::localized);
+  }
+  CHECK(worst < 0.06);
+}
+
+TEST_CASE("a robot in another building is not found", "[navigation]") {
+  Drive drive;
+  drive.walls = test::box({0.0, 0.0}, {3.1, 14.0});
+  for (const test::Walls& more : {test::box({0.0, 2.0}, {1.2, 3.3}), test::box({2.2, 5.0}, {3.1, 9.0})})
+    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
+  drive.X_MR = {1.6, 4.0, 1.5};
+  drive.stand(30);
+  drive.go_on(60);
+  CHECK(drive.known() != Known::localized);
+}
+
+TEST_CASE("a robot that senses nothing is lost after a while, and goes on when it does again",
+          "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  drive.sees = false;
+  drive.stand(20);
+  CHECK(drive.known() == Known::localized);
+  drive.stand(20);
+  CHECK(drive.known() == Known::lost);
+  drive.sees = true;
+  drive.stand(1);
+  CHECK(drive.known() == Known::localized);
+}
+
+TEST_CASE("a laser that sees only its largest range says nothing", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  drive.sees = false;
+  for (int i = 0; i < 50; ++i) {
+    drive.go_on(1);
+    drive.localizer.see({1, {}, {}, 181});
+  }
+  CHECK(drive.known() == Known::lost);
+}
+
+TEST_CASE("a place from before is checked before it is believed", "[navigation]") {
+  Drive drive;
+  drive.localizer.suggest(around({3.1, 2.9, 0.05}), drive.reckoned);
+  CHECK(drive.known() == Known::unknown);
+  drive.stand(1);
+  CHECK(drive.known() == Known::localized);
+  Drive carried;
+  carried.X_MR = {8.2, 2.2, 2.5};
+  carried.localizer.suggest(around({3.1, 2.9, 0.05}), carried.reckoned);
+  carried.stand(1);
+  CHECK(carried.known() != Known::localized);
+  carried.stand(60);
+  carried.go_on(20);
+  CHECK(carried.known() == Known::localized);
+  CHECK(carried.off() < 0.05);
+}
+
+TEST_CASE("odometry that begins anew is no way of the robot", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  drive.reckoned.X_OR = {};
+  drive.localizer.reckon_anew(drive.reckoned);
+  CHECK(drive.known() != Known::localized);
+  CHECK(drive.off() < 0.05);
+  drive.stand(10);
+  CHECK(drive.known() == Known::localized);
+}
+
+TEST_CASE("a clock that is set back or on loses no place", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  for (const double jump : {-3600.0, 7200.0}) {
+    drive.reckoned.time += jump;
+    drive.stand(2);
+    CHECK(drive.known() == Known::localized);
+    drive.wander();
+    CHECK(drive.known() == Known::localized);
+    CHECK(drive.off() < 0.06);
+  }
+}
+
+TEST_CASE("the same scans and seed give the same place", "[navigation]") {
+  const auto end = [] {
+    Drive drive;
+    drive.stand(30);
+    drive.wander();
+    return drive.localizer.where(drive.reckoned)->mean;
+  };
+  CHECK(end() == end());
+}
+
+TEST_CASE("a step of odometry is as wrong as its covariance has grown, within bounds", "[navigation]") {
+  const Reckoned before{0.0, {10.0, 5.0, 0.0}, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}};
+  Reckoned now{1.0, {10.0, 5.0, 0.0}, before.covariance};
+  CHECK(deviations_of(before, now)[0] == Approx(0.002));
+  now.X_OR = {11.0, 5.0, 0.0};
+  CHECK(deviations_of(before, now)[0] == Approx(0.022));  // the covariance does not even grow: the floor
+  now.covariance = {0.04 + 0.01, 0, 0, 0, 0.04 + 0.01 + 0.01, 0, 0, 0, 0.01 + 0.0036};
+  CHECK(deviations_of(before, now)[0] ==
+        Approx(0.1));  // the error of the direction has moved it by as much, too
+  CHECK(deviations_of(before, now)[2] == Approx(0.06));
+  now.covariance = {400.0, 0, 0, 0, 400.0, 0, 0, 0, 4.0};
+  CHECK(deviations_of(before, now)[0] == Approx(0.222));
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orca/navigation/particles.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace orca;
+using namespace orca::nav;
+
+namespace {
+
+const PoseSpread kSomewhere{{2.0, -1.0, 3.1}, {0.04, 0.01, 0.0, 0.01, 0.09, 0.0, 0.0, 0.0, 0.01}};
+
+void check_alike(const PoseSpread& a, const PoseSpread& b, double share) {
+  CHECK(a.mean.x == Approx(b.mean.x).margin(share * 0.3));
+  CHECK(a.mean.y == Approx(b.mean.y).margin(share * 0.3));
+  CHECK(wrapped(a.mean.yaw - b.mean.yaw) == Approx(0.0).margin(share * 0.1));
+  for (std::size_t i = 0; i < 9; ++i) CHECK(a.covariance[i] == Approx(b.covariance[i]).margin(share * 0.09));
+}
+
+double count_of(const Particles& particles) { return static_cast<double>(particles.all().size()); }
+
+}  // namespace
+
+TEST_CASE("particles lie as they were scattered, also where directions jump", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  particles.scatter(kSomewhere, 20000, random);
+  check_alike(particles.spread(), kSomewhere, 0.05);
+}
+
+TEST_CASE("particles move as a pose and its errors do", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  particles.scatter(kSomewhere, 20000, random);
+  const Pose2 step{0.5, 0.0, 0.3};
+  const std::array<double, 3> deviations{0.1, 0.05, 0.04};
+  particles.move(step, deviations, random);
+  check_alike(particles.spread(), after(kSomewhere, step, deviations), 0.05);
+}
+
+TEST_CASE("particles take the mean and covariance that a measurement leaves", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  particles.scatter(kSomewhere, 200, random);
+  const PoseSpread seen{{2.2, -1.1, -3.1}, {0.01, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.02}};
+  const PoseSpread both = fused(particles.spread(), seen);
+  particles.shape(both);
+  check_alike(particles.spread(), both, 1e-6);
+  // Known better than by either, and nearer to the one that knows it.
+  CHECK(both.covariance[0] < 0.01);
+  CHECK(both.mean.x > 2.1);
+  CHECK(std::fabs(both.mean.y + 1.0) < 0.05);
+  CHECK(squared_distance(both, both.mean) == 0.0);
+  CHECK(squared_distance({{}, {4.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0}}, {2.0, 0.0, 0.0}) == Approx(1.0));
+}
+
+TEST_CASE("particles are drawn as often as their weights say", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  std::vector<Pose2> poses;
+  for (int i = 0; i < 1000; ++i) poses.push_back({i < 500 ? 0.0 : 5.0, 0.0, 0.0});
+  particles.put(poses);
+  const auto likelihood = [](const Pose2& pose) { return pose.x < 1.0 ? 0.95 : 0.05; };
+  CHECK(particles.weigh(likelihood) == Approx(0.5));
+  particles.weigh([](const Pose2& pose) { return pose.x < 1.0 ? 1.0 : 0.5; });
+  particles.resample(random);
+  CHECK(particles.spread().mean.x == Approx(5.0 * 0.025 / 0.975).margin(0.06));
+}
+
+TEST_CASE("there are as many particles as the places that they may be in need", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  const auto kept = [&](double deviation) {
+    Particles particles;
+    particles.scatter(
+        {{0.1, 0.1, 0.08}, {deviation * deviation, 0, 0, 0, deviation * deviation, 0, 0, 0, 1e-4}}, 4000,
+        random);
+    // Half of them count for nothing, so that they are drawn anew.
+    particles.weigh([](const Pose2& pose) { return pose.x > 0.1 ? 1.0 : 1e-6; });
+    particles.weigh([](const Pose2& pose) { return pose.y > 0.1 ? 1.0 : 1e-6; });
+    particles.resample(random);
+    return count_of(particles);
+  };
+  CHECK(kept(0.01) == 100.0);
+  CHECK(kept(1.0) > 1000.0);
+  CHECK(kept(100.0) == 5000.0);
+}
+
+TEST_CASE("particles of nearly equal weights are left alone", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  particles.scatter(kSomewhere, 300, random);
+  particles.weigh([](const Pose2& pose) { return pose.x > 2.0 ? 1.0 : 0.8; });
+  particles.resample(random);
+  CHECK(count_of(particles) == 300.0);
+}
