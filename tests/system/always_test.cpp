@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -88,6 +89,18 @@ TEST_CASE("a graph that is always recorded keeps its runs, and they can be read 
   const std::vector<std::string> rows = split_lines(bag({"csv", first, "base.OdometryPush"}).out);
   REQUIRE(rows.size() > 5);
   CHECK(std::atof(rows.back().c_str()) < 1.6);
+  // A time of day that is to come ends it: there is no more yet.
+  const auto time_of_day = [](std::time_t moment) {
+    char text[6];
+    std::strftime(text, sizeof text, "%H:%M", std::localtime(&moment));
+    return std::string(text);
+  };
+  const std::time_t now = std::time(nullptr);
+  const std::string all = folder.file("all.mcap");
+  const Run open_end = bag({"cut", kName, all, time_of_day(now - 120), time_of_day(now + 3600)});
+  INFO(open_end.err);
+  CHECK(open_end.exit_code() == 0);
+  CHECK(split_lines(bag({"csv", all, "base.OdometryPush"}).out).size() >= rows.size());
   const Run nothing = bag({"cut", kName, folder.file("none.mcap"), "1999-01-01T00:00", "1999-01-01T00:01"});
   CHECK(nothing.exit_code() == 1);
   CHECK_THAT(nothing.err, Contains("nothing of that time is there; the recording goes from 20"));
