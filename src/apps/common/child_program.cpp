@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -17,10 +18,11 @@
 namespace orca::apps {
 namespace {
 
-constexpr int kPatienceMs = 10'000;            // until the first line
+constexpr std::chrono::seconds kPatience{10};  // until the first line
 constexpr std::chrono::milliseconds kLook{5};  // between two looks whether it has ended
 constexpr std::chrono::seconds kEndLimit{5};   // then it is killed
 constexpr int kSignalled = 128;
+constexpr int kUnknown = 127;  // the system has thrown the status away, as where SIGCHLD is ignored
 
 // Returns the present environment, in which programs are looked for beside this one first.
 std::vector<std::string> environment() {
@@ -102,20 +104,24 @@ Result<ChildProgram> ChildProgram::start(const std::vector<std::string>& words, 
 
 std::string ChildProgram::first_line() const {
   std::string line;
-  for (pollfd waits{output_.number(), POLLIN, 0}; poll(&waits, 1, kPatienceMs) == 1;) {
+  const auto limit = std::chrono::steady_clock::now() + kPatience;
+  for (pollfd waits{output_.number(), POLLIN, 0};;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(limit - std::chrono::steady_clock::now());
+    const int ready = left.count() <= 0 ? 0 : poll(&waits, 1, static_cast<int>(left.count()));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready != 1) return {};
     char letter = '\0';
     if (read(output_.number(), &letter, 1) != 1 || letter == '\n') return line;
     line += letter;
   }
-  return {};
 }
 
 std::optional<int> ChildProgram::ended() {
   int status = 0;
-  if (process_ != 0 && waitpid(process_, &status, WNOHANG) == process_) {
-    process_ = 0;
-    status_ = exit_status_of(status);
-  }
+  const pid_t found = process_ == 0 ? 0 : waitpid(process_, &status, WNOHANG);
+  if (found == 0 || (found < 0 && errno == EINTR)) return status_;
+  process_ = 0;
+  status_ = found < 0 ? kUnknown : exit_status_of(status);
   return status_;
 }
 

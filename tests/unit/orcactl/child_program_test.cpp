@@ -60,6 +60,13 @@ TEST_CASE("a program runs in the folder that it is given, and reads nothing", "[
   CHECK(program->wait() == 0);
 }
 
+TEST_CASE("a program whose end the system throws away counts as ended", "[apps][program]") {
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  ChildProgram program = shell("exit 0", ChildProgram::Reads::nothing);
+  CHECK(program.wait() == 127);
+  signal(SIGCHLD, before);
+}
+
 TEST_CASE("a program that is not there ends at once with what a shell says of it", "[apps][program]") {
   Result<ChildProgram> program =
       ChildProgram::start({"orca-has-no-such-program"}, ChildProgram::Reads::nothing);

@@ -107,7 +107,7 @@ TEST_CASE("alarms and lines of the log are those of the time", "[orcaview][recor
   CHECK(std::stod(alarms[0][1].value) == Approx(2.0));  // since the beginning, as the lines of the log
   CHECK(system.alarms(stamp(5.0)).empty());
   CHECK(system.log(stamp(0.0), stamp(6.9), {}).empty());
-  const auto lines = system.log(system.log_begin(stamp(7.0)), stamp(7.0), {});
+  const auto lines = system.newest_log(stamp(7.0), {});
   REQUIRE(lines.size() == 1);
   CHECK(lines[0][1].value == "warning");
   CHECK(lines[0][3].value == "slips");

@@ -89,7 +89,7 @@ bool Playback::show(const Ask& ask, const std::function<void(ControlAnswer)>& sa
   if (ask.command == "ports") return say(supervisor::TextAnswer{system_.ports()}), true;
   if (ask.command == "ps") return rows(system_.components());
   if (ask.command == "alarms" && ask.words.empty()) return rows(system_.alarms(now_));
-  if (ask.command == "log") return rows(system_.log(system_.log_begin(now_), now_, names_in(ask.words)));
+  if (ask.command == "log") return rows(system_.newest_log(now_, names_in(ask.words)));
   return empty.contains(ask.command);
 }
 

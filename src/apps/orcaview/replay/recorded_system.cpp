@@ -193,6 +193,19 @@ std::vector<Record> RecordedSystem::log(Stamp from, Stamp to, const std::set<std
   return {rows.begin(), rows.end()};
 }
 
+std::vector<Record> RecordedSystem::newest_log(Stamp now, const std::set<std::string>& who) const {
+  const Stamp from = log_begin(now);
+  std::vector<Record> rows = log(from, now, who);
+  if (from == begin()) return rows;
+  rows.insert(rows.begin(), {{"time", static_cast<double>(from - begin()) * 1e-9, 3},
+                             {"level", "info"},
+                             {"who", "recording"},
+                             {"text",
+                              "what was logged before this is left out, since the recording is long; "
+                              "set the time back to see it"}});
+  return rows;
+}
+
 RecordedSystem::Stamp RecordedSystem::log_begin(Stamp now) const {
   const std::set<std::uint16_t> channels = channels_of({std::string(recording::kLogRow)});
   std::vector<Stamp> starts;

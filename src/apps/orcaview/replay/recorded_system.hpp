@@ -42,8 +42,8 @@ class RecordedSystem {
   /// @param who  components, hardware or processes; empty: all.
   [[nodiscard]] std::vector<supervisor::Record> log(Stamp from, Stamp to,
                                                     const std::set<std::string>& who) const;
-  /// Returns where to begin for the newest lines at a time: so far back that a long recording is not read as a whole.
-  [[nodiscard]] Stamp log_begin(Stamp now) const;
+  /// Returns the newest rows of `log` at a time. A long recording is not read as a whole; where lines may be left out, the first row says so.
+  [[nodiscard]] std::vector<supervisor::Record> newest_log(Stamp now, const std::set<std::string>& who) const;
   static constexpr std::size_t kMostLines = 2000;
 
   /// Returns the row in which the objects of a port are recorded: its own, or that of what is connected to it; empty: none.
@@ -73,6 +73,7 @@ class RecordedSystem {
   void find_sources();
   void read_structure();
   void read_alarms();
+  [[nodiscard]] Stamp log_begin(Stamp now) const;
   void make_up_structure();
   [[nodiscard]] supervisor::Tapped tapped(const recording::Message& message) const;
   [[nodiscard]] std::set<std::uint16_t> channels_of(const std::set<std::string>& rows) const;
