@@ -344,6 +344,19 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
   }
 }
 
+TEST_CASE("a graph that changes on the way is refused, not run without its change", "[system][batch]") {
+  const TempFolder folder;
+  const Run run = run_simbatch(
+      {folder.write("e.xml",
+                    "<experiment name=\"e\" version=\"1\" graph=\"" +
+                        source_file("sim/experiments/vfh_on_the_way.xml") +
+                        "\" profile=\"sim\" seeds=\"1\" until=\"1 s\"><variant name=\"a\"/></experiment>"),
+       "--check"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("vfh_on_the_way.xml:9:3: error G074: <change>: simbatch does not carry out changes"));
+}
+
 TEST_CASE("wrong words are refused with what there is", "[system][batch]") {
   CHECK(run_simbatch({}).exit_code() == 2);
   const Run unknown = run_simbatch({"e.xml", "--job", "2"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <set>
 #include <string>
+#include <vector>
 
 #include "orca/batch/inputs.hpp"
 #include "orca/graph/loader.hpp"
@@ -10,6 +11,16 @@ namespace orca::batch {
 namespace {
 
 constexpr const char* kArgumentWithoutValue = "G012";  // of graphs
+constexpr const char* kChange = "G074";
+
+// A run of a batch has one graph from its start to its end.
+void refuse_changes(const std::vector<graph::PlannedChange>& changes, xml::Diagnostics& diagnostics) {
+  for (const graph::PlannedChange& change : changes)
+    diagnostics.error(
+        kChange, change.position,
+        "<change>: simbatch does not carry out changes; run this graph with deployer, or leave its profile "
+        "out");
+}
 
 }  // namespace
 
@@ -28,8 +39,11 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});
       load.try_components = true;
       load.any_link = true;
+      std::vector<graph::PlannedChange> changes;
+      load.changes = &changes;
       xml::Diagnostics found;
       (void)graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
+      refuse_changes(changes, found);
       for (const xml::Diagnostic& one : found.sorted()) {
         const bool follows = !is_whole && one.code == kArgumentWithoutValue;
         if (one.severity != xml::Severity::error || follows || !said.insert(one.text()).second) continue;
