@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "orca/base/text.hpp"
@@ -31,7 +32,8 @@ class Values {
   explicit Values(const YAML::Node& root) : root_(root) {
     if (!root.IsMap())
       throw Fault{root.Mark(), "this is no map: expected lines such as \"resolution: 0.05\""};
-    for (const auto& entry : root) check_key(entry.first);
+    std::set<std::string> seen;
+    for (const auto& entry : root) check_key(entry.first, seen);
   }
 
   [[nodiscard]] std::string text(const std::string& key) const {
@@ -81,10 +83,12 @@ class Values {
 
  private:
   // A key of another program is left alone; one that is nearly one of ours is a mistake.
-  static void check_key(const YAML::Node& key) {
+  static void check_key(const YAML::Node& key, std::set<std::string>& seen) {
     const std::string name = key.IsScalar() ? key.Scalar() : "";
-    for (const std::string& known : kKeys)
-      if (name == known) return;
+    const bool is_known = std::ranges::find(kKeys, name) != kKeys.end();
+    if (is_known && !seen.insert(name).second)
+      throw Fault{key.Mark(), name + " is given twice; leave one of them out"};
+    if (is_known) return;
     if (const auto nearest = xml::nearest_name(name, kKeys))
       throw Fault{key.Mark(), "unknown key " + in_quotes(name) + xml::did_you_mean(nearest)};
   }
@@ -171,7 +175,8 @@ Result<MapHeader> parse_header(std::string_view text, const std::string& path) {
   } catch (const Fault& fault) {
     return refused(fault.mark, fault.text);
   } catch (const YAML::Exception& error) {
-    return refused(error.mark, "this is no YAML: " + error.msg);
+    return refused(error.mark,
+                   "this is no YAML (" + error.msg + "); expected lines such as \"resolution: 0.05\"");
   }
 }
 

@@ -44,6 +44,10 @@ TEST_CASE("a key that is misspelt is refused at its line, even if others are rig
              Contains("office.yaml:7: unknown key \"resolutoin\"; did you mean \"resolution\"?"));
 }
 
+TEST_CASE("a key that is given twice is refused", "[maps][refused]") {
+  CHECK_THAT(refusal(kHeader + "resolution: 0.1\n"), Contains("office.yaml:7: resolution is given twice"));
+}
+
 TEST_CASE("values that no map can have are refused at their lines", "[maps][refused]") {
   using Pair = std::pair<std::string, std::string>;
   const std::vector<std::pair<Pair, std::string>> wrong{
@@ -70,10 +74,12 @@ TEST_CASE("values that no map can have are refused at their lines", "[maps][refu
 }
 
 TEST_CASE("what is no YAML, and no list of keys, is refused", "[maps][refused]") {
-  CHECK_THAT(refusal("image: [map.pgm\n"), Contains("this is no YAML: "));
+  CHECK_THAT(refusal("image: [map.pgm\n"),
+             Contains("this is no YAML (") && Contains("expected lines such as \"resolution: 0.05\""));
   CHECK_THAT(refusal("a map\n"), Contains("this is no map: expected lines such as \"resolution: 0.05\""));
   CHECK_THAT(refusal(""), Contains("this is no map"));
-  CHECK_THAT(refusal(std::string(10'000, '[')), Contains("this is no YAML: "));
+  CHECK_THAT(refusal(std::string(10'000, '[')),
+             Contains("this is no YAML (") && Contains("expected lines such as \"resolution: 0.05\""));
 }
 
 TEST_CASE("a picture whose name holds control characters is refused, in both directions", "[maps][refused]") {

@@ -20,7 +20,7 @@ inline constexpr std::size_t kMostCells =
 ///
 /// @param resolution [m]  side of a pixel of a picture alone; 0: a YAML file says it.
 /// @errors  not_found if a file cannot be opened; data_loss if one is damaged; invalid_argument with what is wrong and what to do: keys
-///          that are missing, misspelt or no numbers, a resolution that is missing, doubled or not positive, a picture in colours, of 16
+///          that are missing, misspelt, given twice or no numbers, a resolution that is missing or not positive, a picture in colours, of 16
 ///          bits, of more than kMostCells pixels, with width and height exchanged, or a photograph.
 /// @thread  any.
 [[nodiscard]] Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution = 0.0);
