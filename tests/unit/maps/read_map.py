@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads a map with the readers of others, and prints what they find. Exit 77: there are none."""
+"""Reads a map with the readers of others, which Debian has for its own Python, and prints what they find. Exit 77: there are none."""
 import pathlib
 import sys
 
