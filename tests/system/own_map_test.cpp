@@ -24,7 +24,7 @@ std::vector<std::string> goals_reached(const std::string& realism, int seed) {
   const TempFolder folder;
   const std::string poses = folder.file("poses.csv");
   const Run run =
-      run_deployer(Words{system_graph("own_map.xml"), "--until", "600 s", "--seed", std::to_string(seed),
+      run_deployer(Words{system_graph("own_map.xml"), "--until", "450 s", "--seed", std::to_string(seed),
                          "--set", "realism=" + realism, "--record", poses + "=truth.RobotPosePush"} +
                        virtual_clock(),
                    Seconds(120));
