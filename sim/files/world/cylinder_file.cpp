@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codes.hpp"
+#include "files/formats/gzip_file.hpp"
 #include "orca/base/text.hpp"
 #include "orca/robot_file/values.hpp"
 #include "orca/xml/number.hpp"
