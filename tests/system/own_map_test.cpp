@@ -50,6 +50,6 @@ TEST_CASE("from an empty map a robot reaches three goals in the map that it has 
   for (int seed = 1; seed <= part_of(20); ++seed) {
     CAPTURE(seed);
     CHECK(goals_reached("nominal", seed) == all);
-    if (is_slow_run()) CHECK(goals_reached("harsh", seed) == all);
+    if (is_slow_run()) CHECK(goals_reached("recorded", seed) == all);
   }
 }
