@@ -74,6 +74,16 @@ constexpr std::string_view kMapDetails =
     "free (white), "
     "others not known (grey 205). A file is never overwritten, and neither is there before both are whole.";
 
+constexpr std::string_view kCalibrateDetails =
+    "RECORDING is an MCAP file or a CARMEN log; PORT... says which odometry and which laser if there are "
+    "several. The "
+    "scans are laid upon each other to a map, in which the robot's way is known better than by its wheels; "
+    "what explains "
+    "the difference best is printed with its standard deviation, and as lines for the graph and the robot's "
+    "file. Drive "
+    "50 m at least, straight and with turns to both sides, past walls. --square \"4 m\" is for recordings of "
+    "graphs/calibrate.xml.";
+
 constexpr std::string_view kApplyDetails =
     "The file is read and checked like a graph that is started, with the profiles and settings of the "
     "deployer's command line, and compared with what runs now: what was changed with set and swap counts. "
@@ -119,21 +129,9 @@ std::vector<Command> showing_commands() {
   };
 }
 
-// Objects at ports.
-std::vector<Command> port_commands() {
+// Files of a system: recordings and maps.
+std::vector<Command> file_commands() {
   return {
-      {.name = "echo",
-       .arguments = {kPort},
-       .options = {kCount,
-                   {"--for", "DURATION", "end after this time"},
-                   {"--field", "NAME",
-                    "only this field of each object, as the columns of a recording are named"}},
-       .text = "the objects that pass a port, one per line",
-       .details =
-           "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at any other "
-           "port, when it arrives. Looking makes no component work: one that nobody uses pushes nothing; but "
-           "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
-           "that come faster than they can be printed are left out, and counted on stderr."},
       {.name = "record",
        .arguments = {{"FILE.mcap|FILE.carmen|FOLDER", Names::file}, {"PORT", Names::port, true, true}},
        .options = {{"--ring", "SIZE", "keep the newest in a folder, in so much room, such as \"2 GB\""},
@@ -153,6 +151,31 @@ std::vector<Command> port_commands() {
        .options = {kTimeout},
        .text = "save the map of a running system as NAME.yaml and NAME.png",
        .details = kMapDetails},
+      {.name = "calibrate",
+       .arguments = {{"RECORDING", Names::file}, {"PORT", Names::port, true, true}},
+       .options = {{"--robot", "FILE", "the robot's file, which says how far its wheels are apart"},
+                   {"--square", "LENGTH", "evaluate squares with sides of this length, too: the UMBmark"}},
+       .text =
+           "the figures that correct a base's odometry, from a drive with a laser; no system needs to run",
+       .details = kCalibrateDetails},
+  };
+}
+
+// Objects at ports.
+std::vector<Command> port_commands() {
+  return {
+      {.name = "echo",
+       .arguments = {kPort},
+       .options = {kCount,
+                   {"--for", "DURATION", "end after this time"},
+                   {"--field", "NAME",
+                    "only this field of each object, as the columns of a recording are named"}},
+       .text = "the objects that pass a port, one per line",
+       .details =
+           "At a PushServer and a SendProxy an object is seen when it leaves, whoever takes it; at any other "
+           "port, when it arrives. Looking makes no component work: one that nobody uses pushes nothing; but "
+           "one that works and makes something only for whoever takes it makes it for whoever looks. Objects "
+           "that come faster than they can be printed are left out, and counted on stderr."},
       {.name = "hz",
        .arguments = {kPort},
        .options = {kFor},
@@ -352,8 +375,9 @@ const apps::Program& program() {
             "$XDG_RUNTIME_DIR/orca/GRAPH.sock, or /tmp/orca-UID/GRAPH.sock where there is no such folder. A "
             "system\n"
             "has the name of its graph.\n"};
-    for (const auto& group : {showing_commands(), port_commands(), history_commands(), operating_commands(),
-                              pacing_commands(), exchanging_commands(), shell_commands()})
+    for (const auto& group :
+         {showing_commands(), port_commands(), file_commands(), history_commands(), operating_commands(),
+          pacing_commands(), exchanging_commands(), shell_commands()})
       program.commands.insert(program.commands.end(), group.begin(), group.end());
     return program;
   }();

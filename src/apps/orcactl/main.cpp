@@ -8,6 +8,7 @@
 
 #include "asking.hpp"
 #include "bag.hpp"
+#include "calibration/calibrate.hpp"
 #include "commands.hpp"
 #include "common/manual.hpp"
 #include "common/output.hpp"
@@ -25,9 +26,11 @@ namespace apps = orca::apps;
 
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
-  static const std::map<std::string_view, Way> ways{
-      {"echo", tap},          {"hz", tap},        {"latency", tap},    {"send", offer},    {"query", offer},
-      {"names", print_names}, {"record", record}, {"bag", handle_bag}, {"map", handle_map}};
+  static const std::map<std::string_view, Way> ways{{"echo", tap},       {"hz", tap},
+                                                    {"latency", tap},    {"send", offer},
+                                                    {"query", offer},    {"names", print_names},
+                                                    {"record", record},  {"bag", handle_bag},
+                                                    {"map", handle_map}, {"calibrate", calibrate}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

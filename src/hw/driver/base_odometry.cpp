@@ -2,6 +2,7 @@
 #include "orca/hw/base_odometry.hpp"
 
 #include "orca/geometry/angle.hpp"
+#include "orca/geometry/arc.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::hw {
@@ -41,7 +42,8 @@ void BaseOdometry::publish(const Pose2& pose, const Twist2& velocity, TimePoint 
 Pose2 BaseOdometry::calibrated(const Pose2& counted) {
   const Pose2 step = seen_from(counted_, counted);
   counted_ = counted;
-  const double more_turn = (calibration_.turn - 1.0) * step.yaw;
+  const double forward = arc_between(Pose2{}, step).forward;
+  const double more_turn = (calibration_.turn - 1.0) * step.yaw + calibration_.turn_per_metre * forward;
   const Vec2 chord = calibration_.distance * rotated(Vec2{step.x, step.y}, 0.5 * more_turn);
   pose_ = pose_ * Pose2{chord.x, chord.y, wrapped(step.yaw + more_turn)};
   return pose_;

@@ -13,16 +13,15 @@
 #include "orca/hardware.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/object_type.hpp"
-#include "orca/recording/objects/object_reader.hpp"
-#include "recorded_run.hpp"
+#include "orca/recording/objects/recorded_run.hpp"
 #include "time_shift.hpp"
 
 namespace {
 
 using namespace orca;
 using namespace orca::hw;
-using log_replay::RecordedRun;
 using recording::RecordedObject;
+using recording::RecordedRun;
 
 constexpr Duration kMaxCommandAge = 200ms;
 constexpr Duration kUsualPeriod = 100ms;  // of what was recorded once only

@@ -65,6 +65,17 @@ TEST_CASE("a calibrated base has driven and turned by the factors more than is c
              {std::sqrt(2.0), 2.0 - std::sqrt(2.0), 0.25 * kPi});
 }
 
+TEST_CASE("a base with unlike wheels turns as it drives, though its controller counts no turn",
+          "[hw][odometry]") {
+  check_near(end_of({.turn_per_metre = 0.25}, {2.0, 0.0, 0.0}), along_arc({}, {2.0, 0.0, 0.5}));
+  check_near(end_of({.turn_per_metre = 0.25}, {-2.0, 0.0, 0.0}), along_arc({}, {-2.0, 0.0, -0.5}));
+  check_near(end_of({.turn_per_metre = 0.25}, {0.0, 0.0, 2.0}), {0.0, 0.0, 2.0});
+  const Calibration calibration{.distance = 1.25, .turn = 0.8, .turn_per_metre = 0.25};
+  const Twist2 told = calibration.to_controller({0.5, 0.0, 0.1});
+  CHECK(told.turn_rate == Approx(0.0));
+  CHECK(calibration.to_base(told).turn_rate == Approx(0.1));
+}
+
 TEST_CASE("what a calibrated base is told, and what it tells of its velocity, agree", "[hw][odometry]") {
   const Calibration calibration{.distance = 1.25, .turn = 0.8};
   const Twist2 told = calibration.to_controller({0.5, 0.25, 0.8});

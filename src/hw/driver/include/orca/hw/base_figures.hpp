@@ -32,14 +32,20 @@ class BaseFigures {
             {.min = 0.5,
              .max = 2.0,
              .text = "Way that the base drives over the way that its odometry tells with 1; measure it over "
-                     "some metres."}),
+                     "some metres, or by orcactl calibrate."}),
         turn_scale_(
             owner, "turn_scale", 1.0,
             {.min = 0.5,
              .max = 2.0,
              .text =
                  "Angle that it turns over the angle that its odometry tells with 1; measure it over some "
-                 "turns."}) {}
+                 "turns."}),
+        turn_per_metre_(owner, "turn_per_metre", 0.0,
+                        {.unit = "rad/m",
+                         .min = -0.5,
+                         .max = 0.5,
+                         .text = "Angle that it turns to the left, per way that its odometry tells with 1, "
+                                 "while that tells of none: of unlike wheels."}) {}
 
   /// The base that a driver drives.
   struct Expected {
@@ -57,7 +63,7 @@ class BaseFigures {
   [[nodiscard]] DriveLimits within(DriveLimits limits) const;
   /// Returns the acceleration [m/s2], or that of the file if it is less.
   [[nodiscard]] double within(double acceleration) const;
-  [[nodiscard]] Calibration calibration() const { return {*distance_scale_, *turn_scale_}; }
+  [[nodiscard]] Calibration calibration() const { return {*distance_scale_, *turn_scale_, *turn_per_metre_}; }
   /// Returns the calibration, and how wrong the senses are as far as the file guesses it.
   [[nodiscard]] SenseTraits traits() const;
   /// Returns the file's figures; null: there is no file.
@@ -69,6 +75,7 @@ class BaseFigures {
   Param<std::string> file_;
   Param<double> distance_scale_;
   Param<double> turn_scale_;
+  Param<double> turn_per_metre_;
   std::optional<RobotFigures> figures_;
   idl::DriveType type_ = idl::DIFFERENTIAL;
 };

@@ -13,18 +13,21 @@
 
 namespace orca::hw {
 
-/// What a base does for what its controller counts: factors that somebody has measured. 1: it is as the controller says. A plain value.
+/// What a base does for what its controller counts: figures that somebody has measured (orcactl calibrate). These: it is as the controller says. A plain value.
 struct Calibration {
-  double distance = 1.0;  ///< Way driven over way counted.
-  double turn = 1.0;      ///< Angle turned over angle counted.
+  double distance = 1.0;        ///< Way driven over way counted.
+  double turn = 1.0;            ///< Angle turned over angle counted.
+  double turn_per_metre = 0.0;  ///< [rad/m] Angle turned besides, over the way counted: of unlike wheels.
 
   /// Returns what the controller is to be told for a velocity of the base.
   [[nodiscard]] Twist2 to_controller(const Twist2& real) const {
-    return {real.forward / distance, real.left / distance, real.turn_rate / turn};
+    const double forward = real.forward / distance;
+    return {forward, real.left / distance, (real.turn_rate - turn_per_metre * forward) / turn};
   }
   /// Returns the velocity of the base for what the controller tells.
   [[nodiscard]] Twist2 to_base(const Twist2& counted) const {
-    return {distance * counted.forward, distance * counted.left, turn * counted.turn_rate};
+    return {distance * counted.forward, distance * counted.left,
+            turn * counted.turn_rate + turn_per_metre * counted.forward};
   }
   friend bool operator==(const Calibration&, const Calibration&) = default;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "recorded_run.hpp"
+#include "orca/recording/objects/recorded_run.hpp"
 
 #include <array>
 #include <cstdint>
@@ -8,13 +8,8 @@
 
 #include "orca/recording/objects/carmen_reader.hpp"
 
-namespace orca::hw::log_replay {
+namespace orca::recording {
 namespace {
-
-using recording::CarmenReader;
-using recording::ObjectReader;
-using recording::RecordedObject;
-using recording::RecordedRow;
 
 // A robot takes a moment before its first reading, too; so whoever waits for it has subscribed by then.
 constexpr Duration kLead = 100ms;
@@ -79,4 +74,4 @@ Result<std::unique_ptr<RecordedRun>> RecordedRun::open(const std::string& path) 
   return fail(Code::data_loss, "it is neither an MCAP file nor a CARMEN log: " + run.error().message, path);
 }
 
-}  // namespace orca::hw::log_replay
+}  // namespace orca::recording

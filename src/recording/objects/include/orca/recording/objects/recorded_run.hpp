@@ -12,7 +12,7 @@
 #include "orca/base/time.hpp"
 #include "orca/recording/objects/object_reader.hpp"
 
-namespace orca::hw::log_replay {
+namespace orca::recording {
 
 /// A run of a robot that was recorded, whoever has recorded it.
 ///
@@ -28,17 +28,16 @@ class RecordedRun {
   /// @errors  as ObjectReader::open() or CarmenReader::open().
   [[nodiscard]] static Result<std::unique_ptr<RecordedRun>> open(const std::string& path);
 
-  [[nodiscard]] virtual const std::map<std::string, recording::RecordedRow>& rows() const = 0;
+  [[nodiscard]] virtual const std::map<std::string, RecordedRow>& rows() const = 0;
   /// Returns when the run began, by the clock of the recording: a moment before the first object.
   [[nodiscard]] virtual TimePoint begin() const = 0;
   /// Returns the time from the first object to the last.
   [[nodiscard]] virtual Duration length() const = 0;
   /// Passes all objects on in the order in which they have passed.
   /// @errors  data_loss if the file is damaged; what came before was passed on.
-  [[nodiscard]] virtual Status objects(
-      const std::function<void(const recording::RecordedObject&)>& take) const = 0;
+  [[nodiscard]] virtual Status objects(const std::function<void(const RecordedObject&)>& take) const = 0;
   /// Returns sentences about what is wrong in the recording, though it can be read.
   [[nodiscard]] virtual std::vector<std::string> flaws() const { return {}; }
 };
 
-}  // namespace orca::hw::log_replay
+}  // namespace orca::recording
