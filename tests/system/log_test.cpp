@@ -267,6 +267,19 @@ TEST_CASE("a log is played in real time, paused, and stepped", "[system][log]") 
   CHECK(seen.back() > 3.9);
 }
 
+TEST_CASE("a log describes its laser as the robot's own driver would", "[system][log]") {
+  const TempFolder folder;
+  const std::string path = simulated_log(folder);
+  Subprocess paused(deployer(Words{kPlayer, "--set", "log=" + path, "--pace", "0"} + virtual_clock()));
+  step("1s");
+  const Run laser = run_orcactl({"--system", "intel_log", "query", "laser.LaserSensorQuery", "<Ask/>"});
+  paused.send(SIGTERM);
+  CHECK(finish(paused, Seconds(20)).exit_code() == 0);
+  INFO(laser.out << laser.err);
+  CHECK_THAT(laser.out, Contains("number=\"181\"") && Contains("max_range=\"8\"") &&
+                            Contains("angle_start=\"-1.5707963267948966\""));
+}
+
 TEST_CASE("what is wrong in a log is reported with its lines, and does not end the replay",
           "[system][log][fault]") {
   const TempFolder folder;
