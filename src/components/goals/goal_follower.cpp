@@ -136,9 +136,11 @@ void GoalFollower::follow_route(const Pose2& pose) {
   push_path(pose);
 }
 
-// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere.
+// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere. Before it was ever known, a
+// route waits: a localizer may need some scans.
 bool GoalFollower::is_lost() {
-  if (lost_ && !route_.empty())
+  if (!lost_) was_known_ = true;
+  if (lost_ && was_known_ && !route_.empty())
     end_route(idl::GOAL_UNANSWERED, "lost: it is not known any more where the robot is");
   return lost_;
 }

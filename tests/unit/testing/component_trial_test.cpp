@@ -137,6 +137,32 @@ TEST_CASE(
   CHECK_FALSE(arrived);
 }
 
+TEST_CASE("Goto keeps a goal until it is known for the first time where the robot is", "[testing][goto]") {
+  bool stood = false;
+  bool failed = true;
+  bool drove = false;
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    auto pose = test.pose.loan();
+    pose->covariance(anywhere());
+    test.pose.push(std::move(pose));
+    send_goal(test, 2.0);
+    for (int i = 0; i < 20; ++i) {
+      pose = test.pose.loan();
+      pose->covariance(anywhere());
+      test.pose.push(std::move(pose));
+      test.sleep(50ms);
+    }
+    stood = test.motion.latest()->kind() == idl::FULLSTOP;
+    failed = test.failed.new_data_arrived();
+    push_pose(test, 0.0);
+    test.sleep(100ms);
+    drove = test.motion.latest()->kind() == idl::NORMAL;
+  });
+  CHECK(stood);
+  CHECK_FALSE(failed);
+  CHECK(drove);
+}
+
 TEST_CASE("Goto gives a goal up when it is told so, by its name or without one, and drives to the next one",
           "[testing][goto]") {
   std::vector<std::string> reasons;

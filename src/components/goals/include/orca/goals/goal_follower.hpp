@@ -133,7 +133,8 @@ class GoalFollower : public Component {
   SenderWatch senders_{host()};
   OdometryTrust trust_;
   SenderLife odometer_;
-  bool lost_ = false;  // It is not known where the robot is.
+  bool lost_ = false;       // It is not known where the robot is.
+  bool was_known_ = false;  // It was, at least once.
   Route route_;
   PathShown path_shown_;
   Legs legs_;
