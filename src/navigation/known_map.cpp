@@ -78,7 +78,7 @@ Explanation KnownMap::explain(std::span<const SurfacePoint> scan, Vec2 sensor, c
     if (sight.end == Sight::End::nothing) result.shorts += 1.0;
     if (sight.end == Sight::End::wall) result.longs += 1.0;
   }
-  // What stands in front counts half, where the map knows nothing in full: a wrong place would gain by it.
+  // Echoes in front count half, those where the map knows nothing in full: a wrong place would gain by these.
   result.fit /= std::max(1.0, static_cast<double>(scan.size()) - 0.5 * result.shorts);
   return result;
 }

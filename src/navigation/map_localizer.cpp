@@ -3,36 +3,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/navigation/place_search.hpp"
+#include "orca/navigation/sonar_model.hpp"
 
 namespace orca::nav {
 namespace {
 
 constexpr std::size_t kLeastEchoes = 20;
-constexpr double kSurely = 0.8;      // [1] share of a scan on the map for which no better place is looked for
-constexpr double kWide = 0.3;        // [m] beyond which particles are weighed before a scan is laid
-constexpr double kWideTurn = 0.15;   // [rad]
-constexpr double kLongWay = 0.5;     // [m], [rad]
-constexpr double kBody = 0.1;        // [m] that the middle of a robot is at least from what is occupied
-constexpr double kMostSpread = 0.5;  // [m] up to which a place is known
+constexpr double kSurely = 0.8;  // [1] share of a scan on the map for which no better place is looked for
+constexpr std::size_t kParticles = 200;  // of a place that is known roughly
+constexpr double kWide = 0.3;            // [m] beyond which particles are weighed before a scan is laid
+constexpr double kWideTurn = 0.15;       // [rad]
+constexpr double kLongWay = 0.5;         // [m], [rad]
+constexpr double kBody = 0.1;            // [m] that the middle of a robot is at least from what is occupied
+constexpr double kMostSpread = 0.5;      // [m] up to which a place is known
 
 double square(double x) { return x * x; }
 
 // How far the place itself may be off.
 double deviation_of(const PoseSpread& spread) {
   return std::sqrt(spread.covariance[0] + spread.covariance[4]);
-}
-
-PoseSpread spread_of(const ScanMatch& match) {
-  // A direction that nothing holds is known to some metres.
-  PoseInformation known = match.information;
-  known.xx += 0.01;
-  known.yy += 0.01;
-  known.tt += 0.1;
-  return {match.X_MR, covariance_of(known, match.X_MR.yaw)};
 }
 
 /// Takes one point of those that lie within `apart` of each other, and then at most `most`.
@@ -52,10 +45,69 @@ PoseSpread widened(const PoseSpread& spread, double factor) {
   return result;
 }
 
+// Whether a pose is farther from where a robot should be than wheels can be wrong.
+// @param gone [m], [rad]  by how much it has moved since the scan before.
+bool is_elsewhere(const PoseSpread& prior, const Pose2& pose, double gone) {
+  constexpr double kPerWay = 0.3;
+  const double bump = 0.3 + kPerWay * gone;  // [m], [rad]
+  const Pose2 away = seen_from(prior.mean, pose);
+  return norm(away.position()) > std::max(bump, 3.0 * deviation_of(prior)) ||
+         std::fabs(away.yaw) > std::max(bump, 3.0 * std::sqrt(prior.covariance[8]));
+}
+
+// Weighs particles by how near the echoes of a scan are to what is occupied.
+void weigh(Particles& particles, const RobotScan& scan, const KnownMap& map) {
+  constexpr double kSoft = 0.15;  // [m]
+  constexpr double kElse = 0.1;   // by chance
+  constexpr double kShare = 0.3;  // of the evidence of a beam, as neighbours show the same
+  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 60);
+  particles.weigh([&](const Pose2& X_MR) {
+    const Vec2 turned = direction(X_MR.yaw);
+    double sum = 0.0;
+    for (const SurfacePoint& point : some) {
+      const double off = map.distance(X_MR.position() + rotated(point.at, turned));
+      sum += portable::log(portable::exp(-0.5 * square(off / kSoft)) + kElse);
+    }
+    return std::max(1e-100, portable::exp(kShare * sum));
+  });
+}
+
+// Lays a scan on the map, near where the robot should be.
+std::optional<ScanMatch> match(const RobotScan& scan, const KnownMap& map, const PoseSpread& prior,
+                               const MatchOptions& options) {
+  std::optional<ScanMatch> best = refine(scan.echoes, map.surface(), prior.mean, options);
+  if (best && best->share >= kSurely) return best;
+  const double way = std::clamp(3.0 * deviation_of(prior), 0.3, 1.0);
+  const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
+  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 90);
+  const auto found = map.search().best(some, {prior.mean, way, turn}, 0.0);
+  if (!found) return best;
+  std::optional<ScanMatch> other = refine(scan.echoes, map.surface(), found->X_MR, options);
+  return other && (!best || other->fit > best->fit + 0.02) ? other : best;
+}
+
 }  // namespace
 
+/// A place where the robot may be.
+struct MapLocalizer::Candidate {
+  Particles particles;
+  PlaceBelief belief;  // but for where
+
+  /// @param weight  1: a whole scan.
+  void note(double fit, double weight = 1.0) {
+    constexpr double kQuick = 0.3;
+    constexpr double kSlow = 0.03;
+    belief.quick = belief.quick < 0.0 ? fit : belief.quick + kQuick * weight * (fit - belief.quick);
+    belief.slow = belief.slow < 0.0 ? fit : belief.slow + kSlow * weight * (fit - belief.slow);
+  }
+  [[nodiscard]] bool is_doubtful(const LocalizerOptions& options) const {
+    return belief.quick >= 0.0 &&
+           (belief.quick < options.doubted_below || belief.quick < options.fallen * belief.slow);
+  }
+};
+
 /// A search that goes on while the robot does.
-struct MapLocalizer::Search {
+struct MapLocalizer::GlobalSearch {
   std::shared_ptr<const KnownMap> map;  // in which it searches; it outlives the search
   RobotScan scan;
   Reckoned taken;
@@ -66,7 +118,7 @@ std::array<double, 3> deviations_of(const Reckoned& before, const Reckoned& now)
   const Pose2 step = seen_from(before.X_OR, now.X_OR);
   const double way = norm(step.position());
   const double turn = std::fabs(step.yaw);
-  // What the errors so far make of the step is taken off; what is left is its own.
+  // The part that comes of the errors so far is taken off; the rest is its own.
   const Vec2 chord = now.X_OR.position() - before.X_OR.position();
   const auto& a = before.covariance;
   const auto& b = now.covariance;
@@ -89,33 +141,31 @@ MapLocalizer::MapLocalizer(std::shared_ptr<const KnownMap> map, const RandomStre
 MapLocalizer::~MapLocalizer() = default;
 
 void MapLocalizer::change_map(std::shared_ptr<const KnownMap> map) {
-  map_ = std::move(map);
   search_.reset();
-  doubt_all();
+  if (map_) doubt_all();
+  map_ = std::move(map);
 }
 
-MapLocalizer::Place MapLocalizer::place_at(const PoseSpread& where, std::size_t count) {
-  Place place{Particles(options_.particles)};
-  place.particles.scatter(where, count, random_);
-  place.particles.shape(where);
-  return place;
+void MapLocalizer::add_place(const PlaceBelief& belief, std::size_t count) {
+  Candidate& place = places_.emplace_back(Candidate{Particles(options_.particles), belief});
+  place.particles.scatter(belief.where, count, random_);
+  place.particles.shape(belief.where);
+}
+
+void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now) {
+  reckon_anew(now);
+  places_.clear();
+  for (const PlaceBelief& belief : places) add_place(belief, kParticles);
+  was_known_ = was_known;
+  seen_way_ = way_;
 }
 
 void MapLocalizer::suggest(const PoseSpread& where, const Reckoned& now) {
-  move(now);
-  settle();
-  search_.reset();
-  places_.clear();
-  places_.push_back(place_at(where, 500));
-  counted_.clear();
-  seen_way_ = way_;
-  seen_time_ = now.time;
+  resume(std::array{PlaceBelief{where}}, was_known_, now);
 }
 
 void MapLocalizer::place(const PoseSpread& where, const Reckoned& now) {
-  suggest(where, now);
-  places_.front().believed = true;
-  was_known_ = true;
+  resume(std::array{PlaceBelief{.where = where, .believed = true}}, true, now);
 }
 
 void MapLocalizer::move(const Reckoned& now) {
@@ -141,13 +191,13 @@ void MapLocalizer::move(const Reckoned& now) {
 void MapLocalizer::settle() {
   const std::array<double, 3> deviations = deviations_of(settled_, now_);
   const Pose2 step = seen_from(settled_.X_OR, now_.X_OR);
-  for (Place& place : places_) place.particles.move(step, deviations, random_);
+  for (Candidate& place : places_) place.particles.move(step, deviations, random_);
   settled_ = now_;
   unsettled_ = 0.0;
 }
 
 void MapLocalizer::reckon_anew(const Reckoned& now) {
-  settle();
+  if (moved_) settle();
   search_.reset();
   counted_.clear();
   now_ = settled_ = now;
@@ -157,9 +207,9 @@ void MapLocalizer::reckon_anew(const Reckoned& now) {
 }
 
 void MapLocalizer::doubt_all() {
-  for (Place& place : places_) {
-    place.quick = place.slow = -1.0;
-    place.believed = false;
+  for (Candidate& place : places_) {
+    place.belief.quick = place.belief.slow = -1.0;
+    place.belief.believed = false;
   }
 }
 
@@ -176,86 +226,54 @@ bool MapLocalizer::begin_update(std::size_t sensor) {
   if (!map_ || !moved_) return false;
   if (search_) go_on_searching();
   if (!is_time_for(sensor, now_)) return false;
-  if (counted_.size() <= sensor) counted_.resize(sensor + 1, {-1e9, {}, {}});
+  if (counted_.size() <= sensor) counted_.resize(sensor + 1, {-1e9, now_.X_OR, {}});
+  const Pose2 step = seen_from(counted_[sensor].X_OR, now_.X_OR);
+  gone_ = norm(step.position()) + std::fabs(step.yaw);
   counted_[sensor] = now_;
   settle();
   return true;
 }
 
-void MapLocalizer::see(const RobotScan& scan) {
-  if (!begin_update(scan.sensor)) return;
-  if (scan.echoes.size() < kLeastEchoes || scan.echoes.size() * 10 < scan.beams) return;
+void MapLocalizer::see(const RobotScan& seen) {
+  if (!begin_update(seen.sensor)) return;
+  if (seen.echoes.size() < kLeastEchoes || seen.echoes.size() * 10 < seen.beams) return;
   seen_way_ = way_;
+  if (offsets_.size() <= seen.sensor) offsets_.resize(seen.sensor + 1);
+  const RobotScan scan{seen.sensor, seen.from, offsets_[seen.sensor].corrected(seen.echoes), seen.beams};
   std::vector<double> fits;
-  for (Place& place : places_) {
+  for (Candidate& place : places_) {
     lay(place, scan);
     const Explanation explained = map_->explain(scan.echoes, scan.from, place.particles.spread().mean);
     fits.push_back(explained.fit);
-    note(place, explained.fit);
+    place.note(explained.fit);
   }
   compare(fits);
   believe();
-  if (!search_ && (places_.empty() || doubts(places_.front()))) begin_search(scan);
+  if (!search_ && (places_.empty() || places_.front().is_doubtful(options_))) begin_search(scan);
 }
 
-void MapLocalizer::weigh(Place& place, const RobotScan& scan) const {
-  constexpr double kSoft = 0.15;  // [m]
-  constexpr double kElse = 0.1;   // by chance
-  constexpr double kShare = 0.3;  // of the evidence of a beam, as neighbours tell the same
-  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 60);
-  place.particles.weigh([&](const Pose2& X_MR) {
-    const Vec2 turned = direction(X_MR.yaw);
-    double sum = 0.0;
-    for (const SurfacePoint& point : some) {
-      const double off = map_->distance(X_MR.position() + rotated(point.at, turned));
-      sum += portable::log(portable::exp(-0.5 * square(off / kSoft)) + kElse);
-    }
-    return std::max(1e-100, portable::exp(kShare * sum));
-  });
-}
-
-std::optional<ScanMatch> MapLocalizer::match(const RobotScan& scan, const PoseSpread& prior) const {
-  std::optional<ScanMatch> best = refine(scan.echoes, map_->surface(), prior.mean, options_.match);
-  if (best && best->share >= kSurely) return best;
-  const double way = std::clamp(3.0 * deviation_of(prior), 0.3, 1.0);
-  const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
-  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 90);
-  const auto found = map_->search().best(some, {prior.mean, way, turn}, 0.0);
-  if (!found) return best;
-  std::optional<ScanMatch> other = refine(scan.echoes, map_->surface(), found->X_MR, options_.match);
-  return other && (!best || other->fit > best->fit + 0.02) ? other : best;
-}
-
-void MapLocalizer::lay(Place& place, const RobotScan& scan) {
+void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   PoseSpread prior = place.particles.spread();
   if (deviation_of(prior) > kWide || std::sqrt(prior.covariance[8]) > kWideTurn) {
-    weigh(place, scan);
+    weigh(place.particles, scan, *map_);
     place.particles.resample(random_);
     prior = place.particles.spread();
   }
   for (const std::size_t i : {0U, 4U, 8U}) prior.covariance[i] += 1e-6;
-  const std::optional<ScanMatch> found = match(scan, prior);
+  const std::optional<ScanMatch> found = match(scan, *map_, prior, options_.match);
   if (!found || found->share < 0.25) return;
-  const PoseSpread seen = spread_of(*found);
+  // Only one place that is believed teaches how the map is off.
+  SurfaceOffset offset = offsets_[scan.sensor];
+  const PoseSpread seen = offset.learn(scan.echoes, map_->surface(), found->X_MR, options_.match);
   PoseSpread both = prior;
   for (std::size_t i = 0; i < 9; ++i) both.covariance[i] += seen.covariance[i];
-  // Odometry may be more wrong than it knows: a bump, a slip.
+  // Odometry may be more wrong than it knows: a bump, a slip. More than that is another place, of which the search decides.
+  if (is_elsewhere(prior, seen.mean, gone_)) return;
+  if (places_.size() == 1 && place.belief.believed) offsets_[scan.sensor] = offset;
   constexpr double kMost = 9.0;
   const double misfit = squared_distance(both, seen.mean);
   if (misfit > kMost) prior = widened(prior, misfit / kMost);
   place.particles.shape(fused(prior, seen));
-}
-
-void MapLocalizer::note(Place& place, double share) const {
-  constexpr double kQuick = 0.3;
-  constexpr double kSlow = 0.03;
-  place.quick = place.quick < 0.0 ? share : place.quick + kQuick * (share - place.quick);
-  place.slow = place.slow < 0.0 ? share : place.slow + kSlow * (share - place.slow);
-}
-
-bool MapLocalizer::doubts(const Place& place) const {
-  return place.quick >= 0.0 &&
-         (place.quick < options_.doubted_below || place.quick < options_.fallen * place.slow);
 }
 
 // A place that explains less of what is seen than another becomes unlikely; a little less says nothing, else one of two equal rooms would win.
@@ -265,16 +283,17 @@ void MapLocalizer::compare(std::span<const double> fits) {
   changed_ = 0.0;
   const double best = std::ranges::max(fits);
   for (std::size_t i = 0; i < places_.size(); ++i)
-    places_[i].odds -= options_.evidence * std::max(0.0, best - fits[i] - options_.apart);
+    places_[i].belief.odds -= options_.evidence * std::max(0.0, best - fits[i] - options_.apart);
   drop_unlikely();
 }
 
 void MapLocalizer::drop_unlikely() {
   constexpr double kUnlikely = -5.3;  // 1 in 200
-  std::ranges::stable_sort(places_, std::ranges::greater(), &Place::odds);
-  const double best = places_.front().odds;
-  for (Place& place : places_) place.odds -= best;
-  std::erase_if(places_, [](const Place& place) { return place.odds < kUnlikely; });
+  std::ranges::stable_sort(places_, std::ranges::greater(),
+                           [](const Candidate& place) { return place.belief.odds; });
+  const double best = places_.front().belief.odds;
+  for (Candidate& place : places_) place.belief.odds -= best;
+  std::erase_if(places_, [](const Candidate& place) { return place.belief.odds < kUnlikely; });
   // Two that have come together are one.
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Pose2 here = places_[i].particles.spread().mean;
@@ -288,8 +307,8 @@ void MapLocalizer::drop_unlikely() {
 
 void MapLocalizer::believe() {
   if (places_.size() != 1) return;
-  Place& place = places_.front();
-  if (place.quick >= options_.believed_from) place.believed = true;
+  Candidate& place = places_.front();
+  if (place.belief.quick >= options_.believed_from) place.belief.believed = true;
   was_known_ |= known(now_) == Known::localized;
 }
 
@@ -301,8 +320,8 @@ void MapLocalizer::begin_search(const RobotScan& scan) {
   if (!is_time) return;
   searched_time_ = now_.time;
   searched_way_ = way_;
-  search_ =
-      std::make_unique<Search>(Search{map_, scan, now_, PlaceSearch(*map_, thinned(scan.echoes, 0.1, 90))});
+  search_ = std::make_unique<GlobalSearch>(
+      GlobalSearch{map_, scan, now_, PlaceSearch(*map_, thinned(scan.echoes, 0.1, 90))});
   go_on_searching();
 }
 
@@ -316,22 +335,25 @@ void MapLocalizer::go_on_searching() {
 void MapLocalizer::take_found() {
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
+  for (Candidate& place : places_) {
+    const Pose2 X_MR = place.particles.spread().mean * inverse(since);
+    place.belief.odds = options_.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
+  }
   for (const Found& found : search_->places.found()) {
     const std::optional<ScanMatch> laid = refine(scan.echoes, map_->surface(), found.X_MR, options_.match);
     if (!laid) continue;
     const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
     if (explained.fit < options_.doubted_below || map_->distance(laid->X_MR.position()) < kBody) continue;
-    Place place = place_at({laid->X_MR * since, {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.005}}, 100);
-    place.quick = place.slow = explained.fit;
-    place.odds = options_.evidence * explained.fit;
-    places_.push_back(std::move(place));
+    const PoseSpread where{laid->X_MR * since, {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.005}};
+    add_place({where, options_.evidence * explained.fit, explained.fit, explained.fit, false}, kParticles);
   }
   if (places_.empty()) return;
-  std::ranges::stable_sort(places_, std::ranges::greater(), &Place::odds);
-  const double best = places_.front().odds;
-  for (Place& place : places_)
-    place.odds = std::min(0.0, place.odds - best + options_.evidence * options_.apart);
-  for (Place& place : places_) place.slow = place.quick;
+  double best = places_.front().belief.odds;
+  for (const Candidate& place : places_) best = std::max(best, place.belief.odds);
+  for (Candidate& place : places_) {
+    place.belief.odds = std::min(0.0, place.belief.odds - best + options_.evidence * options_.apart);
+    place.belief.slow = place.belief.quick;
+  }
   drop_unlikely();
   believe();
 }
@@ -342,16 +364,19 @@ Known MapLocalizer::known(const Reckoned& now) const {
   const double way = way_ + norm(now.X_OR.position() - now_.X_OR.position());
   if (way - seen_way_ > options_.blind_way || now.time - seen_time_ > options_.blind_time) return none;
   if (places_.size() > 1) return Known::ambiguous;
-  const Place& place = places_.front();
-  if (!place.believed || doubts(place)) return none;
+  const Candidate& place = places_.front();
+  if (!place.belief.believed || place.is_doubtful(options_)) return none;
   return deviation_of(place.particles.spread()) <= kMostSpread ? Known::localized : Known::ambiguous;
 }
 
-std::vector<PoseSpread> MapLocalizer::all_places(const Reckoned& now) const {
+std::vector<PlaceBelief> MapLocalizer::places(const Reckoned& now) const {
   const Pose2 step = seen_from(settled_.X_OR, now.X_OR);
   const std::array<double, 3> deviations = deviations_of(settled_, now);
-  std::vector<PoseSpread> result;
-  for (const Place& place : places_) result.push_back(after(place.particles.spread(), step, deviations));
+  std::vector<PlaceBelief> result;
+  for (const Candidate& place : places_) {
+    result.push_back(place.belief);
+    result.back().where = after(place.particles.spread(), step, deviations);
+  }
   return result;
 }
 
@@ -361,78 +386,17 @@ std::optional<PoseSpread> MapLocalizer::where(const Reckoned& now) const {
                deviations_of(settled_, now));
 }
 
-void MapLocalizer::scatter_everywhere() {
-  std::vector<Pose2> poses;
-  const Lattice& lattice = map_->grid().lattice;
-  std::vector<Cell> free;
-  for (std::size_t i = 0; i < lattice.size(); ++i)
-    if (map_->grid().free(lattice.cell_of(i))) free.push_back(lattice.cell_of(i));
-  if (free.empty()) return;
-  for (std::size_t i = 0; i < options_.particles.most; ++i) {
-    const auto chosen = static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(free.size())));
-    const Vec2 at = lattice.middle_of(free[std::min(chosen, free.size() - 1)]);
-    poses.push_back({at.x, at.y, random_.uniform(-std::numbers::pi, std::numbers::pi)});
-  }
-  places_.clear();
-  places_.push_back(Place{Particles(options_.particles)});
-  places_.front().particles.put(poses);
-}
-
-namespace {
-
-/// Returns how far a sonar would hear something of the map at the nearest.
-double nearest_echo(const KnownMap& map, const SonarEcho& echo, const Pose2& X_MR) {
-  const Pose2 X_MS = X_MR * echo.X_RS;
-  double nearest = echo.max_range;
-  for (const double share : {-0.7, 0.0, 0.7}) {
-    const Sight sight =
-        map.look(X_MS.position(), direction(X_MS.yaw + share * echo.half_lobe), echo.max_range);
-    if (sight.end == Sight::End::wall) nearest = std::min(nearest, sight.range);
-  }
-  return nearest;
-}
-
-constexpr double kSonarError = 0.1;  // [m]
-
-}  // namespace
-
-// A smooth wall may give no echo at a slant, or the second one; a person may stand in front. Both are much more likely than that it is 1 m off.
-double MapLocalizer::likelihood(const SonarEcho& echo, const Pose2& X_MR) const {
-  const double expected = nearest_echo(*map_, echo, X_MR);
-  const bool silent = echo.range >= echo.max_range;
-  if (silent) return expected >= echo.max_range ? 0.9 : 0.4;
-  const double off = echo.range - expected;
-  return 0.8 * portable::exp(-0.5 * square(off / kSonarError)) + (off < 0.0 ? 0.1 : 0.2);
-}
-
-double MapLocalizer::heard_share(std::span<const SonarEcho> echoes, const Pose2& X_MR) const {
-  Explanation explained;
-  for (const SonarEcho& echo : echoes) {
-    if (echo.range >= echo.max_range) continue;
-    const double off = echo.range - nearest_echo(*map_, echo, X_MR);
-    (std::fabs(off) <= 2.0 * kSonarError ? explained.hits
-     : off < 0.0                         ? explained.shorts
-                                         : explained.longs) += 1.0;
-  }
-  return explained.share();
-}
-
+// They show too little for a search: many places sound alike.
 void MapLocalizer::hear(std::span<const SonarEcho> echoes) {
   if (!begin_update(kSonars)) return;
-  const auto heard =
-      std::ranges::count_if(echoes, [](const SonarEcho& echo) { return echo.range < echo.max_range; });
-  if (heard == 0) return;
+  const auto is_echo = [](const SonarEcho& echo) { return echo.range < echo.max_range; };
+  if (std::ranges::none_of(echoes, is_echo)) return;
   seen_way_ = way_;
-  if (places_.empty()) scatter_everywhere();
-  constexpr double kShare = 0.5;  // of the evidence of an echo, as neighbours hear the same
-  for (Place& place : places_) {
-    place.particles.weigh([&](const Pose2& X_MR) {
-      double sum = 0.0;
-      for (const SonarEcho& echo : echoes) sum += portable::log(likelihood(echo, X_MR));
-      return portable::exp(kShare * sum);
-    });
+  constexpr double kOfScan = 0.2;  // A round says that much as a scan.
+  for (Candidate& place : places_) {
+    place.particles.weigh([&](const Pose2& X_MR) { return likelihood(echoes, *map_, X_MR); });
     place.particles.resample(random_);
-    note(place, heard_share(echoes, place.particles.spread().mean));
+    place.note(share_heard(echoes, *map_, place.particles.spread().mean), kOfScan);
   }
   believe();
 }

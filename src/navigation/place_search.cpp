@@ -95,7 +95,7 @@ Pose2 PlaceSearch::pose_of(const Block& place) const {
   return {at.x, at.y, wrapped(place.turn * 2.0 * std::numbers::pi / turns_)};
 }
 
-// Whether a block can hold a place that is taken. What is small and lies by a place that was found must be better than that.
+// Whether a block can hold a place that is taken. A small one beside a place that was found must be better than that.
 bool PlaceSearch::is_better(const Block& block, int level) const {
   if (found_.empty()) return true;
   const double score = block.sum / full_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Localisation on logs of real robots: the map is made from every other scan, and the others are laid into it.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <numbers>
@@ -15,9 +15,11 @@
 #include "orca/navigation/map_localizer.hpp"
 #include "orca/navigation/occupancy_map.hpp"
 #include "public_text.hpp"
+#include "slow_run.hpp"
 
 using namespace orca;
 using namespace orca::nav;
+using orca::test::is_slow_run;
 using orca::test::public_text;
 
 namespace {
@@ -130,8 +132,6 @@ FloorGrid map_of(const std::vector<LogScan>& log, double side) {
   return grid;
 }
 
-bool is_slow_run() { return std::getenv("ORCA_SLOW") != nullptr; }
-
 std::shared_ptr<const KnownMap> known_map_of(const std::vector<LogScan>& log) {
   return std::make_shared<const KnownMap>(map_of(log, 0.05));
 }
@@ -195,32 +195,33 @@ bool is_right(const LogScan& scan, const MapLocalizer& localizer) {
   return norm(off.position()) < 0.5 && std::fabs(off.yaw) < 10.0 * kDegree;
 }
 
+// Takes a scan. A robot has more of them than the log has, so a search ends before the next one.
+Known see(MapLocalizer& localizer, const LogScan& scan) {
+  do localizer.see(robot_scan_of(scan));
+  while (localizer.searches());
+  return localizer.known(reckoned_at(scan));
+}
+
 void start_at(std::size_t begin, const std::vector<LogScan>& log, const std::shared_ptr<const KnownMap>& map,
               Starts& starts) {
   MapLocalizer localizer(map, RandomStream(begin, "localizer", "particles"));
   double way = 0.0;
-  bool found = false;
-  bool wrong = false;
+  std::array<bool, 2> ever{};  // localized, and wrong or right
   bool right = false;
-  for (std::size_t i = begin; i < log.size() && way <= 5.0;
-       way += norm(seen_from(log[i].X_MR, log[i + 1].X_MR).position()), ++i) {
+  for (std::size_t i = begin; i < log.size() && way <= 5.0; ++i) {
     localizer.move(reckoned_at(log[i]));
-    if (i % 2 != 0) {
-      // A robot has more scans than the log has, so the search ends before the next one.
-      do localizer.see(robot_scan_of(log[i]));
-      while (localizer.searches());
-      right = is_right(log[i], localizer);
-      const Known known = localizer.known(reckoned_at(log[i]));
-      if (i == begin && known == Known::localized && right) ++starts.right_at_once;
-      if (i == begin && known == Known::ambiguous) ++starts.ambiguous_at_once;
-      found |= known == Known::localized && right;
-      wrong |= known == Known::localized && !right;
-    }
-    if (i + 1 == log.size()) break;
+    if (i + 1 < log.size()) way += norm(seen_from(log[i].X_MR, log[i + 1].X_MR).position());
+    if (i % 2 == 0) continue;
+    const Known known = see(localizer, log[i]);
+    right = is_right(log[i], localizer);
+    const bool certain = known == Known::localized;
+    if (i == begin && certain && right) ++starts.right_at_once;
+    if (i == begin && known == Known::ambiguous) ++starts.ambiguous_at_once;
+    ever[right ? 1 : 0] |= certain;
   }
   ++starts.all;
-  starts.found += found ? 1 : 0;
-  starts.wrong += wrong ? 1 : 0;
+  starts.found += ever[1] ? 1 : 0;
+  starts.wrong += ever[0] ? 1 : 0;
   starts.best += right ? 1 : 0;
 }
 

@@ -98,7 +98,7 @@ TEST_CASE("a robot in one of two rooms alike is at either, until it sees more", 
   drive.X_MR = {1.3, 1.7, 0.3};
   drive.stand(40);
   CHECK(drive.known() == Known::ambiguous);
-  CHECK(drive.localizer.places() >= 2);
+  CHECK(drive.localizer.places(drive.reckoned).size() >= 2);
   drive.go_on(20);
   drive.go_on(60, {0.0, 0.0, 0.1});
   CHECK(drive.known() == Known::ambiguous);
@@ -192,6 +192,21 @@ TEST_CASE("a place from before is checked before it is believed", "[navigation]"
   carried.go_on(20);
   CHECK(carried.known() == Known::localized);
   CHECK(carried.off() < 0.05);
+}
+
+TEST_CASE("a localizer that takes another's place goes on with what that believed", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  const auto places = drive.localizer.places(drive.reckoned);
+  const auto before = drive.localizer.where(drive.reckoned);
+  REQUIRE(places.size() == 1);
+  MapLocalizer next(drive.map, RandomStream(7, "test", "particles"));
+  next.resume(places, true, drive.reckoned);
+  CHECK(next.known(drive.reckoned) == Known::localized);
+  const auto after = next.where(drive.reckoned);
+  CHECK(apart(after->mean, before->mean).way < 1e-6);
+  CHECK(after->covariance[0] == Approx(before->covariance[0]).epsilon(0.5));
 }
 
 TEST_CASE("odometry that begins anew is no way of the robot", "[navigation]") {

@@ -35,7 +35,7 @@ struct FloorGrid {
 /// @thread  pure function; any thread.
 [[nodiscard]] std::vector<SurfacePoint> surface_of(const FloorGrid& grid);
 
-/// What a map lets a beam see first.
+/// The first thing that a map lets a beam see.
 struct Sight {
   enum class End : std::uint8_t { wall, unknown, nothing };
   double range = 0.0;  ///< [m] to there.
@@ -47,8 +47,7 @@ struct Explanation {
   double hits = 0.0;    ///< On a surface of the map.
   double shorts = 0.0;  ///< In front of the next one: a person, or what the map does not know.
   double longs = 0.0;   ///< Behind it: there the map is wrong, or the pose.
-  double fit =
-      0.0;  ///< [1] mean closeness: 1 on a surface, 0.5 at 10 cm from it. What stands in front counts half.
+  double fit = 0.0;  ///< [1] mean closeness: 1 on a surface, 0.5 at 10 cm from it. Those in front count half.
 
   /// Returns how many echoes count: those that stand in front by a half, those where the map knows nothing not at all.
   [[nodiscard]] double all() const { return hits + longs + 0.5 * shorts; }

@@ -13,7 +13,8 @@
 #include "orca/geometry/pose2.hpp"
 #include "orca/navigation/known_map.hpp"
 #include "orca/navigation/particles.hpp"
-#include "orca/navigation/place_search.hpp"
+#include "orca/navigation/sonar_model.hpp"
+#include "orca/navigation/surface_offset.hpp"
 
 namespace orca::nav {
 
@@ -36,14 +37,6 @@ struct RobotScan {
   Vec2 from;               ///< Where it was taken from.
   std::vector<SurfacePoint> echoes;
   std::size_t beams = 0;  ///< that could have had an echo.
-};
-
-/// An echo of a sonar, or that none came.
-struct SonarEcho {
-  Pose2 X_RS;              ///< Of the sonar in the robot frame now; its x axis is that of the cone.
-  double range = 0.0;      ///< [m]; at max_range or above: no echo.
-  double max_range = 0.0;  ///< [m]
-  double half_lobe = 0.0;  ///< [rad]
 };
 
 /// Whether it is known where the robot is.
@@ -74,6 +67,16 @@ struct LocalizerOptions {
   ParticleOptions particles;
 };
 
+/// The belief in a place.
+struct PlaceBelief {
+  PoseSpread where;
+  double odds = 0.0;  ///< Natural logarithm, relative to the best place.
+  double quick =
+      -1.0;  ///< [1] How well is sensed what the map shows there, on a short average; below 0: nothing was sensed yet.
+  double slow = -1.0;  ///< [1] The same on a long one.
+  bool believed = false;
+};
+
 /// Finds where a robot is in a map: particles in each place where it may be, which move by odometry; scans that are laid on the map draw them
 /// together, echoes of sonars weigh them; and where nothing fits, a search in the whole map for other places.
 ///
@@ -89,6 +92,9 @@ class MapLocalizer {
   void change_map(std::shared_ptr<const KnownMap> map);
   /// Takes somebody's word for where the robot is.
   void place(const PoseSpread& where, const Reckoned& now);
+  /// Goes on with what another one has believed.
+  /// @param was_known  whether the robot has been localized before.
+  void resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now);
   /// Begins with a place that may be wrong, such as where the robot was before it was switched off: it is checked before it is believed.
   void suggest(const PoseSpread& where, const Reckoned& now);
 
@@ -111,48 +117,34 @@ class MapLocalizer {
   [[nodiscard]] Known known(const Reckoned& now) const;
   /// Returns where the robot is if it is anywhere: at the best of the places.
   [[nodiscard]] std::optional<PoseSpread> where(const Reckoned& now) const;
-  /// Returns the number of places where it may be.
-  [[nodiscard]] std::size_t places() const { return places_.size(); }
-  /// Returns where they are, as where(), the best first.
-  [[nodiscard]] std::vector<PoseSpread> all_places(const Reckoned& now) const;
-  /// Returns the share [1] of the last scans that the map explains at the best place.
-  [[nodiscard]] double share() const { return places_.empty() ? 0.0 : places_.front().quick; }
+  /// Returns all places where it may be, the best first.
+  [[nodiscard]] std::vector<PlaceBelief> places(const Reckoned& now) const;
+  [[nodiscard]] bool was_known() const { return was_known_; }
+  /// Returns what was learnt of each sensor's walls, by its number.
+  [[nodiscard]] std::vector<SurfaceOffset>& offsets() { return offsets_; }
+  [[nodiscard]] const std::vector<SurfaceOffset>& offsets() const { return offsets_; }
   [[nodiscard]] bool searches() const { return search_ != nullptr; }
 
  private:
-  /// A place where the robot may be.
-  struct Place {
-    Particles particles;
-    double odds = 0.0;    // logarithm, relative to the best
-    double quick = -1.0;  // share that is explained, on a short average; below 0: never seen
-    double slow = -1.0;   // on a long one
-    bool believed = false;
-  };
-  struct Search;
+  struct Candidate;
+  struct GlobalSearch;
 
   void doubt_all();
   bool begin_update(std::size_t sensor);
   void settle();
-  void lay(Place& place, const RobotScan& scan);
-  void weigh(Place& place, const RobotScan& scan) const;
-  [[nodiscard]] std::optional<ScanMatch> match(const RobotScan& scan, const PoseSpread& prior) const;
+  void lay(Candidate& place, const RobotScan& scan);
   void compare(std::span<const double> fits);
-  void note(Place& place, double share) const;
-  [[nodiscard]] bool doubts(const Place& place) const;
   void begin_search(const RobotScan& scan);
   void go_on_searching();
   void take_found();
-  void scatter_everywhere();
-  [[nodiscard]] double likelihood(const SonarEcho& echo, const Pose2& X_MR) const;
-  [[nodiscard]] double heard_share(std::span<const SonarEcho> echoes, const Pose2& X_MR) const;
   void drop_unlikely();
   void believe();
-  [[nodiscard]] Place place_at(const PoseSpread& where, std::size_t count);
+  void add_place(const PlaceBelief& belief, std::size_t count);
 
   std::shared_ptr<const KnownMap> map_;
   RandomStream random_;
   LocalizerOptions options_;
-  std::vector<Place> places_;  // the best first
+  std::vector<Candidate> places_;  // the best first
   Reckoned now_;
   Reckoned settled_;        // where the particles are
   double unsettled_ = 0.0;  // [m], [rad] moved since
@@ -164,8 +156,10 @@ class MapLocalizer {
   double seen_time_ = 0.0;  // [s] when anything was
   double searched_way_ = -1e9;
   double searched_time_ = -1e9;
-  std::vector<Reckoned> counted_;  // of each sensor: when its last scan counted
-  std::unique_ptr<Search> search_;
+  double gone_ = 0.0;                   // [m], [rad] moved since a scan of this sensor counted
+  std::vector<Reckoned> counted_;       // of each sensor: when its last scan counted
+  std::vector<SurfaceOffset> offsets_;  // of each sensor
+  std::unique_ptr<GlobalSearch> search_;
 };
 
 }  // namespace orca::nav

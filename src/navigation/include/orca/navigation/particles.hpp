@@ -73,7 +73,7 @@ class Particles {
     for (Particle& particle : particles_) particle.weight /= sum;
     return sum;
   }
-  /// Draws anew, as many as are needed, each as often as its weight says, where the weights have become unequal: low-variance sampling.
+  /// Draws them again, as many as are needed, each as often as its weight says, where the weights have become unequal: low-variance sampling.
   void resample(RandomStream& random);
   /// Moves all so that their mean and covariance become these; their shape stays as far as it can.
   void shape(const PoseSpread& wanted);

@@ -15,7 +15,7 @@ struct PlaceSearchOptions {
   double margin = 0.15;      ///< [1] by which the score of a place may be worse than the best.
   double apart = 0.5;        ///< [m] between two places, unless
   double apart_turn =
-      0.35;  ///< [rad] their directions differ by more. Of those nearer to each other the best is taken.
+      0.35;  ///< [rad] their directions differ by more. The best of those nearer to each other is taken.
   std::size_t most = 20;  ///< places.
 };
 

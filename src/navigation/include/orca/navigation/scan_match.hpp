@@ -77,7 +77,7 @@ class ScanSearch {
   /// Returns the score of a scan at a pose, from the finest grid.
   [[nodiscard]] double score(std::span<const SurfacePoint> scan, const Pose2& X_MR) const;
 
-  static constexpr int kLevels = 6;       ///< Of blocks: those of a level have sides of 2^level cells.
+  static constexpr int kLevels = 6;       ///< Levels of blocks: those of one have sides of 2^level cells.
   static constexpr double kFull = 255.0;  ///< Value of a cell with a point of the map.
   [[nodiscard]] const Lattice& lattice() const { return lattice_; }
   /// Returns the greatest sum of values that the points of a scan can have, in whichever place of a block it is; at level 0 that which they have.

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "orca/base/text.hpp"
+#include "orca/geometry/objects/plane.hpp"
+
+namespace orca::localizer {
+namespace {
+
+constexpr std::uint64_t kMostCells = 100'000'000;  // 10 cm of 1 km2
+
+Error wrong(const std::string& text) {
+  return fail(Code::invalid_argument, "the map says nothing valid: " + text);
+}
+
+Status check(const idl::OccupancyGrid& grid) {
+  if (!std::isfinite(grid.resolution()) || grid.resolution() < 0.001 || grid.resolution() > 1.0)
+    return wrong("its resolution is " + std::to_string(grid.resolution()) + " m; expected 0.001 m to 1 m");
+  const std::uint64_t cells = static_cast<std::uint64_t>(grid.columns()) * grid.rows();
+  if (cells == 0 || cells > kMostCells || cells != grid.cells().size())
+    return wrong("it has " + std::to_string(grid.cells().size()) + " cells in " +
+                 std::to_string(grid.columns()) + " columns and " + std::to_string(grid.rows()) +
+                 " rows; expected columns times rows, at most " + std::to_string(kMostCells));
+  if (!std::isfinite(grid.corner().x()) || !std::isfinite(grid.corner().y()) ||
+      !std::isfinite(grid.corner().orientation()))
+    return wrong("its corner is not finite");
+  return ok();
+}
+
+}  // namespace
+
+Status Floor::take(const idl::OccupancyGrid& grid) {
+  if (Status sound = check(grid); !sound.ok()) return sound;
+  changed_ = true;
+  if (take_tile(grid)) return ok();
+  name_ = grid.name();
+  yaw_ = wrapped(grid.corner().orientation());
+  grid_.lattice = {seen_from(X_WM(), Vec2{grid.corner().x(), grid.corner().y()}), grid.resolution(),
+                   static_cast<int>(grid.columns()), static_cast<int>(grid.rows())};
+  grid_.cells.assign(grid.cells().begin(), grid.cells().end());
+  return ok();
+}
+
+bool Floor::take_tile(const idl::OccupancyGrid& grid) {
+  const double side = grid_.lattice.side;
+  if (grid_.cells.empty() || grid.name() != name_ || grid.resolution() != side) return false;
+  const Pose2 X_MT = seen_from(X_WM(), plane_pose(grid.corner()));
+  const Vec2 off = 1.0 / side * (X_MT.position() - grid_.lattice.corner);
+  if (norm(off) > 1e6) return false;
+  const nav::Cell first{static_cast<int>(std::lround(off.x)), static_cast<int>(std::lround(off.y))};
+  const nav::Cell last{first.column + static_cast<int>(grid.columns()) - 1,
+                       first.row + static_cast<int>(grid.rows()) - 1};
+  const bool is_straight = std::fabs(X_MT.yaw) < 1e-6 && std::fabs(off.x - first.column) < 0.01 &&
+                           std::fabs(off.y - first.row) < 0.01;
+  const bool is_part = grid.cells().size() < grid_.cells.size();
+  if (!is_straight || !is_part || !grid_.lattice.holds(first) || !grid_.lattice.holds(last)) return false;
+  for (int row = 0; row < static_cast<int>(grid.rows()); ++row)
+    std::copy_n(grid.cells().begin() + static_cast<std::ptrdiff_t>(row) * grid.columns(), grid.columns(),
+                grid_.cells.begin() +
+                    static_cast<std::ptrdiff_t>(grid_.lattice.index({first.column, first.row + row})));
+  return true;
+}
+
+std::shared_ptr<const nav::KnownMap> Floor::map() {
+  changed_ = false;
+  return grid_.cells.empty() ? nullptr : std::make_shared<const nav::KnownMap>(grid_);
+}
+
+}  // namespace orca::localizer
