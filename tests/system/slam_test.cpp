@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A robot without a map drives to its goals by the map that it makes on the way.
+// A robot without a map drives to its goals by the map that it makes on the way; with one, it does so all day.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -179,8 +179,9 @@ TEST_CASE("the real drivers of a Pioneer, too, give what its map is made of", "[
   CHECK(run.contacts().empty());
 }
 
-TEST_CASE("a robot knows where it is at forty goals, through its drivers and with harsh wheels",
-          "[.][slow]") {
+TEST_CASE(
+    "in a given map a robot knows where it is at forty goals, through its drivers and with harsh wheels",
+    "[.][slow]") {
   std::string goals;
   for (int round = 0; round < 10; ++round)
     goals += std::string(round == 0 ? "hall: 3.6 6; " : "; hall: 14.4 7.6 > 14.4 6 > 3.6 6; ") +
@@ -189,12 +190,11 @@ TEST_CASE("a robot knows where it is at forty goals, through its drivers and wit
              "> 14.4 6 > 14.4 7.6 > 13 10.4";
   const TempFolder folder;
   const std::string file = folder.file("poses.csv");
-  const Run run =
-      run_deployer(Words{source_file("tests/data/graphs/system/slam_day.xml"), "--profile", "emulate",
-                         "--profile", "slam", "--set", "goals=" + goals, "--until", "3000 s", "--record",
-                         file + "=localizer.RobotPosePush,truth.RobotPosePush"} +
-                       virtual_clock(),
-                   Seconds(600));
+  const Run run = run_deployer(
+      Words{source_file("tests/data/graphs/system/known_day.xml"), "--set", "goals=" + goals, "--until",
+            "3000 s", "--record", file + "=localizer.RobotPosePush,truth.RobotPosePush"} +
+          virtual_clock(),
+      Seconds(600));
   INFO(run.err);
   CHECK(run.contacts().empty());
   REQUIRE(run.arrivals().size() == 40);
