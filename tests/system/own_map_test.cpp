@@ -27,7 +27,7 @@ std::vector<std::string> goals_reached(const std::string& realism, int seed) {
       run_deployer(Words{system_graph("own_map.xml"), "--until", "450 s", "--seed", std::to_string(seed),
                          "--set", "realism=" + realism, "--record", poses + "=truth.RobotPosePush"} +
                        virtual_clock(),
-                   Seconds(120));
+                   Seconds(300));
   INFO(run.out << run.err);
   CHECK(run.exit_code() == 0);
   CHECK(run.contacts().empty());
