@@ -136,11 +136,14 @@ void GoalFollower::follow_route(const Pose2& pose) {
   push_path(pose);
 }
 
-// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere. Before it was ever known, a
-// route waits: a localizer may need some scans.
+// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere. If it was never known, the route
+// waits for some time: a localizer may have to find the robot first.
 bool GoalFollower::is_lost() {
+  constexpr Duration kFound = 20s;
+  if (!lost_) lost_at_.reset();
   if (!lost_) was_known_ = true;
-  if (lost_ && was_known_ && !route_.empty())
+  if (lost_ && !lost_at_) lost_at_ = now();
+  if (lost_ && !route_.empty() && (was_known_ || now() - *lost_at_ >= kFound))
     end_route(idl::GOAL_UNANSWERED, "lost: it is not known any more where the robot is");
   return lost_;
 }

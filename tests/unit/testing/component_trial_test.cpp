@@ -163,6 +163,23 @@ TEST_CASE("Goto keeps a goal until it is known for the first time where the robo
   CHECK(drove);
 }
 
+TEST_CASE("Goto ends a goal as lost if it is not known within 20 s where the robot is", "[testing][goto]") {
+  std::string reason;
+  int until = 0;  // [0.1 s]
+  try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
+    send_goal(test, 2.0);
+    for (; until < 300 && !test.failed.new_data_arrived(); ++until) {
+      auto pose = test.pose.loan();
+      pose->covariance(anywhere());
+      test.pose.push(std::move(pose));
+      test.sleep(100ms);
+    }
+    if (test.failed.new_data_arrived()) reason = test.failed.get_update()->reason();
+  });
+  CHECK(reason == "lost: it is not known any more where the robot is");
+  CHECK(until == Approx(200).margin(2));
+}
+
 TEST_CASE("Goto gives a goal up when it is told so, by its name or without one, and drives to the next one",
           "[testing][goto]") {
   std::vector<std::string> reasons;

@@ -135,6 +135,7 @@ class GoalFollower : public Component {
   SenderLife odometer_;
   bool lost_ = false;       // It is not known where the robot is.
   bool was_known_ = false;  // It was, at least once.
+  std::optional<TimePoint> lost_at_;
   Route route_;
   PathShown path_shown_;
   Legs legs_;
