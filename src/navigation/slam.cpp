@@ -153,9 +153,13 @@ const ScanSearch& Slam::search_of(Submap& submap) {
 
 bool Slam::close_loop(std::size_t node, Submap& submap, double way, double turn) {
   const Pose2 guess = seen_from(nodes_[submap.first].X_MR, nodes_[node].X_MR);
-  const auto found = search_of(submap).best(nodes_[node].scan, {guess, way, turn}, options_.loop_score);
-  if (!found) return false;
-  const std::optional<ScanMatch> match = refine(nodes_[node].scan, submap.map, found->X_MR, options_.match);
+  const auto& scan = nodes_[node].scan;
+  // Where it is believed to be is tried first: the best place of a window may be one along the wall.
+  std::optional<ScanMatch> match = refine(scan, submap.map, guess, options_.match);
+  if (!match || match->share < options_.loop_share) {
+    const auto found = search_of(submap).best(scan, {guess, way, turn}, options_.loop_score);
+    match = found ? refine(scan, submap.map, found->X_MR, options_.match) : std::nullopt;
+  }
   if (!match || match->share < options_.loop_share) return false;
   relations_.push_back({submap.first, node, match->X_MR, match->information, true});
   ++loops_;

@@ -35,7 +35,7 @@ struct SlamOptions {
   double loop_score = 0.6;   ///< the same before it is refined.
   double loop_reach =
       4.0;  ///< [m] from a submap's middle at which a loop is looked for, besides what may have drifted.
-  std::size_t loops_per_node = 4;  ///< at most: of the submaps nearest to it.
+  std::size_t loops_per_node = 8;  ///< at most: of the submaps nearest to it.
   double drift = 0.02;             ///< [m] per m of way since the last loop.
   std::size_t fit_every = 10;      ///< nodes after which loops are worked in.
   MatchOptions match;
