@@ -24,6 +24,15 @@ Duration PushServerHandle::base_period() const { return endpoint().base_period()
 
 std::size_t PushServerHandle::subscriber_count() const { return endpoint().audience(); }
 
+bool PushServerHandle::take_new_subscribers() {
+  const std::uint64_t subscriptions = endpoint().subscription_count();
+  const bool is_looked_at = endpoint().is_looked_at();
+  const bool has_new = subscriptions != subscriptions_taken_ || (is_looked_at && !was_looked_at_);
+  subscriptions_taken_ = subscriptions;
+  was_looked_at_ = is_looked_at;
+  return has_new;
+}
+
 bool PushServerHandle::push_loan(ObjectLoan loan) {
   PushServerEndpoint& server = endpoint();
   if (!server.admits_caller()) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,13 +39,9 @@ class MapServer final : public orca::Component {
 
   // A new subscriber gets the map, and with it all.
   orca::Outcome work() override {
-    const std::size_t subscribers = maps_.subscriber_count();
-    if (subscribers > subscribers_) maps_.push(orca::copy_value(map_));
-    subscribers_ = subscribers;
+    if (maps_.take_new_subscribers()) maps_.push(orca::copy_value(map_));
     return orca::again();
   }
-
-  void stop() override { subscribers_ = 0; }
 
   [[nodiscard]] bool is_world() const {
     const std::string file = file_->substr(0, file_->rfind('#'));
@@ -75,7 +71,6 @@ class MapServer final : public orca::Component {
   }
 
   ObjectPtr<OccupancyGrid> map_;
-  std::size_t subscribers_ = 0;  // in the last lap
   orca::QueryServer<orca::idl::Ask, OccupancyGrid> question_{
       *this, "OccupancyGridQuery", &MapServer::on_ask, {.text = "The whole map: about is not read."}};
   orca::PushServer<OccupancyGrid> maps_{

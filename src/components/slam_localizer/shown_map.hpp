@@ -30,7 +30,7 @@ class ShownMap {
   void begin_anew() {
     map_ = nav::DrawnMap(kCell);
     ++number_;
-    subscribers_ = 0;
+    whole_is_due_ = true;
   }
 
   /// Draws some of what is new, and pushes it once a second.
@@ -38,16 +38,13 @@ class ShownMap {
   void show(std::span<const nav::SlamNode> nodes, TimePoint now) {
     constexpr std::size_t kMost = 10;  // per lap, so that none takes long
     constexpr Duration kPeriod = std::chrono::seconds(1);
-    if (port_.subscriber_count() == 0) {
-      subscribers_ = 0;
-      return;
-    }
+    if (port_.take_new_subscribers()) whole_is_due_ = true;
+    if (port_.subscriber_count() == 0) return;
     (void)map_.draw(nodes, kMost);
     if (now < due_) return;
     due_ = now + kPeriod;
-    const bool is_new = port_.subscriber_count() > std::exchange(subscribers_, port_.subscriber_count());
     const auto news = map_.news();
-    if (is_new)
+    if (std::exchange(whole_is_due_, false))
       port_.push(whole(nodes));
     else if (news)
       port_.push(grid_of(*news));
@@ -77,7 +74,7 @@ class ShownMap {
   nav::DrawnMap map_{kCell};
   int number_ = 0;
   TimePoint due_{};
-  std::size_t subscribers_ = 0;  // at the last push
+  bool whole_is_due_ = true;  // somebody takes the map who has none of it
   PushServer<idl::OccupancyGrid> port_;
 };
 

@@ -86,11 +86,12 @@ void PushServerEndpoint::publish(ObjectRef&& object) {
   if (subscriber_count() > 0 && !hand_out(object)) wait_for_room(object);
 }
 
-std::size_t PushServerEndpoint::audience() const {
+bool PushServerEndpoint::is_looked_at() const {
   LinkObserver* const observer = home().observer;
-  const bool is_looked_at = observer != nullptr && observer->is_looked_at(component(), contract().name);
-  return subscriber_count() + (is_looked_at ? 1 : 0);
+  return observer != nullptr && observer->is_looked_at(component(), contract().name);
 }
+
+std::size_t PushServerEndpoint::audience() const { return subscriber_count() + (is_looked_at() ? 1 : 0); }
 
 // Returns false if the publisher must wait for room somewhere. Otherwise the last subscriber may have got the
 // publisher's own view.
@@ -172,6 +173,7 @@ void PushServerEndpoint::Edge::attach(PushSink& sink, const UpdateRate& rate) {
     next_due_ = {};
     owed_until.reset();
     server_.subscribed_.push_back(this);
+    ++server_.subscriptions_;
     regrant();
     server_.subscribers_.store(server_.subscribed_.size(), std::memory_order_release);
   }

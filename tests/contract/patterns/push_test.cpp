@@ -188,6 +188,22 @@ CONTRACT_CASE(
   CHECK(number_of(got) == 4);
 }
 
+CONTRACT_CASE("a server sees a subscriber who comes as another leaves", "[contract][push]") {
+  Source source(kit.executive);
+  Listener listener(kit.executive);
+  CHECK_FALSE(source.out.take_new_subscribers());
+  listener.listen(kit, source, {.depth = 4});
+  CHECK(source.out.take_new_subscribers());
+  CHECK_FALSE(source.out.take_new_subscribers());
+  listener.in.unsubscribe();
+  listener.in.subscribe();
+  CHECK(eventually(kit.executive, [&] { return source.out.take_new_subscribers(); }));
+  CHECK(eventually(kit.executive, [&] { return source.out.subscriber_count() == 1; }));
+  listener.in.unsubscribe();
+  CHECK(eventually(kit.executive, [&] { return source.out.subscriber_count() == 0; }));
+  CHECK_FALSE(source.out.take_new_subscribers());
+}
+
 CONTRACT_CASE("subscribing twice counts once, and so does unsubscribing", "[contract][push]") {
   Source source(kit.executive);
   Listener listener(kit.executive);

@@ -98,6 +98,19 @@ TEST_CASE("a MapServer pushes the map once to whoever begins to take it", "[test
   CHECK(again->cells() == first->cells());
 }
 
+TEST_CASE("a MapServer pushes the map to a client that comes as another leaves", "[testing][map_server]") {
+  MapPtr first, again;
+  try_component<MapClient>({.type = "orca.MapServer", .params = {{"map", kGallery}}}, [&](MapClient& client) {
+    client.pushed.subscribe();
+    first = client.pushed.get_update_wait_max(std::chrono::seconds(2));
+    client.pushed.unsubscribe();
+    client.pushed.subscribe();  // within one lap: there is one subscriber, as before
+    again = client.pushed.get_update_wait_max(std::chrono::seconds(2));
+  });
+  REQUIRE(first);
+  CHECK(again);
+}
+
 TEST_CASE("a MapServer refuses what is no map, at its parameter, with what to do", "[testing][map_server]") {
   const TempFolder folder;
   CHECK_THAT(refusal_of({}), Contains("\"map\"") && Contains("name a map, such as \"office.yaml\""));

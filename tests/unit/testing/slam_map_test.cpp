@@ -155,6 +155,22 @@ TEST_CASE("what a SlamLocalizer pushes are changes, which together make its map"
   CHECK(different == 0);
 }
 
+TEST_CASE("a SlamLocalizer pushes the whole map to a client that comes as another leaves",
+          "[testing][slam]") {
+  ObjectPtr<idl::OccupancyGrid> map, first;
+  try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
+    robot.pushed.subscribe();
+    robot.drive(-5.0, 3.0);
+    robot.pushed.unsubscribe();
+    robot.pushed.subscribe();  // within one lap: there is one subscriber, as before
+    for (int i = 0; i < 20; ++i) robot.stand(3.0, 0.5);
+    if (robot.pushed.new_data_arrived()) first = robot.pushed.get_update();
+    map = robot.whole();
+  });
+  REQUIRE(first);
+  CHECK(first->cells().size() == map->cells().size());
+}
+
 TEST_CASE("a SlamLocalizer that was set to another place has a map of another name there",
           "[testing][slam]") {
   ObjectPtr<idl::OccupancyGrid> map;

@@ -34,6 +34,9 @@ class PushServerHandle {
 
   /// Returns how many clients are subscribed now; one more if somebody looks on, such as a recording.
   [[nodiscard]] std::size_t subscriber_count() const;
+  /// Returns whether a client has subscribed, or somebody has begun to look on, since the last call of this function or, before the first,
+  /// since the port was made. Others may have left meanwhile, so subscriber_count() need not have grown.
+  [[nodiscard]] bool take_new_subscribers();
 
  protected:
   /// Stamps the object as an answer to what the component currently handles, and pushes it.
@@ -46,6 +49,8 @@ class PushServerHandle {
   [[nodiscard]] PushServerEndpoint& endpoint() const;
 
   Endpoint* endpoint_ = nullptr;
+  std::uint64_t subscriptions_taken_ = 0;  // by take_new_subscribers()
+  bool was_looked_at_ = false;
 };
 
 /// The server of a Push port. It pushes objects of type T to every subscriber (thesis 7.3, Fig. 7.1).

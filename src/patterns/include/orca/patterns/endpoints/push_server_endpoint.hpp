@@ -60,7 +60,11 @@ class PushServerEndpoint final : public Endpoint {
   void publish(ObjectRef&& object);
 
   [[nodiscard]] std::size_t subscriber_count() const { return subscribers_.load(std::memory_order_acquire); }
-  /// Returns the same, and one more if somebody looks on.
+  /// Returns how often a client has subscribed so far.
+  [[nodiscard]] std::uint64_t subscription_count() const { return subscriptions_; }
+  /// Returns whether somebody looks on, such as a recording.
+  [[nodiscard]] bool is_looked_at() const;
+  /// Returns subscriber_count(), and one more if somebody looks on.
   [[nodiscard]] std::size_t audience() const;
   /// Returns the number of objects pushed so far, with or without subscribers.
   [[nodiscard]] std::uint64_t pushed_count() const { return pushed_; }
@@ -76,6 +80,7 @@ class PushServerEndpoint final : public Endpoint {
 
   std::vector<PushOutlet*> outlets_;
   std::atomic<std::size_t> subscribers_{0};
+  Published<std::uint64_t> subscriptions_;
   Published<std::uint64_t> pushed_;
   Published<Duration::rep> base_period_;
 
