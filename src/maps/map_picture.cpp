@@ -35,13 +35,15 @@ double unlikeness(const GreyImage& image, std::size_t apart, std::size_t from_en
 }
 
 // In a picture what lies one above the other is alike. If pixels one height apart in the file are much more alike than those one width
-// apart, the width is really the height.
+// apart, the width is really the height. A long picture is not judged: there most pixels one height apart lie in the same row, and the
+// walls of a corridor make them alike. Less than kMuch times as long as wide, at least half of them lie in different rows.
 bool is_transposed(const GreyImage& image) {
   constexpr std::size_t kTooSmall = 16;  // [pixels] to say anything
-  constexpr double kMuch = 2.0;
-  if (image.width == image.height || std::min(image.width, image.height) < kTooSmall) return false;
-  const std::size_t most = std::max(image.width, image.height);
-  return kMuch * unlikeness(image, image.height, most) < unlikeness(image, image.width, most);
+  constexpr std::size_t kMuch = 2;
+  const auto [least, most] = std::minmax(image.width, image.height);
+  if (image.width == image.height || least < kTooSmall || most >= kMuch * least) return false;
+  return static_cast<double>(kMuch) * unlikeness(image, image.height, most) <
+         unlikeness(image, image.width, most);
 }
 
 // Between black and white a map has one grey, that of what is not known; in drawn plans edges are soft. A photograph has all greys.

@@ -138,6 +138,23 @@ TEST_CASE("a picture whose width and height are exchanged is refused", "[maps][r
   CHECK(refusal_of_picture(pgm(40, 60, room(40, 60))).empty());
 }
 
+TEST_CASE("a corridor, along whose walls pixels are alike, is no picture with exchanged sides", "[maps]") {
+  const int outside = GENERATE(205, 254);
+  const int doors = GENERATE(0, 4, 8, 16);
+  CAPTURE(outside, doors);
+  // 50 m by 2.4 m within 1000 x 60 pixels, with doors of 0.8 m in both walls.
+  const auto grey_at = [&](int column, int row) {
+    const bool beside = row < 6 || row >= 54 || column < 2 || column >= 998;
+    if (beside) return outside;
+    const bool door = doors > 0 && column % (1000 / doors) >= 20 && column % (1000 / doors) < 36;
+    const bool end = column < 4 || column >= 996;
+    return ((row < 8 || row >= 52) && !door) || end ? 0 : 254;
+  };
+  CHECK(refusal_of_picture(pgm(1000, 60, drawn(1000, 60, grey_at))).empty());
+  const auto upright = drawn(60, 1000, [&](int column, int row) { return grey_at(row, column); });
+  CHECK(refusal_of_picture(pgm(60, 1000, upright)).empty());
+}
+
 TEST_CASE("a photograph is refused, greys as probabilities with mode: scale are not", "[maps][refused]") {
   const auto shaded = drawn(60, 40, [](int column, int row) { return 20 + 3 * column + row; });
   CHECK_THAT(refusal_of_picture(pgm(60, 40, shaded)),
