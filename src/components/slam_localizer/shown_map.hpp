@@ -15,7 +15,8 @@
 
 namespace orca::slam {
 
-/// The map that a SlamLocalizer makes, as others have it: what changes of it goes to whoever takes it. While nobody does, nothing is drawn.
+/// The map that a SlamLocalizer makes, as others have it: what changes of it goes to whoever takes it. It is drawn even while nobody does, so
+/// that no lap has much to draw when somebody comes.
 ///
 /// Thread contract: the component's strand.
 class ShownMap {
@@ -38,23 +39,19 @@ class ShownMap {
   void show(std::span<const nav::SlamNode> nodes, TimePoint now) {
     constexpr std::size_t kMost = 10;  // per lap, so that none takes long
     constexpr Duration kPeriod = std::chrono::seconds(1);
-    if (port_.take_new_subscribers()) whole_is_due_ = true;
-    if (port_.subscriber_count() == 0) return;
     (void)map_.draw(nodes, kMost);
-    if (now < due_) return;
+    if (port_.take_new_subscribers()) whole_is_due_ = true;
+    if (port_.subscriber_count() == 0 || now < due_) return;
     due_ = now + kPeriod;
     const auto news = map_.news();
     if (std::exchange(whole_is_due_, false))
-      port_.push(whole(nodes));
+      port_.push(whole());
     else if (news)
       port_.push(grid_of(*news));
   }
 
-  /// Returns all of the map, as its nodes lie now.
-  [[nodiscard]] Loan<idl::OccupancyGrid> whole(std::span<const nav::SlamNode> nodes) {
-    (void)map_.draw(nodes, nodes.size());
-    return grid_of(map_.whole());
-  }
+  /// Returns all of the map, as far as it is drawn.
+  [[nodiscard]] Loan<idl::OccupancyGrid> whole() const { return grid_of(map_.whole()); }
 
  private:
   static constexpr double kCell = 0.05;  // [m]

@@ -140,7 +140,7 @@ class SlamLocalizer final : public orca::Component {
     if (!slam_)
       return orca::fail(orca::Code::failed_precondition,
                         "there is no map yet: no drifting pose has come that is known");
-    return map_.whole(slam_->nodes());
+    return map_.whole();
   }
 
   void save_state(orca::StateWriter& state) const override { state.write(X_MD_); }
