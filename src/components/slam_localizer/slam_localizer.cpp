@@ -139,7 +139,11 @@ class SlamLocalizer final : public orca::Component {
   orca::Result<orca::Loan<OccupancyGrid>> on_map(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
     if (!slam_)
       return orca::fail(orca::Code::failed_precondition,
-                        "there is no map yet: no drifting pose has come that is known");
+                        "there is no map: the drifting pose is not known, so the map that was made by it is "
+                        "given up; the next known pose begins another");
+    if (slam_->nodes().empty())
+      return orca::fail(orca::Code::failed_precondition,
+                        "there is no map yet: no scan has come at laser that a pose at drifting belongs to");
     return map_.whole();
   }
 

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
@@ -50,6 +52,15 @@ struct Mapper final : Partner {
     drifting.push(std::move(here));
     (void)pose.get_update_wait();
     sleep(std::chrono::milliseconds(100));
+  }
+
+  /// Sends a pose that says that the robot may be anywhere.
+  void lose() {
+    auto somewhere = drifting.loan();
+    somewhere->stamp().ns(now().time_since_epoch().count());
+    somewhere->covariance(anywhere());
+    drifting.push(std::move(somewhere));
+    (void)pose.get_update_wait();
   }
 
   void drive(double from, double to) {
@@ -117,6 +128,18 @@ TEST_CASE("a SlamLocalizer answers with the map that it has made", "[testing][sl
   for (double x = -4.0; x < 5.0; x += 0.25) CHECK(wall(x) == 100);
 }
 
+TEST_CASE("a SlamLocalizer that has seen nothing says so instead of a map of nothing", "[testing][slam]") {
+  std::string before, after;
+  try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
+    before = robot.asked.query(robot.asked.loan()).error().text();
+    robot.drive(-5.0, -4.0);
+    robot.lose();
+    after = robot.asked.query(robot.asked.loan()).error().text();
+  });
+  CHECK_THAT(before, Catch::Contains("there is no map yet: no scan has come at laser"));
+  CHECK_THAT(after, Catch::Contains("there is no map: the drifting pose is not known"));
+}
+
 TEST_CASE("what a SlamLocalizer pushes are changes, which together make its map", "[testing][slam]") {
   Pasted client;
   std::vector<std::size_t> sizes;
@@ -176,8 +199,7 @@ TEST_CASE("a SlamLocalizer that was set to another place has a map of another na
   ObjectPtr<idl::OccupancyGrid> map;
   try_component<Mapper>({.type = "orca.SlamLocalizer"}, [&](Mapper& robot) {
     robot.drive(-5.0, -4.0);
-    robot.stand(4.0, 0.5);
-    robot.stand(4.0, 0.5);
+    for (int i = 0; i < 5; ++i) robot.stand(4.0, 0.5);
     map = robot.whole();
   });
   CHECK(map->name() == "slam 2");
