@@ -27,10 +27,12 @@ class ShownMap {
                        "of its own "
                        "and the name of the map. The whole map to a new subscriber, and with it to all."}) {}
 
-  /// Forgets the map; the next one has another name.
-  void begin_anew() {
+  /// Forgets the map; the next one has another name: the time from which it is. So it is also another one after a swap, or in a new process.
+  void begin_anew(TimePoint now) {
     map_ = nav::DrawnMap(kCell);
-    ++number_;
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(now.time_since_epoch());
+    const auto rest = std::chrono::floor<std::chrono::milliseconds>(now.time_since_epoch() - seconds);
+    name_ = "slam " + std::to_string(seconds.count()) + "." + std::to_string(1000 + rest.count()).substr(1);
     whole_is_due_ = true;
   }
 
@@ -58,7 +60,7 @@ class ShownMap {
 
   [[nodiscard]] Loan<idl::OccupancyGrid> grid_of(const nav::MapPart& part) const {
     auto grid = port_.loan();
-    grid->name(number_ == 1 ? "slam" : "slam " + std::to_string(number_));
+    grid->name(name_);
     grid->corner().x(part.lattice.corner.x);
     grid->corner().y(part.lattice.corner.y);
     grid->resolution(part.lattice.side);
@@ -69,7 +71,7 @@ class ShownMap {
   }
 
   nav::DrawnMap map_{kCell};
-  int number_ = 0;
+  std::string name_;
   TimePoint due_{};
   bool whole_is_due_ = true;  // somebody takes the map who has none of it
   PushServer<idl::OccupancyGrid> port_;

@@ -51,7 +51,7 @@ class SlamLocalizer final : public orca::Component {
   // The pose must not jump, so the correction stays.
   void begin_anew() {
     slam_.emplace();
-    map_.begin_anew();
+    map_.begin_anew(now());
     seen_.clear();
     history_.clear();
     scans_.clear();
