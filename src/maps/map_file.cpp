@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/maps/map_file.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "map_picture.hpp"
 #include "orca/base/input_file.hpp"
 #include "orca/base/output_file.hpp"
+#include "orca/xml/number.hpp"
 
 namespace orca::maps {
 namespace {
@@ -17,11 +19,29 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostText = 64 * 1024;  // [bytes] of a YAML file
 
+Status check_extent(const image::GreyImage& image, double side, const std::string& path) {
+  const std::size_t most = std::max(image.width, image.height);
+  if (most > kMostAlong)
+    return fail(Code::invalid_argument,
+                "the map is " + std::to_string(most) + " pixels long, and a map has at most " +
+                    std::to_string(kMostAlong) + "; cut it",
+                path);
+  if (static_cast<double>(most) * side > kMostExtent)
+    return fail(Code::invalid_argument,
+                std::to_string(most) + " pixels of " + xml::number_text(side) + " m are more than the " +
+                    xml::number_text(kMostExtent) +
+                    " m that a map may be long; correct the resolution, or cut the map",
+                path);
+  return ok();
+}
+
 constexpr double kHalf = 0.5;  // of darkness: grey 127 is occupied, 128 free, as in worlds of the simulator
 
 Result<idl::OccupancyGrid> map_from(const image::GreyImage& image, const MapHeader& header,
                                     const fs::path& picture, const fs::path& named) {
   if (const Status sound = check_picture(image, header.mode, picture.string()); !sound.ok())
+    return sound.error();
+  if (const Status sound = check_extent(image, header.resolution, named.string()); !sound.ok())
     return sound.error();
   idl::OccupancyGrid map = map_of(image, header);
   map.name(named.stem().string());
@@ -37,6 +57,8 @@ Result<idl::OccupancyGrid> read_plan(const std::string& path, double resolution)
                 "the YAML file "
                 "that belongs to it",
                 path);
+  if (!is_side(resolution))
+    return fail(Code::invalid_argument, "the resolution " + wrong_side(resolution), path);
   MapHeader header;
   header.resolution = resolution;
   header.occupied_from = kHalf;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "orca/base/text.hpp"
+#include "orca/maps/map_file.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 
@@ -126,11 +127,11 @@ MapHeader header_of(const Values& values) {
   if (!is_file_name(header.image))
     values.refuse("image", "holds control characters, which no file's name has");
   header.resolution = values.number("resolution");
-  if (!(header.resolution > 0.0))
-    values.refuse("resolution",
-                  "is " + xml::number_text(header.resolution) +
-                      "; it is the side of a pixel in metres and must be positive, such as 0.05");
+  if (!is_side(header.resolution)) values.refuse("resolution", wrong_side(header.resolution));
   header.corner = values.pose("origin");
+  if (!is_corner(header.corner))
+    values.refuse("origin", "is farther away than " + xml::number_text(kMostDistance) +
+                                " m along x or y; choose a frame whose origin is near the building");
   header.negate = yes_or_no(values, "negate");
   header.occupied_from = values.number_within("occupied_thresh", 0.0, 1.0);
   header.free_to = values.number_within("free_thresh", 0.0, 1.0);
@@ -159,6 +160,18 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+bool is_side(double resolution) { return resolution >= kLeastSide && resolution <= kMostSide; }
+
+std::string wrong_side(double resolution) {
+  return "is " + xml::number_text(resolution) + "; it is the side of a pixel in metres and must be from " +
+         xml::number_text(kLeastSide) + " to " + xml::number_text(kMostSide) + ", such as 0.05";
+}
+
+bool is_corner(const Pose2& corner) {
+  return std::isfinite(corner.yaw) && std::fabs(corner.x) <= kMostDistance &&
+         std::fabs(corner.y) <= kMostDistance;
+}
 
 bool is_file_name(std::string_view name) {
   constexpr unsigned char kDelete = 0x7F;

@@ -33,6 +33,15 @@ struct MapHeader {
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<MapHeader> parse_header(std::string_view text, const std::string& path);
 
+/// Returns whether the side of a cell [m] is one that a map may have.
+[[nodiscard]] bool is_side(double resolution);
+
+/// Returns what is wrong with another one, as the end of a sentence about it.
+[[nodiscard]] std::string wrong_side(double resolution);
+
+/// Returns whether a map may have its corner there.
+[[nodiscard]] bool is_corner(const Pose2& corner);
+
 /// Returns whether the file of a picture may have this name: it holds no control characters.
 [[nodiscard]] bool is_file_name(std::string_view name);
 

@@ -13,11 +13,14 @@
 namespace {
 
 using namespace orca::maps;
+using orca::Pose2;
 
 // What is written of a header is read as the same.
 void check(const MapHeader& header) {
-  if (!(header.resolution > 0.0 && std::isfinite(header.corner.x + header.corner.y + header.corner.yaw)))
-    std::abort();
+  const Pose2& corner = header.corner;
+  if (!(header.resolution >= kLeastSide && header.resolution <= kMostSide)) std::abort();
+  if (!(std::fabs(corner.x) <= kMostDistance && std::fabs(corner.y) <= kMostDistance)) std::abort();
+  if (!std::isfinite(corner.yaw)) std::abort();
   const auto again = parse_header(header_text(header), "again.yaml");
   if (!again || again->resolution != header.resolution || !(again->corner == header.corner) ||
       again->image != header.image)

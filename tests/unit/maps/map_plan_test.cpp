@@ -28,6 +28,7 @@ TEST_CASE("a picture alone needs a resolution, a YAML file has its own", "[maps]
   const TempFolder folder;
   const std::string plan = folder.write("map.pgm", pgm(1, 1, {0}));
   CHECK_THAT(fault_of(read_map(plan)), Contains("give the resolution, the side of a pixel in metres"));
+  CHECK_THAT(fault_of(read_map(plan, 50.0)), Contains("the resolution is 50; it is the side of a pixel"));
   CHECK_THAT(fault_of(read_map(folder.write("office.yaml", kHeader), 0.1)),
              Contains("the file has a resolution of its own; leave the other one out"));
 }

@@ -66,7 +66,9 @@ TEST_CASE("values that no map can have are refused at their lines", "[maps][refu
       {{"negate: 0", "mode: ternary\nnegate: 0"},
        ":4: mode is \"ternary\"; it must be trinary, scale or raw"},
       {{"negate: 0", "mode: raw\nnegate: 1"}, ":5: negate is not possible with mode: raw"},
-      {{"origin: [", "origin: ["}, ""}};
+      {{"resolution: 0.05", "resolution: 1e300"}, ":2: resolution is 1e+300; it is the side of a pixel"},
+      {{"resolution: 0.05", "resolution: 1e-300"}, "must be from 0.001 to 10, such as 0.05"},
+      {{"[-1.0, 2.0, 0.0]", "[-1.0, 1e300, 0.0]"}, ":3: origin is farther away than 100000 m"}};
   for (const auto& [change, text] : wrong) {
     CAPTURE(change.second);
     CHECK_THAT(refusal(with(kHeader, change.first, change.second)), Contains(text));
@@ -167,6 +169,19 @@ TEST_CASE("the one grey of what is not known makes no photograph", "[maps]") {
     return column < 5 ? 0 : column < 10 ? 254 : 205;
   });
   CHECK(refusal_of_picture(pgm(60, 40, mostly_unknown)).empty());
+}
+
+TEST_CASE("a map that is too long for a floor is refused", "[maps][refused]") {
+  const auto line = [](int pixels) {
+    return "P5 " + std::to_string(pixels) + " 1 255\n" +
+           std::string(static_cast<std::size_t>(pixels), '\xFE');
+  };
+  CHECK(refusal_of_picture(line(40'000)).empty());
+  CHECK_THAT(refusal_of_picture(line(40'001)), Contains("the map is 40001 pixels long"));
+  const std::string coarse = with(kHeader, "0.05", "0.5");
+  CHECK(fault_of(read_files(coarse, line(4000))).empty());
+  CHECK_THAT(fault_of(read_files(coarse, line(4001))),
+             Contains("4001 pixels of 0.5 m are more than the 2000 m") && Contains("correct the resolution"));
 }
 
 TEST_CASE("a picture that is too large for a map is refused", "[maps][refused]") {

@@ -12,6 +12,13 @@ namespace orca::maps {
 inline constexpr std::size_t kMostCells =
     25'000'000;  ///< of a map that is read: 250 m by 250 m in cells of 5 cm.
 
+inline constexpr double kLeastSide = 0.001;        ///< [m] of a cell of a map that is read.
+inline constexpr double kMostSide = 10.0;          ///< [m] the same at most.
+inline constexpr std::size_t kMostAlong = 40'000;  ///< [cells] of its width and of its height.
+inline constexpr double kMostExtent = 2000.0;      ///< [m] of its width and of its height.
+inline constexpr double kMostDistance =
+    100'000.0;  ///< [m] of its corner from the frame's origin, along x and along y.
+
 /// Reads a map: a YAML file of ROS's map_server with its picture, or a picture alone.
 ///
 /// Row 0 of the map is the lowest of the picture, so y points up (REP 105). The file's `origin` is the outer corner of cell 0 in the
@@ -20,7 +27,7 @@ inline constexpr std::size_t kMostCells =
 ///
 /// @param resolution [m]  side of a pixel of a picture alone; 0: a YAML file says it.
 /// @errors  not_found if a file cannot be opened; data_loss if one is damaged; invalid_argument with what is wrong and what to do: keys
-///          that are missing, misspelt, given twice or no numbers, a resolution that is missing or not positive, a picture in colours, of 16
+///          that are missing, misspelt, given twice or no numbers, a resolution that is missing or out of its range, a corner that is too far away, a map that is too wide or high, a picture in colours, of 16
 ///          bits, of more than kMostCells pixels, with width and height exchanged, or a photograph.
 /// @thread  any.
 [[nodiscard]] Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution = 0.0);

@@ -64,6 +64,8 @@ class KnownMap {
   static constexpr double kOff =
       0.12;  ///< [m] by which an echo may be off a surface of the map and still lie on it.
 
+  /// @pre  grid.cells.size() = grid.lattice.size() > 0; the side of a cell is from 1 mm to 10 m; there are at most 40,000 columns, and
+  ///       neither side of the map is longer than 2 km, which takes 6 bytes for each 5 cm by 5 cm of the rectangle around its surfaces.
   explicit KnownMap(FloorGrid grid);
 
   [[nodiscard]] const FloorGrid& grid() const { return grid_; }
