@@ -48,12 +48,14 @@ std::string advice_about(const std::string& format, const std::string& path) {
          " " + std::filesystem::path(name).replace_extension(".png").string() + "\"";
 }
 
-Status detail::check_size(std::size_t width, std::size_t height, const std::string& path) {
+Status detail::check_size(std::size_t width, std::size_t height, const std::string& path,
+                          std::size_t most_pixels) {
   if (width == 0 || height == 0) return fail(Code::data_loss, "the picture has no pixels", path);
-  if (width > kMaxPixels / height)
+  if (width > most_pixels / height)
     return fail(Code::invalid_argument,
                 "the picture has " + std::to_string(width) + " x " + std::to_string(height) +
-                    " pixels; at most 100 million are read. Scale it down",
+                    " pixels; at most " + std::to_string(most_pixels / 1'000'000) +
+                    " million are read. Scale it down",
                 path);
   return ok();
 }
@@ -64,16 +66,16 @@ constexpr std::size_t kMaxImageBytes = 1'000'000'000;  // a text of 100 million 
 
 }  // namespace
 
-Result<GreyImage> read_image(const std::string& path) {
+Result<GreyImage> read_image(const std::string& path, std::size_t most_pixels) {
   const Result<std::string> read = read_input_file(path, kMaxImageBytes);
   if (!read) return fail(read.error().code, "cannot read the picture: " + read.error().message, path);
-  return decode_image(*read, path);
+  return decode_image(*read, path, most_pixels);
 }
 
-Result<GreyImage> decode_image(std::string_view bytes, const std::string& path) {
+Result<GreyImage> decode_image(std::string_view bytes, const std::string& path, std::size_t most_pixels) {
   if (bytes.empty()) return fail(Code::data_loss, "the file is empty; expected a PNG or PGM picture", path);
-  if (bytes.starts_with(kPng)) return detail::decode_png(bytes, path);
-  if (is_picture(bytes)) return detail::decode_pgm(bytes, path);
+  if (bytes.starts_with(kPng)) return detail::decode_png(bytes, path, most_pixels);
+  if (is_picture(bytes)) return detail::decode_pgm(bytes, path, most_pixels);
   if (const std::string format = foreign_picture(bytes); !format.empty())
     return fail(Code::invalid_argument, advice_about(format, path), path);
   return fail(Code::invalid_argument, "neither a PNG nor a PGM picture (P2 or P5); convert it to PNG", path);

@@ -78,14 +78,14 @@ Status read_binary_pixels(const Tokens& tokens, std::size_t largest, GreyImage& 
 
 }  // namespace
 
-Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path) {
+Result<GreyImage> decode_pgm(std::string_view bytes, const std::string& path, std::size_t most_pixels) {
   Tokens tokens(bytes);
   const auto width = tokens.number();
   const auto height = tokens.number();
   const auto largest = tokens.number();
   if (!width || !height || !largest)
     return damaged_pgm("no width, height and largest value in its header", path);
-  if (const Status size = check_size(*width, *height, path); !size) return size.error();
+  if (const Status size = check_size(*width, *height, path, most_pixels); !size) return size.error();
   if (*largest == 0 || *largest > 65535)
     return damaged_pgm("largest value " + std::to_string(*largest) + ", expected 1 to 65535", path);
   // Checked before the allocation, so that a short file cannot reserve memory for a huge picture.

@@ -93,13 +93,14 @@ void append_greys(const std::vector<std::uint8_t>& samples, bool coloured, bool 
 
 }  // namespace
 
-Result<GreyImage> decode_png(std::string_view bytes, const std::string& path) {
+Result<GreyImage> decode_png(std::string_view bytes, const std::string& path, std::size_t most_pixels) {
   if (const Status sound = check_chunks(bytes, path); !sound) return sound.error();
   PngReader reader;
   png_image& image = reader.image;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
     return damaged_png(image.message, path);
-  if (const Status size = check_size(image.width, image.height, path); !size) return size.error();
+  if (const Status size = check_size(image.width, image.height, path, most_pixels); !size)
+    return size.error();
   const bool coloured = (image.format & PNG_FORMAT_FLAG_COLOR) != 0;
   const bool transparent = (image.format & PNG_FORMAT_FLAG_ALPHA) != 0;
   const bool deep = (image.format & PNG_FORMAT_FLAG_LINEAR) != 0;  // 16 bits in the file

@@ -49,7 +49,7 @@ Result<idl::OccupancyGrid> map_from(const image::GreyImage& image, const MapHead
 }
 
 Result<idl::OccupancyGrid> read_plan(const std::string& path, double resolution) {
-  const Result<image::GreyImage> image = image::read_image(path);
+  const Result<image::GreyImage> image = image::read_image(path, kMostCells);
   if (!image) return image.error();
   if (!(resolution > 0.0))
     return fail(Code::invalid_argument,
@@ -74,7 +74,7 @@ Result<idl::OccupancyGrid> read_with_header(const std::string& text, const std::
     return fail(Code::invalid_argument, "the file has a resolution of its own; leave the other one out",
                 path);
   const fs::path picture = (fs::path(path).parent_path() / header->image).lexically_normal();
-  const Result<image::GreyImage> image = image::read_image(picture.string());
+  const Result<image::GreyImage> image = image::read_image(picture.string(), kMostCells);
   if (!image)
     return fail(
         image.error().code,

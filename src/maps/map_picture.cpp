@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "orca/maps/map_file.hpp"
-
 namespace orca::maps {
 namespace {
 
@@ -88,10 +86,6 @@ std::array<std::uint8_t, 256> cells_of_greys(const MapHeader& header) {
 
 Status check_picture(const GreyImage& image, MapMode mode, const std::string& path) {
   const auto refused = [&](const std::string& why) { return fail(Code::invalid_argument, why, path); };
-  if (image.width > kMostCells / image.height)
-    return refused(
-        "the picture has " + size_text(image) +
-        " pixels, and a map at most 25 million; scale it down, and give the resolution that it has then");
   if (image.deep)
     return refused(
         "the picture has 16 bits a pixel, and a map has 8; convert it, for instance with \"convert OLD "

@@ -46,7 +46,7 @@ void check(const orca::image::GreyImage& picture, MapMode mode) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   if (orca::image::is_picture(bytes)) {
-    const auto picture = orca::image::decode_image(bytes, "fuzz");
+    const auto picture = orca::image::decode_image(bytes, "fuzz", kMostCells);
     if (!picture) return 0;
     for (const MapMode mode : {MapMode::trinary, MapMode::scale, MapMode::raw}) check(*picture, mode);
     return 0;

@@ -184,7 +184,13 @@ TEST_CASE("a map that is too long for a floor is refused", "[maps][refused]") {
              Contains("4001 pixels of 0.5 m are more than the 2000 m") && Contains("correct the resolution"));
 }
 
-TEST_CASE("a picture that is too large for a map is refused", "[maps][refused]") {
-  const std::string large = "P5 5001 5000 255\n" + std::string(5001 * 5000, '\xFE');
-  CHECK_THAT(refusal_of_picture(large), Contains("5001 x 5000 pixels, and a map at most 25 million"));
+TEST_CASE("a picture that is too large for a map is refused before its pixels are read", "[maps][refused]") {
+  const std::string only_head = "P5 5001 5000 255\n";
+  CHECK_THAT(refusal_of_picture(only_head), Contains("5001 x 5000 pixels; at most 25 million are read"));
+  CHECK_THAT(refusal_of_picture("P5 5000 5000 255\n"), Contains("fewer pixels than the header announces"));
+  std::string png = orca::test::png_row(orca::test::PngColour::grey, 8, {0});
+  // The width and height of its head, whose check sum is that of its name and content.
+  png.replace(16, 8, orca::test::big_endian(10'000, 4) + orca::test::big_endian(2501, 4));
+  png.replace(29, 4, orca::test::big_endian(orca::test::crc_of(png.substr(12, 17)), 4));
+  CHECK_THAT(refusal_of_picture(png), Contains("10000 x 2501 pixels; at most 25 million are read"));
 }

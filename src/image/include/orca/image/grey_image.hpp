@@ -22,6 +22,8 @@ struct GreyImage {
   bool deep = false;      ///< The file has more than 8 bits a sample.
 };
 
+inline constexpr std::size_t kMostPixels = 100'000'000;  ///< that are read unless the caller wants fewer.
+
 /// Reads a PNG or PGM (P2, P5) file, distinguished by its first bytes.
 ///
 /// The grey of a PNG is what a viewer shows. An `sRGB` tag is followed, else a `gAMA` tag; without either, samples of
@@ -30,13 +32,15 @@ struct GreyImage {
 /// ignored. The values of a PGM, which has no tags, are proportional to the grey.
 ///
 /// @source  W3C, Portable Network Graphics (PNG) Specification, 2nd edition, 11.3.3.2 and 11.3.3.5, 13.13 to 13.16.
+/// @param most_pixels  that it may have; a larger one is refused before it takes memory.
 /// @errors  not_found if the file cannot be opened; data_loss if it is damaged; invalid_argument if it is
-///          neither format or larger than 100 million pixels.
+///          neither format or too large.
 /// @thread  any.
-[[nodiscard]] Result<GreyImage> read_image(const std::string& path);
+[[nodiscard]] Result<GreyImage> read_image(const std::string& path, std::size_t most_pixels = kMostPixels);
 
 /// Reads such a picture from the bytes of the whole file; `path` only appears in errors.
-[[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, const std::string& path);
+[[nodiscard]] Result<GreyImage> decode_image(std::string_view bytes, const std::string& path,
+                                             std::size_t most_pixels = kMostPixels);
 
 /// Returns the bytes of a PNG file of 8 bits a pixel. What it does not show stays out: `opaque` and the file's facts.
 /// @pre  grey.size() = width * height > 0.
