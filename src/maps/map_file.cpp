@@ -128,17 +128,23 @@ Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution) 
 
 Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view picture_name) {
   const std::size_t cells = map.cells().size();
-  if (cells == 0 || cells != std::size_t{map.columns()} * map.rows() || !(map.resolution() > 0.0))
+  if (cells == 0 || cells != std::size_t{map.columns()} * map.rows())
     return fail(Code::invalid_argument, "the map has " + std::to_string(map.columns()) + " x " +
-                                            std::to_string(map.rows()) + " cells of " +
-                                            std::to_string(map.resolution()) + " m, and values for " +
+                                            std::to_string(map.rows()) + " cells, and values for " +
                                             std::to_string(cells) + "; there is nothing to write");
+  const Pose2 corner{map.corner().x(), map.corner().y(), map.corner().orientation()};
+  if (!is_side(map.resolution()) || !is_corner(corner))
+    return fail(Code::invalid_argument,
+                "the map has cells of " + xml::number_text(map.resolution()) + " m and its corner at (" +
+                    xml::number_text(corner.x) + " m, " + xml::number_text(corner.y) + " m, " +
+                    xml::number_text(corner.yaw) +
+                    " rad), which no map that is read may have; ask its server for another");
   if (!is_file_name(picture_name))
     return fail(Code::invalid_argument, "the name holds control characters; choose another one");
   MapHeader header;
   header.image = picture_name;
   header.resolution = map.resolution();
-  header.corner = {map.corner().x(), map.corner().y(), map.corner().orientation()};
+  header.corner = corner;
   const Result<std::string> picture = image::encode_png(picture_of(map));
   if (!picture) return picture.error();
   return MapTexts{*picture, header_text(header)};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 
 #include "map_files.hpp"
 #include "png_writer.hpp"
@@ -93,6 +94,26 @@ TEST_CASE("a picture whose name holds control characters is refused, in both dir
   map.resolution(0.05);
   map.cells({0});
   CHECK_FALSE(texts_of(map, "map\n.png"));
+}
+
+TEST_CASE("a map that would not be read again is not written", "[maps][refused]") {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const auto fault = [](double resolution, double x, double yaw) {
+    idl::OccupancyGrid map;
+    map.columns(1);
+    map.rows(1);
+    map.cells({0});
+    map.resolution(resolution);
+    map.corner().x(x);
+    map.corner().orientation(yaw);
+    const Result<MapTexts> texts = texts_of(map, "map.png");
+    return texts ? "" : texts.error().text();
+  };
+  CHECK(fault(0.05, 1.0, 0.5).empty());
+  CHECK_THAT(fault(infinite, 0.0, 0.0), Contains("cells of inf m"));
+  CHECK_THAT(fault(std::nan(""), 0.0, 0.0), Contains("which no map that is read may have"));
+  CHECK_THAT(fault(0.05, infinite, 0.0), Contains("its corner at (inf m, 0 m, 0 rad)"));
+  CHECK_THAT(fault(0.05, 0.0, std::nan("")), Contains("which no map that is read may have"));
 }
 
 TEST_CASE("files that are not there are refused with who names them", "[maps][refused]") {

@@ -40,8 +40,8 @@ struct MapTexts {
 
 /// Returns the files of a map. Cells from 65 % on are occupied, up to 19 % free; others are not known.
 /// @param picture_name  of the picture's file, as the YAML file is to name it.
-/// @errors  invalid_argument if the map has no cells, not as many as its size says, or no positive resolution, or if the name
-///          holds control characters.
+/// @errors  invalid_argument if the map has no cells, not as many as its size says, or a resolution or a corner that read_map()
+///          would refuse, or if the name holds control characters. A map that is larger than read_map() takes is no error.
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view picture_name);
 
