@@ -2,7 +2,9 @@
 #include "orca/maps/map_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -83,18 +85,19 @@ Result<idl::OccupancyGrid> read_with_header(const std::string& text, const std::
   return map_from(*image, *header, picture, path);
 }
 
-// A temporary file that is gone unless it has got its name.
+// A temporary file, which nobody else has, that is gone unless it has got its name.
 class Draft {
  public:
-  explicit Draft(std::string name) : name_(std::move(name)), draft_(name_ + ".new") {}
+  explicit Draft(std::string name) : name_(std::move(name)) {}
   ~Draft() {
     std::error_code ignored;
-    if (!kept_) fs::remove(draft_, ignored);
+    if (ours_) fs::remove(draft_, ignored);
   }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
 
-  Status write(const std::string& bytes) const {
+  Status write(const std::string& bytes) {
+    if (Status claimed = claim(); !claimed.ok()) return claimed;
     OutputFile file("the map");
     if (Status opened = file.open(draft_); !opened.ok()) return opened;
     file.write(bytes);
@@ -105,14 +108,29 @@ class Draft {
     std::error_code error;
     fs::rename(draft_, name_, error);
     if (error) return fail(Code::unavailable, "cannot give the map its name: " + error.message(), name_);
-    kept_ = true;
+    ours_ = false;
     return ok();
   }
 
  private:
+  // Makes a file of a name that is not taken.
+  Status claim() {
+    constexpr int kTries = 1000;
+    for (int i = 0; i < kTries; ++i) {
+      draft_ = name_ + ".new" + (i == 0 ? "" : std::to_string(i));
+      if (std::FILE* const made = std::fopen(draft_.c_str(), "wxe")) {
+        std::fclose(made);
+        ours_ = true;
+        return ok();
+      }
+      if (errno != EEXIST) break;
+    }
+    return fail(Code::unavailable, std::string("cannot write the map: ") + std::strerror(errno), draft_);
+  }
+
   const std::string name_;
-  const std::string draft_;
-  bool kept_ = false;
+  std::string draft_;
+  bool ours_ = false;
 };
 
 }  // namespace

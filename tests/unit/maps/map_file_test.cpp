@@ -139,6 +139,19 @@ TEST_CASE("a map is not written over files that are there, and leaves nothing ha
   CHECK(files == 1);
 }
 
+TEST_CASE("files beside a map that is written stay as they are", "[maps]") {
+  const TempFolder folder;
+  const std::vector<std::string> others{folder.write("kitchen.png.new", "a picture"),
+                                        folder.write("kitchen.yaml.new", "a list"),
+                                        folder.write("kitchen.yaml.new1", "another list")};
+  REQUIRE(write_map(small_map(), folder.file("kitchen")).ok());
+  CHECK(read_map(folder.file("kitchen.yaml")));
+  CHECK(read_text(others[0]) == "a picture");
+  CHECK(read_text(others[1]) == "a list");
+  CHECK(read_text(others[2]) == "another list");
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 5);
+}
+
 TEST_CASE("Python's Pillow and PyYAML read a map that is written", "[maps][tool]") {
   const TempFolder folder;
   REQUIRE(write_map(small_map(), folder.file("a \"quoted\" name")).ok());
