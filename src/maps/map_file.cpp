@@ -139,6 +139,9 @@ Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution) 
   const Result<std::string> beginning = read_input_file(path, kMostText + 1);
   if (!beginning)
     return fail(beginning.error().code, "cannot read the map: " + beginning.error().message, path);
+  if (beginning->empty())
+    return fail(Code::data_loss, "the file is empty; expected a YAML file of ROS, or a PNG or PGM picture",
+                path);
   const bool is_picture = image::is_picture(*beginning) || !image::foreign_picture(*beginning).empty();
   if (is_picture || beginning->size() > kMostText) return read_plan(path, resolution);
   return read_with_header(*beginning, path, resolution);

@@ -80,9 +80,16 @@ TEST_CASE("what is no YAML, and no list of keys, is refused", "[maps][refused]")
   CHECK_THAT(refusal("image: [map.pgm\n"),
              Contains("this is no YAML (") && Contains("expected lines such as \"resolution: 0.05\""));
   CHECK_THAT(refusal("a map\n"), Contains("this is no map: expected lines such as \"resolution: 0.05\""));
-  CHECK_THAT(refusal(""), Contains("this is no map"));
+  CHECK_THAT(refusal("# nothing\n"), Contains("this is no map"));
   CHECK_THAT(refusal(std::string(10'000, '[')),
              Contains("this is no YAML (") && Contains("expected lines such as \"resolution: 0.05\""));
+}
+
+TEST_CASE("a file that is empty is refused as such, whatever it is called", "[maps][refused]") {
+  const TempFolder folder;
+  CHECK_THAT(fault_of(read_map(folder.write("plan.png", ""), 0.1)),
+             Contains("plan.png: the file is empty; expected"));
+  CHECK_THAT(refusal(""), Contains("office.yaml: the file is empty; expected"));
 }
 
 TEST_CASE("a picture whose name holds control characters is refused, in both directions", "[maps][refused]") {
