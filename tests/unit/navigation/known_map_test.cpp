@@ -49,6 +49,16 @@ TEST_CASE("a surface whose other side is not known faces the known one", "[navig
   CHECK(faced > 60);
 }
 
+TEST_CASE("a cell of 50 to 100 per cent is occupied, one above not known", "[navigation]") {
+  const FloorGrid grid{{{0.0, 0.0}, 0.05, 6, 1}, {0, 49, 50, 100, 101, 254}};
+  const auto occupied = [&](int column) { return grid.occupied({column, 0}); };
+  const auto free = [&](int column) { return grid.free({column, 0}); };
+  CHECK((free(0) && free(1)));
+  CHECK((occupied(2) && occupied(3)));
+  CHECK_FALSE((occupied(4) || free(4)));
+  CHECK_FALSE((occupied(5) || free(5)));
+}
+
 TEST_CASE("a map says how far one sees, and where it does not know", "[navigation]") {
   FloorGrid grid = test::two_rooms_grid();
   for (std::size_t i = 0; i < grid.cells.size(); ++i)

@@ -14,14 +14,16 @@ namespace orca::nav {
 
 /// A map of cells as people keep it.
 struct FloorGrid {
-  static constexpr std::uint8_t kUnknown = 255;
+  static constexpr std::uint8_t kUnknown = 255;  ///< As all above kMost.
+  static constexpr std::uint8_t kMost = 100;     ///< [%]
   static constexpr std::uint8_t kOccupied = 50;  ///< [%] from which a cell counts as occupied.
 
   Lattice lattice;
-  std::vector<std::uint8_t> cells;  ///< [%] lattice.size() of them: 0 free to 100 occupied, or kUnknown.
+  std::vector<std::uint8_t>
+      cells;  ///< [%] lattice.size() of them: 0 free to kMost occupied; above: not known.
 
   [[nodiscard]] bool occupied(Cell cell) const {
-    return holds(cell) && at(cell) >= kOccupied && at(cell) != kUnknown;
+    return holds(cell) && at(cell) >= kOccupied && at(cell) <= kMost;
   }
   [[nodiscard]] bool free(Cell cell) const { return holds(cell) && at(cell) < kOccupied; }
 
