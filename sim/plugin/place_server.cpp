@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,9 +23,10 @@ class PlaceServer final : public orca::Component {
   orca::Status configure() override {
     if (world_file_->empty())
       return world_file_.refuse("it is not set; name a world, e.g. \"../sim/worlds/office.xml\"");
-    orca::xml::Diagnostics diagnostics;
-    std::optional<orca::sim::WorldModel> world = orca::sim::read_world(*world_file_, {}, diagnostics);
-    if (diagnostics.has_errors()) return world_file_.refuse(diagnostics.sorted().front().text());
+    std::vector<std::string> warnings;
+    orca::Result<orca::sim::WorldModel> world = orca::sim::read_world(*world_file_, warnings);
+    for (const std::string& warning : warnings) log_warning(warning);
+    if (!world) return world_file_.refuse(world.error().message);
     world_ = std::move(*world);
     map_ = {};
     return orca::ok();

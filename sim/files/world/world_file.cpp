@@ -145,6 +145,24 @@ std::optional<WorldModel> read_world(const std::string& path, const BitmapScale&
                        diagnostics);
 }
 
+Result<WorldModel> read_world(const std::string& path, std::vector<std::string>& warnings) {
+  constexpr std::size_t kShown = 20;
+  xml::Diagnostics diagnostics;
+  std::optional<WorldModel> world = read_world(path, {}, diagnostics);
+  std::string errors;
+  std::size_t count = 0;
+  for (const xml::Diagnostic& diagnostic : diagnostics.sorted()) {
+    if (diagnostic.severity == xml::Severity::warning) {
+      warnings.push_back(diagnostic.text());
+    } else if (++count <= kShown) {
+      errors += (count > 1 ? "; " : "") + diagnostic.text();
+    }
+  }
+  if (count > kShown) errors += "; and " + std::to_string(count - kShown) + " more";
+  if (!world || count > 0) return fail(Code::invalid_argument, errors);
+  return std::move(*world);
+}
+
 std::optional<WorldModel> read_world_text(std::string_view text, const std::string& file_name,
                                           xml::Diagnostics& diagnostics, std::optional<std::uint64_t> seed) {
   const std::size_t before = diagnostics.error_count();

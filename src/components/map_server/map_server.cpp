@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
@@ -49,9 +49,10 @@ class MapServer final : public orca::Component {
   }
 
   [[nodiscard]] orca::Result<OccupancyGrid> draw_world() const {
-    orca::xml::Diagnostics diagnostics;
-    const std::optional<orca::sim::WorldModel> world = orca::sim::read_world(*file_, {}, diagnostics);
-    if (!world) return orca::fail(orca::Code::invalid_argument, diagnostics.sorted().front().text());
+    std::vector<std::string> warnings;
+    const orca::Result<orca::sim::WorldModel> world = orca::sim::read_world(*file_, warnings);
+    for (const std::string& warning : warnings) log_warning(warning);
+    if (!world) return world.error();
     const double cell = *resolution_ > 0.0 ? *resolution_ : kWorldCell;
     const orca::Result<orca::sim::Occupancy> drawn = orca::sim::occupancy_of(*world, cell, kWorldHeight);
     if (!drawn) return drawn.error();

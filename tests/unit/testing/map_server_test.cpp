@@ -119,3 +119,14 @@ TEST_CASE("a MapServer refuses what is no map, at its parameter, with what to do
              Contains("give the resolution, the side of a pixel in metres"));
   CHECK_THAT(refusal_of({{"map", folder.write("world.xml", "<wrold/>")}}), Contains("world.xml:1"));
 }
+
+TEST_CASE("a MapServer refuses a world with all its errors, behind whatever warnings",
+          "[testing][map_server]") {
+  const TempFolder folder;
+  folder.write("plan.pgm", "P2 6 1 255 0 255 200 200 200 200\n");  // light grey, a warning
+  const std::string bitmap = "<bitmap name=\"plan\" file=\"plan.pgm\" resolution=\"0.1\"/>";
+  const std::string file =
+      folder.write("world.xml", "<world>\n" + bitmap + "\n<wal/>\n<obstacl/>\n</world>\n");
+  const std::string refusal = refusal_of({{"map", file}});
+  CHECK_THAT(refusal, Contains("world.xml:3") && Contains("world.xml:4") && !Contains("warning"));
+}

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "orca/base/result.hpp"
 #include "orca/sim/bitmap.hpp"
 #include "orca/xml/diagnostics.hpp"
 
@@ -21,6 +23,11 @@ namespace orca::sim {
 /// @return nothing if there was any error.
 [[nodiscard]] std::optional<WorldModel> read_world(const std::string& path, const BitmapScale& scale,
                                                    xml::Diagnostics& diagnostics);
+
+/// Does the same for a caller that shows one text; a bitmap needs a scale and is refused.
+/// @param warnings  receives them, one line each, also if there are errors.
+/// @errors  invalid_argument with all errors, at most 20 of them.
+[[nodiscard]] Result<WorldModel> read_world(const std::string& path, std::vector<std::string>& warnings);
 
 /// Reads a world from XML in memory; `file_name` appears in positions, and bitmaps are searched beside it.
 /// @param seed  seed of all generated things, instead of the file's own.
