@@ -58,16 +58,9 @@ class PlaceServer final : public orca::Component {
   }
 
   [[nodiscard]] orca::Loan<orca::idl::OccupancyGrid> map_of(const orca::sim::Occupancy& cells) const {
-    constexpr std::uint8_t kOccupied = 100;
     auto map = orca::make_object<orca::idl::OccupancyGrid>();
     map->name() = world_.name;
-    map->corner().x(cells.corner.x);
-    map->corner().y(cells.corner.y);
-    map->resolution(cells.resolution);
-    map->columns(static_cast<std::uint32_t>(cells.columns));
-    map->rows(static_cast<std::uint32_t>(cells.rows));
-    map->cells().reserve(cells.cells.size());
-    for (const bool covered : cells.cells) map->cells().push_back(covered ? kOccupied : 0);
+    orca::sim::fill(*map, cells);
     return map;
   }
 

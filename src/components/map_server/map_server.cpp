@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <chrono>
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,12 +57,7 @@ class MapServer final : public orca::Component {
     if (!drawn) return drawn.error();
     OccupancyGrid map;
     map.name(world->name);
-    map.corner().x(drawn->corner.x);
-    map.corner().y(drawn->corner.y);
-    map.resolution(drawn->resolution);
-    map.columns(static_cast<std::uint32_t>(drawn->columns));
-    map.rows(static_cast<std::uint32_t>(drawn->rows));
-    for (const bool covered : drawn->cells) map.cells().push_back(covered ? 100 : 0);
+    orca::sim::fill(map, *drawn);
     return map;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -24,5 +25,18 @@ struct Occupancy {
 /// @errors  invalid_argument if the world needs more than 4 million cells, or the resolution is not positive.
 /// @thread  pure function; any thread.
 [[nodiscard]] Result<Occupancy> occupancy_of(const WorldModel& world, double resolution, double height);
+
+/// Fills in an idl::OccupancyGrid, which the simulator does not know: cells are 100, occupied, or 0, free. The name stays as it is.
+/// @thread  as for the grid.
+template <class Grid>
+void fill(Grid& grid, const Occupancy& from) {
+  grid.corner().x(from.corner.x);
+  grid.corner().y(from.corner.y);
+  grid.resolution(from.resolution);
+  grid.columns(static_cast<std::uint32_t>(from.columns));
+  grid.rows(static_cast<std::uint32_t>(from.rows));
+  grid.cells().clear();
+  for (const bool covered : from.cells) grid.cells().push_back(covered ? 100 : 0);
+}
 
 }  // namespace orca::sim
