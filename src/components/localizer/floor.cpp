@@ -24,6 +24,12 @@ Status check(const idl::OccupancyGrid& grid) {
     return wrong("it has " + std::to_string(grid.cells().size()) + " cells in " +
                  std::to_string(grid.columns()) + " columns and " + std::to_string(grid.rows()) +
                  " rows; expected columns times rows, at most " + std::to_string(kMostCells));
+  const std::uint64_t along = std::max(grid.columns(), grid.rows());
+  if (along > nav::KnownMap::kMostAlong ||
+      static_cast<double>(along) * grid.resolution() > nav::KnownMap::kMostExtent)
+    return wrong("it is " + std::to_string(along) + " cells of " + std::to_string(grid.resolution()) +
+                 " m long; expected at most " + std::to_string(nav::KnownMap::kMostAlong) + " cells and " +
+                 std::to_string(nav::KnownMap::kMostExtent) + " m");
   if (!std::isfinite(grid.corner().x()) || !std::isfinite(grid.corner().y()) ||
       !std::isfinite(grid.corner().orientation()))
     return wrong("its corner is not finite");

@@ -201,6 +201,14 @@ TEST_CASE("a Localizer takes maps and parts of them, and none that says nothing 
     room.maps.push(std::move(bad));
     (void)room.stand(10);
     CHECK(room.is_known());
+    auto thin = make_object<idl::OccupancyGrid>();
+    thin->resolution(kSide);
+    thin->columns(50'000);
+    thin->rows(1);
+    thin->cells().assign(50'000, 0);
+    room.maps.push(std::move(thin));
+    (void)room.stand(10);
+    CHECK(room.is_known());
     // A part in which somebody has drawn a wall across the room: the scan does not fit any more.
     auto part = make_object<idl::OccupancyGrid>();
     part->name("room");

@@ -62,12 +62,14 @@ struct Explanation {
 /// Thread contract: const functions from any thread.
 class KnownMap {
  public:
-  static constexpr double kReach = 2.0;  ///< [m]
+  static constexpr double kReach = 2.0;          ///< [m]
+  static constexpr int kMostAlong = 40'000;      ///< [cells]
+  static constexpr double kMostExtent = 2000.0;  ///< [m]
   static constexpr double kOff =
       0.12;  ///< [m] by which an echo may be off a surface of the map and still lie on it.
 
-  /// @pre  grid.cells.size() = grid.lattice.size() > 0; the side of a cell is from 1 mm to 10 m; there are at most 40,000 columns, and
-  ///       neither side of the map is longer than 2 km, which takes 6 bytes for each 5 cm by 5 cm of the rectangle around its surfaces.
+  /// @pre  grid.cells.size() = grid.lattice.size() > 0; the side of a cell is from 1 mm to 10 m; neither side of the map is longer than
+  ///       kMostAlong and kMostExtent. It takes 6 bytes for each 5 cm by 5 cm of the rectangle around its surfaces.
   explicit KnownMap(FloorGrid grid);
 
   [[nodiscard]] const FloorGrid& grid() const { return grid_; }
