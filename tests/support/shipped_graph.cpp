@@ -88,6 +88,7 @@ std::vector<std::string> shipped_graphs() {
 
 Words needed_arguments(const std::string& graph, const TempFolder& folder) {
   if (graph == "replay") return {"--set", "recording=" + recording_in(folder)};
+  if (graph == "intel_log") return {"--set", "log=" + recording_in(folder)};
   if (graph != "scout_hospital") return {};
   return {"--set", "map=" + folder.write("hall.pgm", hall_with_pillar()),
           "--set", "map_width=20 m",

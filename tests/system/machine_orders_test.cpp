@@ -87,6 +87,7 @@ const Meanings kAnywhere{
     {"FACTOR|fast", {"2"}},
     {"KIND", {"component", "group", "port", "param", "process", "system"}},
     {"SHELL", {"bash", "zsh"}},
+    {"save", {"save"}},
 };
 
 // The answer of every machine to who would pause real time.
