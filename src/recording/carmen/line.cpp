@@ -68,6 +68,7 @@ class Words {
 
   std::vector<double> ranges(std::size_t count) {
     std::vector<double> all;
+    all.reserve(std::min(count, rest_.size() / 2 + 1));  // as many as there can be in what is left
     for (std::size_t i = 0; i < count && fault_.empty(); ++i) {
       const double range = any_number("readings");
       if (range < 0.0) find_fault("a reading is negative");

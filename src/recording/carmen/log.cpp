@@ -21,7 +21,6 @@ namespace orca::carmen {
 namespace {
 
 constexpr std::size_t kLongest = std::size_t{4} << 20;      // [bytes] of a line
-constexpr std::size_t kMostEntries = std::size_t{1} << 24;  // about a hundred days of odometry at 2 Hz
 constexpr Duration kLittle = 1s;
 constexpr Duration kMuch = 3600s;
 constexpr int kGap = 10;  // usual intervals
@@ -144,6 +143,17 @@ void leave_out_cut_rows(Log& log) {
   });
 }
 
+// Returns about what a line takes in memory once it is read, with what maps and heaps add [bytes].
+std::size_t memory_of(const Line& line) {
+  constexpr std::size_t kAdded = 128;
+  const auto* const scan = std::get_if<ScanLine>(&line.content);
+  const auto* const param = std::get_if<ParamLine>(&line.content);
+  std::size_t more = kAdded;
+  if (scan != nullptr) more += scan->ranges.capacity() * sizeof(double);
+  if (param != nullptr) more += param->name.size() + param->value.size();
+  return std::holds_alternative<NoLine>(line.content) ? 0 : sizeof(Entry) + more;
+}
+
 void take(Line line, std::size_t number, Log& log) {
   if (const auto* const param = std::get_if<ParamLine>(&line.content))
     log.params[param->name] = param->value;
@@ -204,7 +214,7 @@ std::vector<std::string> Flaws::texts() const {
   return all;
 }
 
-Result<Log> read_log(const std::function<std::string_view()>& next) {
+Result<Log> read_log(const std::function<std::string_view()>& next, std::size_t most) {
   Log log;
   Lines lines(next);
   std::optional<ScanTable> table;
@@ -213,12 +223,16 @@ Result<Log> read_log(const std::function<std::string_view()>& next) {
     if (++number == 1) table = ScanTable::begins_with(*text);
     Result<Line> line = text->size() < kLongest ? table ? table->read_row(*text) : read_line(*text)
                                                 : fail(Code::data_loss, "it is longer than 4 MiB");
-    if (line)
+    if (line) {
+      const std::size_t more = memory_of(*line);
+      if (more > most)
+        return fail(Code::invalid_argument,
+                    "it is too large from line " + std::to_string(number) + " on; cut it into pieces");
+      most -= more;
       take(*std::move(line), number, log);
-    else
+    } else {
       log.flaws.damaged.note(number, line.error().message);
-    if (log.entries.size() > kMostEntries)
-      return fail(Code::invalid_argument, "it has more than 16 million readings; cut it into pieces");
+    }
   }
   if (log.entries.empty())
     return fail(Code::data_loss,

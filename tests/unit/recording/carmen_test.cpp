@@ -264,6 +264,29 @@ TEST_CASE("a log without odometry and scans is refused", "[recording][carmen]") 
   }
 }
 
+TEST_CASE("a log that takes more memory than it may is refused, with the line, before it is read",
+          "[recording][carmen]") {
+  std::string readings;
+  for (int i = 0; i < 1000; ++i) readings += "0 ";
+  const auto [line, least, most] = GENERATE_COPY(table<std::string, std::size_t, std::size_t>({
+      {"FLASER 1000 " + readings + "0 0 0 0 0 0 1 h 1\n", 8000, 9000},
+      {"PARAM " + readings + "h 0\n", 2000, 2500},
+      {odometry_at(1.0), sizeof(Entry), 500},
+      {"NEFF 3\n", sizeof(Entry), 500},
+  }));
+  INFO(line.substr(0, 20));
+  std::size_t lines = 0;
+  const auto endless = [&]() -> std::string_view { return ++lines, line; };
+  constexpr std::size_t kRoom = 100000;
+  const Result<Log> log = read_log(endless, kRoom);
+  REQUIRE_FALSE(log);
+  CHECK(log.error().code == Code::invalid_argument);
+  CHECK_THAT(log.error().message, Contains("it is too large from line " + std::to_string(lines)) &&
+                                      Contains("cut it into pieces"));
+  CHECK(lines * most > kRoom);
+  CHECK((lines - 1) * least <= kRoom);
+}
+
 TEST_CASE("a table of scans is read by the names of its columns", "[recording][carmen]") {
   const std::string head = "# t odom_x odom_y odom_theta ref_x ref_y ref_theta r0..rN-1 ; SI units\n";
   std::string text = head;

@@ -55,14 +55,19 @@ struct Log {
   Flaws flaws;
 };
 
+/// The memory that a log may take [bytes]: about 130 million readings of a laser. A file that is packed can be a thousand times smaller.
+constexpr std::size_t kMostOfLog = std::size_t{1} << 30;
+
 /// Reads a log from pieces of text.
 /// @param next  returns the next piece, which needs not end with a line; empty: there is none.
-/// @errors  data_loss if there is neither odometry nor a scan in it.
+/// @param most  the memory that it may take [bytes].
+/// @errors  data_loss if there is neither odometry nor a scan in it; invalid_argument if it takes more than `most`.
 /// @thread  any.
-[[nodiscard]] Result<Log> read_log(const std::function<std::string_view()>& next);
+[[nodiscard]] Result<Log> read_log(const std::function<std::string_view()>& next,
+                                   std::size_t most = kMostOfLog);
 
 /// Reads a log of CARMEN, or a table of scans (ScanTable), packed by gzip or not.
-/// @errors  invalid_argument if it cannot be opened; data_loss as above, with the path.
+/// @errors  invalid_argument if it cannot be opened; as read_log(), with the path.
 /// @thread  any.
 [[nodiscard]] Result<Log> read_log_file(const std::string& path);
 
