@@ -131,7 +131,7 @@ class LogReplay final : public HardwareContainer {
   Status load() {
     begin_ = run_->begin();
     bool has_robot = false;
-    return run_->objects([&](const RecordedObject& one) {
+    return run_->take_objects([&](const RecordedObject& one) {
       if (const auto sensor = sensors_.find(std::string(one.row)); sensor != sensors_.end())
         readings_.push_back({sensor->second.get(), one.object, one.passed});
       if (const auto robot = object_cast<idl::Robot>(one.object); robot && !std::exchange(has_robot, true))

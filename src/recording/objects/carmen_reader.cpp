@@ -35,9 +35,10 @@ ObjectRef object_of(const OdometryLine& line, TimePoint sensed) {
   return std::move(object).seal();
 }
 
-ObjectRef object_of(const ScanLine& line, TimePoint sensed, const Pose2& X_BL, double max_range) {
+// Takes the readings out of the line.
+ObjectRef object_of(ScanLine& line, TimePoint sensed, const Pose2& X_BL, double max_range) {
   auto object = make_object<idl::LaserRangeReadings>();
-  object->ranges(line.ranges);
+  object->ranges(std::exchange(line.ranges, {}));
   object->max_range(max_range);
   object->pose().position().x(X_BL.x);
   object->pose().position().y(X_BL.y);
@@ -75,25 +76,18 @@ CarmenReader::CarmenReader(carmen::Log log) : log_(std::move(log)) {
   }
 }
 
-void CarmenReader::objects(const std::set<std::string>& rows,
-                           const std::function<bool(const RecordedObject&)>& take) const {
-  const auto pass = [&](const std::string& row, const Entry& entry, const auto& make) {
-    if (!rows.empty() && !rows.contains(row)) return true;
-    return take({row, make(TimePoint(entry.sensed)), TimePoint(entry.passed)});
-  };
-  for (const Entry& entry : log_.entries) {
-    const auto* const scan = std::get_if<ScanLine>(&entry.what.content);
+void CarmenReader::take_objects(const std::function<void(const RecordedObject&)>& take) {
+  for (Entry& entry : log_.entries) {
+    const TimePoint sensed(entry.sensed);
+    const TimePoint passed(entry.passed);
+    auto* const scan = std::get_if<ScanLine>(&entry.what.content);
     OdometryLine place;
     if (scan == nullptr) place = std::get<OdometryLine>(entry.what.content);
     if (scan != nullptr) place = {scan->X_OB, scan->speed, scan->turn_rate};
-    if (scan == nullptr || !has_odometry_lines_)
-      if (!pass(kBase, entry, [&](TimePoint at) { return object_of(place, at); })) return;
+    if (scan == nullptr || !has_odometry_lines_) take({kBase, object_of(place, sensed), passed});
     if (scan == nullptr) continue;
-    const auto make = [&](TimePoint at) {
-      return object_of(*scan, at, mounts_.at(scan->laser),
-                       scan->max_range.value_or(max_ranges_.at(scan->laser)));
-    };
-    if (!pass(row_of(scan->laser), entry, make)) return;
+    const double max_range = scan->max_range.value_or(max_ranges_.at(scan->laser));
+    take({row_of(scan->laser), object_of(*scan, sensed, mounts_.at(scan->laser), max_range), passed});
   }
 }
 

@@ -28,7 +28,7 @@ class McapRun final : public RecordedRun {
   Duration length() const override {
     return instant(reader_.file().statistics().end) - instant(reader_.file().statistics().start);
   }
-  Status objects(const std::function<void(const RecordedObject&)>& take) const override {
+  Status take_objects(const std::function<void(const RecordedObject&)>& take) override {
     return reader_.objects({}, [&](const RecordedObject& one) { return take(one), true; });
   }
 
@@ -43,14 +43,14 @@ class CarmenRun final : public RecordedRun {
   const std::map<std::string, RecordedRow>& rows() const override { return reader_.rows(); }
   TimePoint begin() const override { return reader_.begin() - kLead; }
   Duration length() const override { return reader_.end() - reader_.begin(); }
-  Status objects(const std::function<void(const RecordedObject&)>& take) const override {
-    reader_.objects({}, [&](const RecordedObject& one) { return take(one), true; });
+  Status take_objects(const std::function<void(const RecordedObject&)>& take) override {
+    reader_.take_objects(take);
     return ok();
   }
   std::vector<std::string> flaws() const override { return reader_.log().flaws.texts(); }
 
  private:
-  const CarmenReader reader_;
+  CarmenReader reader_;
 };
 
 bool is_mcap(const std::string& path) {

@@ -89,7 +89,7 @@ Result<DriveRecord> DriveRecord::read(const std::string& path, const std::set<st
   record.flaws_ = (*run)->flaws();
   std::string base;
   std::string laser;
-  const Status read = (*run)->objects([&](const RecordedObject& one) {
+  const Status read = (*run)->take_objects([&](const RecordedObject& one) {
     if (const auto arrived = object_cast<idl::Arrived>(one.object))
       record.goals_.push_back({arrived->name(), to_time_point(arrived->stamp())});
     if (!ports.empty() && !ports.contains(std::string(one.row))) return;

@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <set>
 #include <string>
 
 #include "orca/base/result.hpp"
@@ -20,7 +19,7 @@ namespace orca::recording {
 ///
 /// How wrong odometry and ranges are, and how long the laser takes for a scan, is not known from such a log.
 ///
-/// Thread contract: constant; any thread.
+/// Thread contract: constant but for take_objects(); not synchronised.
 class CarmenReader {
  public:
   /// @errors  as carmen::read_log_file().
@@ -32,11 +31,9 @@ class CarmenReader {
   [[nodiscard]] TimePoint begin() const { return TimePoint(log_.entries.front().passed); }
   [[nodiscard]] TimePoint end() const { return TimePoint(log_.entries.back().passed); }
 
-  /// Passes objects on in the order of the log.
-  /// @param rows  which; empty: all.
-  /// @param take  returns false to end.
-  void objects(const std::set<std::string>& rows,
-               const std::function<bool(const RecordedObject&)>& take) const;
+  /// Passes the objects on in the order of the log, and forgets the readings of each, since a log may fill a good part of the memory. The
+  /// last call: objects that came after it would have no readings.
+  void take_objects(const std::function<void(const RecordedObject&)>& take);
 
  private:
   explicit CarmenReader(carmen::Log log);

@@ -16,7 +16,7 @@ namespace orca::recording {
 
 /// A run of a robot that was recorded, whoever has recorded it.
 ///
-/// Thread contract: constant; any thread.
+/// Thread contract: constant but for take_objects(); not synchronised.
 class RecordedRun {
  public:
   RecordedRun() = default;
@@ -24,7 +24,7 @@ class RecordedRun {
   RecordedRun(const RecordedRun&) = delete;
   RecordedRun& operator=(const RecordedRun&) = delete;
 
-  /// Opens an MCAP file with objects, or a log of CARMEN, or a table of scans. What it is the file's beginning says.
+  /// Opens an MCAP file with objects, or a log of CARMEN, or a table of scans. The first bytes of the file decide which of them it is.
   /// @errors  as ObjectReader::open() or CarmenReader::open().
   [[nodiscard]] static Result<std::unique_ptr<RecordedRun>> open(const std::string& path);
 
@@ -33,9 +33,9 @@ class RecordedRun {
   [[nodiscard]] virtual TimePoint begin() const = 0;
   /// Returns the time from the first object to the last.
   [[nodiscard]] virtual Duration length() const = 0;
-  /// Passes all objects on in the order in which they have passed.
+  /// Passes all objects on in the order in which they have passed, once: a run that is held in memory forgets them meanwhile.
   /// @errors  data_loss if the file is damaged; what came before was passed on.
-  [[nodiscard]] virtual Status objects(const std::function<void(const RecordedObject&)>& take) const = 0;
+  [[nodiscard]] virtual Status take_objects(const std::function<void(const RecordedObject&)>& take) = 0;
   /// Returns sentences about what is wrong in the recording, though it can be read.
   [[nodiscard]] virtual std::vector<std::string> flaws() const { return {}; }
 };
