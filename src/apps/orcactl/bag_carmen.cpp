@@ -14,6 +14,7 @@ Status print_carmen_log(const recording::ObjectReader& reader, const std::set<st
     print(text.text_of(one.row, one.object));
     return true;
   });
+  print(text.ending());
   return read.ok() ? text.check() : read;
 }
 

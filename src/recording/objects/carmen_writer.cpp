@@ -2,16 +2,29 @@
 #include "orca/recording/objects/carmen_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "orca/base/text.hpp"
+#include "orca/geometry/arc.hpp"
 #include "orca/idl/sensing.hpp"
 
 namespace orca::recording {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{64} << 10;  // [bytes] that are written at once
+constexpr std::size_t kMostPlaces = 200;               // 2 s and more, far longer than a scan is on its way
+constexpr std::size_t kMostWaiting = 20;               // scans; if more come, there is no odometry any more
+
+void put(const carmen::OdometryLine& odometry, const Pose2& X_BL, carmen::ScanLine& scan) {
+  scan.X_OL = odometry.X_OB * X_BL;
+  scan.X_OB = odometry.X_OB;
+  scan.speed = odometry.speed;
+  scan.turn_rate = odometry.turn_rate;
+}
 
 }  // namespace
 
@@ -39,10 +52,19 @@ std::string CarmenText::text_of(std::string_view row, const ObjectRef& object) {
 std::string CarmenText::odometry_text(std::string_view row, const idl::Odometry& odometry, Duration stamp) {
   if (base_.empty()) base_ = row;
   if (base_ != row) return other_ = row, "";
-  place_ = carmen::OdometryLine{{odometry.x(), odometry.y(), odometry.steer_angle()},
-                                odometry.translational_velocity(),
-                                odometry.steering_velocity()};
-  return to_text(carmen::Line{stamp, *place_});
+  std::string text;
+  if (!places_.empty() && stamp < places_.back().stamp) {  // its clock was set
+    text = ending();
+    places_.clear();
+  }
+  places_.push_back({stamp,
+                     {{odometry.x(), odometry.y(), odometry.steer_angle()},
+                      odometry.translational_velocity(),
+                      odometry.steering_velocity()}});
+  if (places_.size() > kMostPlaces) places_.pop_front();
+  text += lines_until(stamp);
+  ++lines_;
+  return text + to_text(carmen::Line{stamp, places_.back().odometry});
 }
 
 std::string CarmenText::scan_text(std::string_view row, const idl::LaserRangeReadings& scan, Duration stamp) {
@@ -60,17 +82,55 @@ std::string CarmenText::scan_text(std::string_view row, const idl::LaserRangeRea
   laser_ = row;
   like_ = line;
   X_BL_ = X_BL;
-  if (!place_) return ++early_, "";
+  if (places_.empty()) return ++early_, "";
   line.ranges.assign(scan.ranges().begin(), scan.ranges().end());
-  line.X_OL = place_->X_OB * X_BL;
-  line.X_OB = place_->X_OB;
-  line.speed = place_->speed;
-  line.turn_rate = place_->turn_rate;
+  put(odometry_at(stamp), X_BL, line);
+  Waiting one{stamp, X_BL, std::move(line)};
+  if (stamp <= places_.back().stamp) return line_of(one);
+  waiting_.push_back(std::move(one));
+  if (waiting_.size() <= kMostWaiting) return "";
+  const Waiting first = std::move(waiting_.front());
+  waiting_.pop_front();
+  return line_of(first);
+}
+
+std::string CarmenText::line_of(const Waiting& waiting) {
   std::string text;
   if (scans_++ == 0)
-    text = to_text(
-        carmen::Line{{}, carmen::ParamLine{"robot_front_laser_max", std::to_string(scan.max_range())}});
-  return text + to_text(carmen::Line{stamp, line});
+    text = to_text(carmen::Line{
+        {}, carmen::ParamLine{"robot_front_laser_max", std::to_string(waiting.scan.max_range.value_or(0.0))}});
+  ++lines_;
+  return text + to_text(carmen::Line{waiting.stamp, waiting.scan});
+}
+
+// Returns the lines of scans that have waited for odometry up to a stamp.
+std::string CarmenText::lines_until(Duration stamp) {
+  std::string text;
+  for (; !waiting_.empty() && waiting_.front().stamp <= stamp; waiting_.pop_front()) {
+    Waiting& one = waiting_.front();
+    put(odometry_at(one.stamp), one.X_BL, one.scan);
+    text += line_of(one);
+  }
+  return text;
+}
+
+// Returns what odometry was at a stamp, or what is nearest to it.
+carmen::OdometryLine CarmenText::odometry_at(Duration stamp) const {
+  const auto after = std::ranges::lower_bound(places_, stamp, {}, &Place::stamp);
+  if (after == places_.end()) return places_.back().odometry;
+  if (after == places_.begin() || after->stamp == stamp) return after->odometry;
+  const auto& [before, from] = *std::prev(after);
+  const carmen::OdometryLine& to = after->odometry;
+  const double share = to_seconds(stamp - before) / to_seconds(after->stamp - before);
+  const Travel2 way = arc_between(from.X_OB, to.X_OB);
+  return {along_arc(from.X_OB, {share * way.forward, share * way.left, share * way.turn}),
+          std::lerp(from.speed, to.speed, share), std::lerp(from.turn_rate, to.turn_rate, share)};
+}
+
+std::string CarmenText::ending() {
+  std::string text;
+  for (const Waiting& one : std::exchange(waiting_, {})) text += line_of(one);
+  return text;
 }
 
 Status CarmenText::check() const {
@@ -92,8 +152,6 @@ Status CarmenWriter::begin(const Origin& /*origin*/) {
 
 Status CarmenWriter::add(std::string_view row, const ObjectRef& object, TimePoint /*passed*/) {
   const std::string text = text_.text_of(row, object);
-  if (text.empty()) return ok();
-  ++lines_;
   waiting_ += text;
   return waiting_.size() < kPiece ? ok() : flush();
 }
@@ -108,6 +166,7 @@ Status CarmenWriter::flush() {
 }
 
 Status CarmenWriter::close(const std::map<std::string, std::uint64_t>& /*lost*/, const Values& /*more*/) {
+  waiting_ += text_.ending();
   const Status written = flush();
   const Status finished = output_->finish();
   if (!written.ok()) return written;

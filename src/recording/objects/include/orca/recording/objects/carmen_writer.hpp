@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,24 +29,47 @@ class CarmenText {
   [[nodiscard]] static std::string beginning();
 
   /// Returns the lines for an object: ODOM for an Odometry, a scan for LaserRangeReadings. Other objects have none, nor has a scan
-  /// before the first odometry, because its line says where the robot is. With the first scan comes a parameter, the laser's largest range.
+  /// before the first odometry, because its line says where the robot is. That is where odometry had it at the stamp of the scan, on an arc between the
+  /// odometry before and after. So a scan that is newer than all odometry waits for the next one, and comes with it, before it.
+  /// With the first scan comes a parameter, the laser's largest range.
   /// @param row  of the object. Odometry is that of one row, and scans are those of one: of others nothing is taken. A laser that two servers offer is one.
   [[nodiscard]] std::string text_of(std::string_view row, const ObjectRef& object);
+
+  /// Returns the lines that the log ends with: scans after which no odometry came; they have the last one. The last call but for check().
+  [[nodiscard]] std::string ending();
+
+  /// Returns how many objects have got a line.
+  [[nodiscard]] std::uint64_t lines() const { return lines_; }
 
   /// @errors  not_found if there were no scans, or no odometry before them, since a log without scans is of no use to those who read such logs;
   ///          invalid_argument if there were several rows of odometry or of scans: which robot's, or which laser's is the log to be?
   [[nodiscard]] Status check() const;
 
  private:
+  struct Place {
+    Duration stamp;
+    carmen::OdometryLine odometry;
+  };
+  struct Waiting {
+    Duration stamp;
+    Pose2 X_BL;
+    carmen::ScanLine scan;  // with the odometry that was the last when it came
+  };
+
   std::string odometry_text(std::string_view row, const idl::Odometry& odometry, Duration stamp);
   std::string scan_text(std::string_view row, const idl::LaserRangeReadings& scan, Duration stamp);
+  std::string line_of(const Waiting& waiting);
+  std::string lines_until(Duration stamp);
+  [[nodiscard]] carmen::OdometryLine odometry_at(Duration stamp) const;
 
-  std::string base_;                           // row from which odometry is taken
-  std::string laser_;                          // row from which scans are taken
-  carmen::ScanLine like_;                      // its last scan, without readings
-  Pose2 X_BL_;                                 // its place
-  std::string other_;                          // another row of the same kind; empty: none
-  std::optional<carmen::OdometryLine> place_;  // the robot's last odometry
+  std::string base_;             // row from which odometry is taken
+  std::string laser_;            // row from which scans are taken
+  carmen::ScanLine like_;        // its last scan, without readings
+  Pose2 X_BL_;                   // its place
+  std::string other_;            // another row of the same kind; empty: none
+  std::deque<Place> places_;     // the last ones, by time
+  std::deque<Waiting> waiting_;  // scans that are newer, as they came
+  std::uint64_t lines_ = 0;
   std::size_t scans_ = 0;
   std::size_t early_ = 0;  // scans before the first odometry
 };
@@ -66,14 +89,13 @@ class CarmenWriter final : public ObjectSink {
   Status flush() override;
   /// @errors  as CarmenText::check(), too.
   Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more) override;
-  [[nodiscard]] std::uint64_t messages() const override { return lines_; }
+  [[nodiscard]] std::uint64_t messages() const override { return text_.lines(); }
   [[nodiscard]] std::uint64_t size() const override { return size_; }
 
  private:
   std::unique_ptr<Output> output_;
   CarmenText text_;
   std::string waiting_;  // for the disk
-  std::uint64_t lines_ = 0;
   std::uint64_t size_ = 0;
 };
 
