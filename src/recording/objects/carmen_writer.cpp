@@ -165,8 +165,10 @@ Status CarmenWriter::flush() {
   return written;
 }
 
-Status CarmenWriter::close(const std::map<std::string, std::uint64_t>& /*lost*/, const Values& /*more*/) {
+Status CarmenWriter::close(const std::map<std::string, std::uint64_t>& lost, const Values& /*more*/) {
   waiting_ += text_.ending();
+  for (const auto& [port, count] : lost)
+    if (count > 0) waiting_ += "# lost: " + port + " " + std::to_string(count) + "\n";
   const Status written = flush();
   const Status finished = output_->finish();
   if (!written.ok()) return written;

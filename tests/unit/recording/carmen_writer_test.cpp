@@ -115,3 +115,16 @@ TEST_CASE("scans after which no odometry comes are in the log, with the odometry
   CHECK(text.check().ok());
   CHECK(text.lines() == (is_set_back ? 32 : 31));
 }
+
+TEST_CASE("a CARMEN log ends with the ports of which objects were lost", "[recording][carmen]") {
+  test::Memory memory;
+  CarmenWriter writer(test::to(memory));
+  REQUIRE(writer.begin({}).ok());
+  REQUIRE(writer.add(kBase, odometry_at(1.0), {}).ok());
+  REQUIRE(writer.add(kLaser, scan_at(1.0), {}).ok());
+  REQUIRE(writer.close({{kBase, 0}, {kLaser, 3}}, {}).ok());
+  const std::string text(reinterpret_cast<const char*>(memory.bytes.data()), memory.bytes.size());
+  CHECK_THAT(text, Catch::EndsWith("\n# lost: " + kLaser + " 3\n") && !Contains(kBase));
+  CHECK(writer.messages() == 2);
+  CHECK(log_of(text).flaws.texts().empty());
+}

@@ -87,6 +87,7 @@ class CarmenWriter final : public ObjectSink {
   Status attach_json(const std::string& /*name*/, const std::string& /*text*/) override { return ok(); }
   Status add(std::string_view row, const ObjectRef& object, TimePoint passed) override;
   Status flush() override;
+  /// Writes a comment `# lost: PORT NUMBER` for each port of which objects were lost.
   /// @errors  as CarmenText::check(), too.
   Status close(const std::map<std::string, std::uint64_t>& lost, const Values& more) override;
   [[nodiscard]] std::uint64_t messages() const override { return text_.lines(); }
