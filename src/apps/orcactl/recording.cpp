@@ -364,19 +364,16 @@ std::variant<Descriptor, Failure> wait_for_system(const apps::Call& call) {
 
 ExitCode finish(const std::string& file, recording::ObjectSink& writer, const Recording& recording,
                 const Status& done) {
-  std::uint64_t lost = 0;
-  for (const auto& [port, count] : recording.lost()) lost += count;
+  std::string lost;
+  for (const auto& [port, count] : recording.lost())
+    if (count > 0) lost += (lost.empty() ? ", objects LOST: " : ", ") + port + " " + std::to_string(count);
   const std::string unreached = recording.unreached();
   const Status closed =
       writer.close(recording.lost(),
                    unreached.empty() ? recording::Values{} : recording::Values{{"unreached", unreached}});
-  std::fprintf(
-      stderr, "orcactl: %s: %llu messages of %zu ports, %.1f MB%s\n", file.c_str(),
-      static_cast<unsigned long long>(writer.messages()), recording.count_ports(),
-      static_cast<double>(writer.size()) / 1e6,
-      lost == 0
-          ? ""
-          : (", " + std::to_string(lost) + " objects LOST: orcactl bag info says of which ports").c_str());
+  std::fprintf(stderr, "orcactl: %s: %llu messages of %zu ports, %.1f MB%s\n", file.c_str(),
+               static_cast<unsigned long long>(writer.messages()), recording.count_ports(),
+               static_cast<double>(writer.size()) / 1e6, lost.c_str());
   if (!unreached.empty())
     std::fprintf(stderr, "orcactl: never reached, so nothing of them is recorded: %s\n", unreached.c_str());
   if (!done.ok()) return report({done.error()});
