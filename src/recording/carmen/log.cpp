@@ -20,7 +20,7 @@
 namespace orca::carmen {
 namespace {
 
-constexpr std::size_t kLongest = std::size_t{4} << 20;      // [bytes] of a line
+constexpr std::size_t kLongest = std::size_t{4} << 20;  // [bytes] of a line
 constexpr Duration kLittle = 1s;
 constexpr Duration kMuch = 3600s;
 constexpr int kGap = 10;  // usual intervals

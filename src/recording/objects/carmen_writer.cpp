@@ -98,7 +98,8 @@ std::string CarmenText::line_of(const Waiting& waiting) {
   std::string text;
   if (scans_++ == 0)
     text = to_text(carmen::Line{
-        {}, carmen::ParamLine{"robot_front_laser_max", std::to_string(waiting.scan.max_range.value_or(0.0))}});
+        {},
+        carmen::ParamLine{"robot_front_laser_max", std::to_string(waiting.scan.max_range.value_or(0.0))}});
   ++lines_;
   return text + to_text(carmen::Line{waiting.stamp, waiting.scan});
 }
