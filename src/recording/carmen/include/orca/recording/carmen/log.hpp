@@ -22,7 +22,7 @@ struct Flaw {
   void note(std::size_t line, std::string_view text);
 };
 
-/// What is unusual in a log. None of it ends the reading.
+/// Unusual things in a log. They do not end the reading.
 struct Flaws {
   Flaw damaged;  ///< Lines that cannot be read: they are left out.
   Flaw

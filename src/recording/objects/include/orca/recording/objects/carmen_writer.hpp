@@ -32,7 +32,7 @@ class CarmenText {
   /// before the first odometry, because its line says where the robot is. That is where odometry had it at the stamp of the scan, on an arc between the
   /// odometry before and after. So a scan that is newer than all odometry waits for the next one, and comes with it, before it.
   /// With the first scan comes a parameter, the laser's largest range.
-  /// @param row  of the object. Odometry is that of one row, and scans are those of one: of others nothing is taken. A laser that two servers offer is one.
+  /// @param row  of the object. Odometry is that of one row, and scans are those of one; objects of other rows are left out. A laser that two servers offer is one.
   [[nodiscard]] std::string text_of(std::string_view row, const ObjectRef& object);
 
   /// Returns the lines that the log ends with: scans after which no odometry came; they have the last one. The last call but for check().
@@ -42,7 +42,7 @@ class CarmenText {
   [[nodiscard]] std::uint64_t lines() const { return lines_; }
 
   /// @errors  not_found if there were no scans, or no odometry before them, since a log without scans is of no use to those who read such logs;
-  ///          invalid_argument if there were several rows of odometry or of scans: which robot's, or which laser's is the log to be?
+  ///          invalid_argument if there were several rows of odometry or of scans, since a log is of one base and one laser.
   [[nodiscard]] Status check() const;
 
  private:
