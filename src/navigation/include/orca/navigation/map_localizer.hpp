@@ -90,7 +90,7 @@ class MapLocalizer {
 
   /// Goes on in another map. The place is kept, but doubted.
   void change_map(std::shared_ptr<const KnownMap> map);
-  /// Takes somebody's word for where the robot is.
+  /// Believes at once that the robot is where somebody says.
   void place(const PoseSpread& where, const Reckoned& now);
   /// Goes on with what another one has believed.
   /// @param was_known  whether the robot has been localized before.
