@@ -55,6 +55,12 @@ bool is_elsewhere(const PoseSpread& prior, const Pose2& pose, double gone) {
          std::fabs(away.yaw) > std::max(bump, 3.0 * std::sqrt(prior.covariance[8]));
 }
 
+// Whether two places are one.
+bool is_same(const Pose2& one, const Pose2& other) {
+  const Pose2 away = seen_from(one, other);
+  return norm(away.position()) < 0.3 && std::fabs(away.yaw) < 0.2;
+}
+
 // Weighs particles by how near the echoes of a scan are to what is occupied.
 void weigh(Particles& particles, const RobotScan& scan, const KnownMap& map) {
   constexpr double kSoft = 0.15;  // [m]
@@ -298,9 +304,8 @@ void MapLocalizer::drop_unlikely() {
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Pose2 here = places_[i].particles.spread().mean;
     for (std::size_t j = places_.size(); --j > i;) {
-      const Pose2 away = seen_from(here, places_[j].particles.spread().mean);
-      if (norm(away.position()) >= 0.3 || std::fabs(away.yaw) >= 0.2) continue;
-      places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(j));
+      if (is_same(here, places_[j].particles.spread().mean))
+        places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(j));
     }
   }
 }
@@ -331,13 +336,16 @@ void MapLocalizer::go_on_searching() {
   search_.reset();
 }
 
-// Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps what it knows.
+// Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
 void MapLocalizer::take_found() {
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
+  const std::size_t known = places_.size();
+  std::vector<double> evidence;
   for (Candidate& place : places_) {
     const Pose2 X_MR = place.particles.spread().mean * inverse(since);
-    place.belief.odds = options_.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
+    evidence.push_back(place.belief.odds);
+    place.belief.odds += options_.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
   }
   for (const Found& found : search_->places.found()) {
     const std::optional<ScanMatch> laid = refine(scan.echoes, map_->surface(), found.X_MR, options_.match);
@@ -345,7 +353,10 @@ void MapLocalizer::take_found() {
     const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
     if (explained.fit < options_.doubted_below || map_->distance(laid->X_MR.position()) < kBody) continue;
     const PoseSpread where{laid->X_MR * since, {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.005}};
-    add_place({where, options_.evidence * explained.fit, explained.fit, explained.fit, false}, kParticles);
+    double odds = options_.evidence * explained.fit;
+    for (std::size_t i = 0; i < known; ++i)
+      if (is_same(places_[i].particles.spread().mean, where.mean)) odds += evidence[i];
+    add_place({where, odds, explained.fit, explained.fit, false}, kParticles);
   }
   if (places_.empty()) return;
   double best = places_.front().belief.odds;

@@ -33,11 +33,17 @@ Pose2 moved(const Pose2& from, const Eigen::Vector3d& by) {
   return {from.x + by[0], from.y + by[1], wrapped(from.yaw + by[2])};
 }
 
-// Returns the lower triangle whose square the covariance is. Where it is flat, a little is added: a micrometre.
+// Returns the lower triangle whose square the covariance is. Where it is flat, a little is added: a micrometre. A matrix that is no
+// covariance counts by its diagonal, as far as that is positive.
 Matrix root_of(const std::array<double, 9>& covariance) {
   Matrix matrix = matrix_of(covariance);
   matrix.diagonal().array() += 1e-12;
-  return matrix.llt().matrixL();
+  const Eigen::LLT<Matrix> root(matrix);
+  if (root.info() == Eigen::Success && matrix.allFinite()) return root.matrixL();
+  Matrix diagonal = Matrix::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    diagonal(i, i) = std::isfinite(matrix(i, i)) && matrix(i, i) > 1e-12 ? std::sqrt(matrix(i, i)) : 1e-6;
+  return diagonal;
 }
 
 // Returns how many particles k bins need; Fox 2003, eq. 7, by the approximation of Wilson and Hilferty.

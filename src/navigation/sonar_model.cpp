@@ -24,6 +24,11 @@ double nearest_echo(const KnownMap& map, const SonarEcho& echo, const Pose2& X_M
   return nearest;
 }
 
+bool says_something(const SonarEcho& echo) {
+  return !std::isnan(echo.range) && std::isfinite(echo.max_range) &&
+         std::isfinite(echo.X_RS.x + echo.X_RS.y + echo.X_RS.yaw + echo.half_lobe);
+}
+
 double likelihood_of(const SonarEcho& echo, double expected) {
   if (echo.range >= echo.max_range) return expected >= echo.max_range ? 0.9 : 0.4;
   const double off = (echo.range - expected) / kSonarError;
@@ -35,14 +40,14 @@ double likelihood_of(const SonarEcho& echo, double expected) {
 double likelihood(std::span<const SonarEcho> echoes, const KnownMap& map, const Pose2& X_MR) {
   double sum = 0.0;
   for (const SonarEcho& echo : echoes)
-    sum += portable::log(likelihood_of(echo, nearest_echo(map, echo, X_MR)));
+    if (says_something(echo)) sum += portable::log(likelihood_of(echo, nearest_echo(map, echo, X_MR)));
   return std::max(1e-100, portable::exp(kShareOfEcho * sum));
 }
 
 double share_heard(std::span<const SonarEcho> echoes, const KnownMap& map, const Pose2& X_MR) {
   Explanation explained;
   for (const SonarEcho& echo : echoes) {
-    if (echo.range >= echo.max_range) continue;
+    if (echo.range >= echo.max_range || !says_something(echo)) continue;
     const double off = echo.range - nearest_echo(map, echo, X_MR);
     if (std::fabs(off) <= 2.0 * kSonarError) {
       explained.hits += 1.0;

@@ -52,7 +52,7 @@ std::string hall_with_pillar() {
 ShippedGraph::ShippedGraph(const std::string& name)
     : text_(read_text(source_file("graphs/" + name + ".xml"))) {
   text_ = replaced(text_, "\\.\\./sim/", source_file("sim/"));
-  text_ = replaced(text_, "(graph|file)=\"(?=[^/\"]+\\.xml\")", "$1=\"" + source_file("graphs/"));
+  text_ = replaced(text_, "(graph|file)=\"(?=[a-z][^\"]*\\.xml\")", "$1=\"" + source_file("graphs/"));
 }
 
 void ShippedGraph::remove(const std::string& component) {

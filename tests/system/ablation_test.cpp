@@ -128,7 +128,12 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "scout_real_time",
                                        "scout_from_afar",
                                        "scout_behaviours",
-                                       "replay"};
+                                       "replay",
+                                       "intel_log",
+                                       "calibrate",
+                                       "pioneer_localize",
+                                       "pioneer_slam",
+                                       "scout_localize"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},

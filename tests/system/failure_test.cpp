@@ -51,6 +51,10 @@ const std::vector<Robot> kRobots{
     {"nomad_xr4000", "", {"goto", "avoid"}, 1.5},
     {"pioneer_planner", "", {"planner"}},
     {"warehouse_scanner", "", {"planner"}},
+    {"pioneer_localize", "", {"planner"}},
+    {"scout_localize", "", {"goto", "avoid"}},
+    {"pioneer_slam", "", {"walk", "avoid"}},
+    {"calibrate", "", {"goto", "avoid"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},
     {"two_robots", "huey/", {"goto", "avoid"}},
@@ -124,9 +128,8 @@ std::optional<double> last_time(const Run& run, const std::string& text) {
 void check_stops(const Run& run, const Failure& failure, double at, double slowdown = 1.0) {
   const auto& [robot, behaviour, how] = failure;
   const auto fails = last_time(run, " " + robot.context + behaviour + ": fails from now on");
-  const auto stopped =
-      last_time(run, " " + robot.context + "fuser: stops the robot: nothing is heard of the behaviour \"" +
-                         behaviour + "\"");
+  const auto stopped = last_time(
+      run, robot.context + "fuser: stops the robot: nothing is heard of the behaviour \"" + behaviour + "\"");
   const auto rests = last_time(run, " " + robot.context + "watch: rests after");
   REQUIRE(fails);
   REQUIRE(stopped);
@@ -208,7 +211,8 @@ std::set<std::string> behaviours_of(const std::string& graph) {
 TEST_CASE("every behaviour of every shipped graph has its rehearsal", "[system][failure]") {
   std::set<std::string> shipped;
   for (const std::string& graph : shipped_graphs())
-    if (graph != "replay") shipped.merge(behaviours_of(graph));  // nothing moves there
+    if (graph != "replay" && graph != "intel_log")
+      shipped.merge(behaviours_of(graph));  // nothing moves there
   std::vector<Robot> robots = kRobots;
   robots.push_back(kTeleop);
   robots.push_back(kPlayer);

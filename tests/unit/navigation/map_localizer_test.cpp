@@ -122,6 +122,28 @@ TEST_CASE("a robot in one of two rooms that are alike all around stays at either
   CHECK(drive.known() == Known::ambiguous);
 }
 
+TEST_CASE("a search leaves a place the evidence against it that other scans gave", "[navigation]") {
+  Drive drive;
+  drive.walls = test::box({0.03, 0.02}, {4.03, 4.02});
+  const test::Walls other = test::box({6.03, 0.02}, {10.03, 4.02});
+  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 4.5}));
+  drive.localizer.change_map(drive.map);
+  drive.X_MR = {1.3, 1.7, 0.3};
+  // The best place is doubted, so the next scan begins a search, in which both rooms look alike.
+  const PlaceBelief here{.where = around(drive.X_MR), .quick = 0.3, .slow = 0.8};
+  const Pose2 elsewhere{7.3, 1.7, 0.3};
+  const PlaceBelief there{.where = around(elsewhere), .odds = -5.0, .quick = 0.3, .slow = 0.8};
+  drive.localizer.resume(std::array{here, there}, true, drive.reckoned);
+  drive.localizer.see(test::robot_scan(drive.walls, drive.X_MR, drive.random));
+  while (drive.localizer.searches()) drive.stand(1);
+  for (const PlaceBelief& place : drive.localizer.places(drive.reckoned)) {
+    const auto off = apart(place.where.mean, elsewhere);
+    if (off.way < 0.3 && off.turn < 0.2) CHECK(place.odds < -2.0);
+  }
+  CHECK(drive.off() < 0.1);
+}
+
 TEST_CASE("a robot that was carried off notices, and is found again", "[navigation]") {
   Drive drive;
   drive.localizer.place(around(drive.X_MR), drive.reckoned);

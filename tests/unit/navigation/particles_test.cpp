@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/navigation/particles.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <span>
+
+#include "grids.hpp"
+#include "orca/navigation/sonar_model.hpp"
 
 using namespace orca;
 using namespace orca::nav;
@@ -93,4 +98,35 @@ TEST_CASE("particles of nearly equal weights are left alone", "[navigation]") {
   particles.weigh([](const Pose2& pose) { return pose.x > 2.0 ? 1.0 : 0.8; });
   particles.resample(random);
   CHECK(count_of(particles) == 300.0);
+}
+
+TEST_CASE("weights stay if a measurement is possible nowhere, or is no number", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  particles.scatter(kSomewhere, 300, random);
+  for (const double likelihood : {0.0, std::nan(""), HUGE_VAL}) {
+    particles.weigh([&](const Pose2& pose) { return pose.x > 2.0 ? likelihood : 0.0; });
+    for (const Particles::Particle& particle : particles.all())
+      REQUIRE(particle.weight == Approx(1.0 / 300.0));
+  }
+}
+
+TEST_CASE("a matrix that is no covariance still scatters particles", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  Particles particles;
+  // Correlated by more than 1, and a variance below 0.
+  particles.scatter({{2.0, -1.0, 0.5}, {0.04, 0.09, 0.0, 0.09, 0.04, 0.0, 0.0, 0.0, -0.01}}, 2000, random);
+  const PoseSpread spread = particles.spread();
+  CHECK(spread.mean.x == Approx(2.0).margin(0.02));
+  CHECK(spread.covariance[0] == Approx(0.04).epsilon(0.1));
+  CHECK(spread.covariance[4] == Approx(0.04).epsilon(0.1));
+  CHECK(spread.covariance[8] < 1e-9);
+}
+
+TEST_CASE("a sonar's range that is no number says nothing", "[navigation]") {
+  const KnownMap map(test::two_rooms_grid());
+  const Pose2 here{3.0, 2.0, 0.0};
+  const std::array echoes{SonarEcho{{}, 2.0, 5.0, 0.2}, SonarEcho{{0.0, 0.0, 1.5}, std::nan(""), 5.0, 0.2}};
+  CHECK(likelihood(echoes, map, here) == likelihood(std::span(echoes).first(1), map, here));
+  CHECK(share_heard(echoes, map, here) == share_heard(std::span(echoes).first(1), map, here));
 }

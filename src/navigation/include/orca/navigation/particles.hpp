@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -64,13 +65,17 @@ class Particles {
   /// Moves each by the step of a robot, seen from where it was before, and by an error of its own.
   /// @param deviations [m, m, rad]  standard deviations of the step, ahead, to the left and of the turn.
   void move(const Pose2& step, const std::array<double, 3>& deviations, RandomStream& random);
-  /// Multiplies each weight by `likelihood(pose)`, greater than 0, and scales them to a sum of 1.
+  /// Multiplies each weight by `likelihood(pose)` and scales them to a sum of 1. They stay as they are if that sum is 0 or no number.
   /// @return their sum before: the mean likelihood.
   template <typename Likelihood>
   double weigh(Likelihood likelihood) {
+    std::vector<double> weights;
+    weights.reserve(particles_.size());
     double sum = 0.0;
-    for (Particle& particle : particles_) sum += particle.weight *= likelihood(particle.X_MR);
-    for (Particle& particle : particles_) particle.weight /= sum;
+    for (const Particle& particle : particles_)
+      sum += weights.emplace_back(particle.weight * likelihood(particle.X_MR));
+    if (!std::isfinite(sum) || sum <= 0.0) return sum;
+    for (std::size_t i = 0; i < weights.size(); ++i) particles_[i].weight = weights[i] / sum;
     return sum;
   }
   /// Draws them again, as many as are needed, each as often as its weight says, where the weights have become unequal: low-variance sampling.

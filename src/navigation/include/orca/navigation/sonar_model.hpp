@@ -17,7 +17,7 @@ struct SonarEcho {
 };
 
 /// Returns how likely the echoes are if the robot is at a pose: more than 0, on no certain scale. A smooth wall may give no echo at a slant, or
-/// the second one; a person may stand in front of it.
+/// the second one; a person may stand in front of it. An echo that is no number says nothing, here and below.
 /// @thread  pure function, as the next; any thread.
 [[nodiscard]] double likelihood(std::span<const SonarEcho> echoes, const KnownMap& map, const Pose2& X_MR);
 
