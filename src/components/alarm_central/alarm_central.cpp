@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <chrono>
-#include <cstddef>
+#include <utility>
 
 #include "orca/component.hpp"
 #include "orca/idl/system.hpp"
@@ -23,15 +23,15 @@ class AlarmCentral final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    const std::size_t subscribers = alarms_.subscriber_count();
+    const bool is_new = std::exchange(was_stopped_, false);  // to those who have stayed, too
+    const bool somebody_is_new = alarms_.take_new_subscribers() || is_new;
     const auto news = take_alarms();
     // A new subscriber first gets the open alarms, the new ones among them.
-    for (const Alarm& alarm : subscribers > subscribers_ ? kept_alarms() : news) pass_on(alarm);
-    subscribers_ = subscribers;
+    for (const Alarm& alarm : somebody_is_new ? kept_alarms() : news) pass_on(alarm);
     return orca::again();
   }
 
-  void stop() override { subscribers_ = 0; }
+  void stop() override { was_stopped_ = true; }
 
   void pass_on(const Alarm& alarm) {
     if (alarms_.subscriber_count() == 0) return;
@@ -46,8 +46,7 @@ class AlarmCentral final : public orca::Component {
                                   {.text = "Each alarm that is raised or cleared anywhere in the system. To "
                                            "a new subscriber, and with it to all, "
                                            "first those that nobody has acknowledged yet."}};
-
-  std::size_t subscribers_ = 0;  // in the last lap
+  bool was_stopped_ = false;
 };
 
 }  // namespace
