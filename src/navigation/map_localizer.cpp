@@ -155,7 +155,7 @@ void MapLocalizer::change_map(std::shared_ptr<const KnownMap> map) {
 void MapLocalizer::add_place(const PlaceBelief& belief, std::size_t count) {
   Candidate& place = places_.emplace_back(Candidate{Particles(options_.particles), belief});
   place.particles.scatter(belief.where, count, random_);
-  place.particles.shape(belief.where);
+  place.particles.shape(belief.where, random_);
 }
 
 void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now) {
@@ -279,7 +279,7 @@ void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   constexpr double kMost = 9.0;
   const double misfit = squared_distance(both, seen.mean);
   if (misfit > kMost) prior = widened(prior, misfit / kMost);
-  place.particles.shape(fused(prior, seen));
+  place.particles.shape(fused(prior, seen), random_);
 }
 
 // A place that explains less of what is seen than another becomes unlikely; a little less says nothing, else one of two equal rooms would win.

@@ -150,9 +150,13 @@ void Particles::resample(RandomStream& random) {
   particles_ = std::move(drawn);
 }
 
-void Particles::shape(const PoseSpread& wanted) {
+void Particles::shape(const PoseSpread& wanted, RandomStream& random) {
+  constexpr double kFlat = 0.1;  // of a variance that is 1 unless root_of() had to add what is missing
   const PoseSpread now = spread();
-  const Matrix change = root_of(wanted.covariance) * root_of(now.covariance).inverse();
+  const Matrix whitening = root_of(now.covariance).inverse();
+  const Matrix white = whitening * matrix_of(now.covariance) * whitening.transpose();
+  if (white.diagonal().minCoeff() < kFlat) return scatter(wanted, particles_.size(), random);
+  const Matrix change = root_of(wanted.covariance) * whitening;
   for (Particle& particle : particles_)
     particle.X_MR = moved(wanted.mean, change * off(particle.X_MR, now.mean));
 }

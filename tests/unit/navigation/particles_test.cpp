@@ -50,7 +50,7 @@ TEST_CASE("particles take the mean and covariance that a measurement leaves", "[
   particles.scatter(kSomewhere, 200, random);
   const PoseSpread seen{{2.2, -1.1, -3.1}, {0.01, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.02}};
   const PoseSpread both = fused(particles.spread(), seen);
-  particles.shape(both);
+  particles.shape(both, random);
   check_alike(particles.spread(), both, 1e-6);
   // Known better than by either, and nearer to the one that knows it.
   CHECK(both.covariance[0] < 0.01);
@@ -129,4 +129,18 @@ TEST_CASE("a sonar's range that is no number says nothing", "[navigation]") {
   const std::array echoes{SonarEcho{{}, 2.0, 5.0, 0.2}, SonarEcho{{0.0, 0.0, 1.5}, std::nan(""), 5.0, 0.2}};
   CHECK(likelihood(echoes, map, here) == likelihood(std::span(echoes).first(1), map, here));
   CHECK(share_heard(echoes, map, here) == share_heard(std::span(echoes).first(1), map, here));
+}
+
+TEST_CASE("particles that are all alike, or on a line, take a covariance too", "[navigation]") {
+  RandomStream random(1, "test", "particles");
+  std::vector<Pose2> alike(2000, Pose2{1.0, 1.0, 0.5});
+  std::vector<Pose2> line;
+  for (int i = 0; i < 2000; ++i) line.push_back({0.001 * i, 0.001 * i, 0.5});
+  for (const std::vector<Pose2>& poses : {alike, line}) {
+    Particles particles;
+    particles.put(poses);
+    particles.shape(kSomewhere, random);
+    check_alike(particles.spread(), kSomewhere, 0.1);
+    CHECK(count_of(particles) == 2000.0);
+  }
 }

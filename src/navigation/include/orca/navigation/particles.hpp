@@ -80,8 +80,9 @@ class Particles {
   }
   /// Draws them again, as many as are needed, each as often as its weight says, where the weights have become unequal: low-variance sampling.
   void resample(RandomStream& random);
-  /// Moves all so that their mean and covariance become these; their shape stays as far as it can.
-  void shape(const PoseSpread& wanted);
+  /// Moves all so that their mean and covariance become these; their shape stays as far as it can. Where they are nearly all alike in
+  /// something, they have no shape that could be kept, and are scattered again.
+  void shape(const PoseSpread& wanted, RandomStream& random);
 
   [[nodiscard]] PoseSpread spread() const;
   [[nodiscard]] std::span<const Particle> all() const { return particles_; }
