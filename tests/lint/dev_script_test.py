@@ -76,6 +76,17 @@ class DevScript(unittest.TestCase):
                                      str(elapsed), line], capture_output=True, text=True, check=True)
             self.assertEqual(answer.stdout.strip().removeprefix(", "), left)
 
+    def test_the_dearest_entries_of_a_suite_of_any_size_are_shown(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".log") as log:
+            for number in range(50000):
+                log.write(f"{number + 1:5}/50000 Test #{number + 1}: entry_{number} .........   Passed    {number}.50 sec\n")
+            log.flush()
+            answer = subprocess.run(
+                ["bash", "-c", 'set -euo pipefail; say() { :; }; source <(sed -n "/^show_dearest()/,/^}/p" "$0"); show_dearest "$1"',
+                 ROOT / "dev", log.name], capture_output=True, text=True)
+        self.assertEqual(answer.returncode, 0)
+        self.assertEqual(answer.stderr.splitlines(), [f"dev:   {number}.50 s  entry_{number}" for number in range(49999, 49989, -1)])
+
     def test_setup_is_quick_and_silent_when_all_packages_are_there(self):
         dev("setup")
         start = time.process_time()
