@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "command/outbox.hpp"
+#include "goals/outbox.hpp"
 
-using orca::command::Outbox;
+using orca::go::Outbox;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace orca::command {
+namespace orca::go {
 
 /// The objects that must still be sent for one goal: points of its route to Goto, and the list of behaviours to the fuser. A
 /// receiver that was started again has forgotten them, so it gets them once more, without the points that the
@@ -55,4 +55,4 @@ class Outbox {
   Restarts of_fuser_;
 };
 
-}  // namespace orca::command
+}  // namespace orca::go

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "orca/goals/mission_proxy.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+#include "orca/base/text.hpp"
+#include "orca/idl/time.hpp"
+#include "outbox.hpp"
+
+namespace orca::go {
+namespace {
+
+constexpr Duration kRoomLimit = std::chrono::seconds(5);          // for Goto to take a point
+constexpr Duration kGrace = std::chrono::seconds(2);              // for Goto to say that the time is up
+constexpr Duration kRetryAfter = std::chrono::milliseconds(200);  // for receivers that come up
+
+}  // namespace
+
+struct MissionProxy::Drive {
+  Trip trip;
+  Outbox outbox;
+  std::uint64_t mission;
+  double time_limit;  // [s]
+  TimePoint limit;    // for Goto to reach it
+};
+
+MissionProxy::MissionProxy(Component& owner, ComponentHost& host)
+    : host_(host),
+      goto_(owner, "goto", {.text = "Receiver of the coordinates: a Goto."}),
+      clients_(owner, "clients", {.text = "Receiver of the list of behaviours: a fuser."}),
+      check_(owner, "check",
+             {.text = "Asked once, before the start, whether the list of behaviours is right: a fuser.",
+              .optional = true}),
+      places_(owner, "places",
+              {.text = "Asked where the places are that goals name: a PlaceServer.", .optional = true}),
+      arrived_(owner, "arrived", {.text = "Reports that a goal is reached.", .manual = true, .depth = 16}),
+      failed_(owner, "failed",
+              {.text = "Reports that a goal is given up, and why.",
+               .optional = true,
+               .manual = true,
+               .depth = 16}),
+      path_(owner, "path",
+            {.text = "The way that is left to Goto. Used where its process can be started again.",
+             .optional = true,
+             .manual = true,
+             .depth = 16}),
+      given_up_(owner, "GoalFailedPush",
+                {.text = "Goals that failed without a word of Goto: not taken, or not answered."}),
+      behaviours_(owner, "behaviours", {"goto", "avoid"},
+                  {.text = "Behaviours that the fuser uses on the way."}),
+      reach_radius_(owner, "reach_radius", 0.2,
+                    {.unit = "m", .min = 0.01, .text = "Distance at which a goal counts as reached."}),
+      via_radius_(owner, "via_radius", 0.3,
+                  {.unit = "m", .min = 0.01, .text = "Distance at which a via point counts as passed."}),
+      reach_angle_(
+          owner, "reach_angle", 0.1,
+          {.unit = "rad", .min = 0.01, .text = "Accepted deviation from the direction at the goal."}) {}
+
+MissionProxy::~MissionProxy() = default;
+
+Status MissionProxy::configure() {
+  results_.add(arrived_);
+  results_.add(failed_);
+  results_.add(path_);
+  return check_behaviours();
+}
+
+// A list with a wrong name would be refused on the way.
+Status MissionProxy::check_behaviours() {
+  if (!check_.connected()) return ok();
+  auto list = check_.loan();
+  list->clients() = *behaviours_;
+  const auto checked = check_.query(std::move(list));
+  if (checked) return ok();
+  if (checked.error().code == Code::not_found) return behaviours_.refuse(checked.error());
+  return fail(checked.error().code,
+              "cannot ask whether its behaviours are there: " + checked.error().message +
+                  "; let it come up after the fuser, with start_after");
+}
+
+Status MissionProxy::find_places(Trip& trip) {
+  for (Place& via : trip.via)
+    if (Status found = find_place(via); !found.ok()) return found;
+  return find_place(trip.goal);
+}
+
+// Completes a place that is given by its name.
+Status MissionProxy::find_place(Place& place) {
+  if (place.name.empty()) return ok();
+  if (!places_.connected())
+    return fail(Code::invalid_argument,
+                in_quotes(place.name) +
+                    " is the name of a place, and nobody says where it is: connect the "
+                    "port \"places\" to a PlaceServer, or give coordinates, as in "
+                    "\"kitchen: 5 4.5\"");
+  auto question = places_.loan();
+  question->about() = place.name;
+  const auto answer = places_.query(std::move(question));
+  if (!answer && answer.error().code == Code::not_found)
+    return fail(Code::invalid_argument, answer.error().message);
+  if (!answer)
+    return fail(answer.error().code, "cannot ask where " + in_quotes(place.name) +
+                                         " is: " + answer.error().message +
+                                         "; let it come up after the PlaceServer, with start_after");
+  const auto& point = (*answer)->coordinate().point();
+  place.x = point.x();
+  place.y = point.y();
+  place.z = point.z();
+  return ok();
+}
+
+const Trip& MissionProxy::trip() const { return drive_->trip; }
+
+std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double time_limit) {
+  const std::uint64_t mission = host_.begin_mission();
+  drive_ = std::make_unique<Drive>(
+      Drive{trip, Outbox(trip.via.size() + 1), mission, time_limit, host_.now() + from_seconds(time_limit)});
+  arrived_.subscribe();
+  failed_.subscribe();
+  if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
+  const Status sent = send_due(time_limit);
+  if (sent.ok() || may_come_back()) return std::nullopt;
+  return end(give_up(idl::GOAL_REFUSED, "refused: " + sent.error().text()));
+}
+
+std::optional<MissionProxy::Ending> MissionProxy::wait(Duration longest) {
+  const Duration left = last_moment() - host_.now();
+  if (const PushSubject* const port = next_result(std::min(left, longest))) {
+    if (const std::optional<Ending> ending = take_result(*port)) return end(*ending);
+  } else if (host_.now() >= last_moment()) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g s", drive_->time_limit);
+    return end(give_up(idl::GOAL_UNANSWERED, std::string("unanswered: no arrival within ") + text));
+  } else if (is_due()) {
+    send_again();
+  }
+  return std::nullopt;
+}
+
+void MissionProxy::cancel(const std::string& reason) {
+  if (drive_ != nullptr) end(give_up(idl::GOAL_UNANSWERED, "cancelled: " + reason));
+}
+
+void MissionProxy::stop() {
+  drive_.reset();
+  if (const Status sent = send_clients({}); !sent.ok())
+    host_.write_log(log::Level::debug, sent.error().text());
+}
+
+// Ends the drive: the robot stands.
+MissionProxy::Ending MissionProxy::end(const Ending& ending) {
+  drive_.reset();
+  arrived_.unsubscribe();
+  failed_.unsubscribe();
+  path_.unsubscribe();
+  if (const Status sent = send_clients({}); !sent.ok())
+    host_.write_log(log::Level::warning, "the robot may drive on: " + sent.error().text());
+  host_.end_mission();
+  return ending;
+}
+
+// Reports that the goal has failed, because Goto has not.
+MissionProxy::Ending MissionProxy::give_up(idl::GoalFailure kind, const std::string& reason) {
+  host_.write_log(log::Level::warning, "goal \"" + drive_->trip.name + "\" was not reached; " + reason);
+  auto failed = given_up_.loan();
+  failed->name() = drive_->trip.name;
+  failed->kind(kind);
+  failed->reason() = reason;
+  failed->stamp(to_time_value(host_.now()));
+  given_up_.push(std::move(failed));
+  return {false, reason};
+}
+
+// Returns whether Goto or the fuser is in a process that may be started again.
+bool MissionProxy::may_come_back() const {
+  return goto_.server_restarts().has_value() || clients_.server_restarts().has_value();
+}
+
+// A Goto that says why gives up first.
+TimePoint MissionProxy::last_moment() const {
+  return drive_->limit + (failed_.connected() ? kGrace : Duration{0});
+}
+
+// Sends what Goto and the fuser need and do not have.
+// @param time_limit  [s] for Goto to reach the goal.
+Status MissionProxy::send_due(double time_limit) {
+  const Trip& trip = drive_->trip;
+  Outbox& outbox = drive_->outbox;
+  outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
+  while (const std::optional<std::size_t> next = outbox.next_point()) {
+    const bool via = *next < trip.via.size();
+    const Place& place = via ? trip.via[*next] : trip.goal;
+    const Demands demands{via ? *via_radius_ : *reach_radius_, *reach_angle_, time_limit, via};
+    if (Status sent = goto_.send_wait_max(point_of(trip, place, demands), kRoomLimit); !sent.ok())
+      return sent;
+    outbox.point_sent();
+    outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());
+  }
+  if (!outbox.list_is_due()) return ok();
+  if (Status sent = send_clients(*behaviours_); !sent.ok()) return sent;
+  outbox.list_sent();
+  return ok();
+}
+
+Status MissionProxy::send_clients(const std::vector<std::string>& names) {
+  auto list = clients_.loan();
+  list->clients() = names;
+  return clients_.send(std::move(list));
+}
+
+bool MissionProxy::is_due() const {
+  const Outbox& outbox = drive_->outbox;
+  return !outbox.is_empty() || outbox.is_outdated(goto_.server_restarts(), clients_.server_restarts());
+}
+
+void MissionProxy::send_again() {
+  const double left = to_seconds(drive_->limit - host_.now());
+  const Status sent = send_due(std::max(left, 0.1));
+  if (sent.ok()) {
+    host_.write_log(log::Level::info,
+                    "Goto or the fuser was started again, and has been sent what it needs for \"" +
+                        drive_->trip.name + "\": " + std::to_string(drive_->outbox.points_left()) + " of " +
+                        std::to_string(drive_->trip.via.size() + 1) + " points are left");
+  } else {
+    host_.write_log(log::Level::debug, "cannot send again yet: " + sent.error().text());
+  }
+}
+
+// Waits for a result, or until something is to be sent again; then it returns null, as it does after that time.
+PushSubject* MissionProxy::next_result(Duration longest) {
+  return results_.wait(drive_->outbox.is_empty() ? longest : std::min(longest, kRetryAfter), [this] {
+    return drive_->outbox.is_outdated(goto_.server_restarts(), clients_.server_restarts());
+  });
+}
+
+// Returns the result; nothing if that is still open. Objects of other missions are late: their goals have been given up.
+std::optional<MissionProxy::Ending> MissionProxy::take_result(const PushSubject& port) {
+  if (&port == &arrived_) {
+    if (is_ours(*arrived_.get_update())) return Ending{true, {}};
+  } else if (&port == &failed_) {
+    const auto failed = failed_.get_update();
+    if (!is_ours(*failed)) return std::nullopt;
+    host_.write_log(log::Level::warning,
+                    "goal \"" + drive_->trip.name + "\" was not reached; " + failed->reason());
+    return Ending{false, failed->reason()};
+  } else if (const auto path = path_.get_update(); is_ours(*path)) {
+    note_way(*path);
+  }
+  return std::nullopt;
+}
+
+bool MissionProxy::is_ours(const idl::OrcaObject& result) const {
+  return result.mission() == drive_->mission;
+}
+
+// Learns from the way that is left to Goto which points the robot has passed. A way that does not lead to the
+// goal was pushed before Goto had the whole route.
+void MissionProxy::note_way(const idl::Path& path) {
+  if (path.poses().empty()) return;
+  const auto& last = path.poses().back().position();
+  const Place& goal = drive_->trip.goal;
+  if (last.x() == goal.x && last.y() == goal.y) drive_->outbox.note_left(path.poses().size() - 1);
+}
+
+}  // namespace orca::go
