@@ -106,6 +106,7 @@ LAYERS = (
     Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
+    Layer("task_tree", ("src/components/task_tree",), (), ("goals", "geometry_objects", "geometry", "text", "xml", *COMPONENT)),
     Layer("sim_model", ("sim/model",), tuple(f"orca/sim/{name}.hpp" for name in (
         "event", "figures", "floor", "gripper_order", "mesh", "occupancy", "readings", "realism", "robot_model", "scaled_errors", "sections", "shape", "snapshot", "walker", "world_model")),
           SIM_MODEL, ("eigen", "fmt"), module="sim"),

@@ -52,6 +52,7 @@ std::string hall_with_pillar() {
 ShippedGraph::ShippedGraph(const std::string& name)
     : text_(read_text(source_file("graphs/" + name + ".xml"))) {
   text_ = replaced(text_, "\\.\\./sim/", source_file("sim/"));
+  text_ = replaced(text_, "\"tasks/", "\"" + source_file("graphs/tasks/"));
   text_ = replaced(text_, "(graph|file)=\"(?=[a-z][^\"]*\\.xml\")", "$1=\"" + source_file("graphs/"));
 }
 

@@ -132,6 +132,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "intel_log",
                                        "calibrate",
                                        "pioneer_localize",
+                                       "pioneer_tasks",
                                        "pioneer_slam",
                                        "scout_localize"};
 

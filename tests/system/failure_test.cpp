@@ -52,6 +52,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_planner", "", {"planner"}},
     {"warehouse_scanner", "", {"planner"}},
     {"pioneer_localize", "", {"planner"}},
+    {"pioneer_tasks", "", {"planner"}},
     {"scout_localize", "", {"goto", "avoid"}},
     {"pioneer_slam", "", {"walk", "avoid"}},
     {"calibrate", "", {"goto", "avoid"}},

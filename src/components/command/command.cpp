@@ -157,7 +157,7 @@ class Command final : public orca::Component {
   orca::Status add(const std::string& text, std::vector<Trip>& trips) {
     orca::Result<Trip> trip = orca::go::parse_trip(text);
     if (!trip) return trip.error();
-    if (orca::Status found = mission_.find_places(*trip); !found.ok()) return found;
+    if (orca::Status found = mission_.look_up(*trip); !found.ok()) return found;
     trips.push_back(std::move(trip).value());
     return orca::ok();
   }

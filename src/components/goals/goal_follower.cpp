@@ -2,6 +2,7 @@
 #include "orca/goals/goal_follower.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -16,6 +17,13 @@ std::string in_short(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
   return text;
+}
+
+// Says how near the robot has come to a point, for people.
+std::string where_it_stays(const Patience& patience, const idl::GoalPoint& point) {
+  const std::string place = point.via() ? "the next via point" : "the goal";
+  if (!std::isfinite(patience.nearest())) return "no way to " + place;
+  return "no nearer than " + in_short(patience.nearest()) + " m to " + place;
 }
 
 }  // namespace
@@ -221,9 +229,8 @@ bool GoalFollower::is_hopeless(const Pose2& pose) {
     end_route(idl::GOAL_TIMED_OUT, "timed out: not reached within " + in_short(next.time_limit()) + " s");
   } else if (*blocked_after_ > 0.0 && stuck >= *blocked_after_) {
     const std::string holds = what_holds();
-    end_route(idl::GOAL_BLOCKED, "blocked: no nearer than " + in_short(patience_.nearest()) + " m to " +
-                                     place() + " for " + in_short(*blocked_after_) + " s" +
-                                     (doubts_ ? ", and " + doubt() : "") +
+    end_route(idl::GOAL_BLOCKED, "blocked: " + where_it_stays(patience_, next) + " for " +
+                                     in_short(*blocked_after_) + " s" + (doubts_ ? ", and " + doubt() : "") +
                                      (holds.empty() ? "" : ", and " + holds));
   } else {
     return false;
@@ -236,9 +243,6 @@ bool GoalFollower::are_motors_held() const {
   return std::ranges::any_of(
       alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
-
-// Names what the robot drives to now, for people.
-std::string GoalFollower::place() const { return route_.next().via() ? "the next via point" : "the goal"; }
 
 void GoalFollower::end_route(idl::GoalFailure kind, const std::string& reason) {
   const ObjectPtr<idl::GoalPoint> goal = route_.point();

@@ -69,7 +69,8 @@ Status MissionProxy::configure() {
   return check_behaviours();
 }
 
-// A list with a wrong name would be refused on the way.
+// A list with a wrong name would be refused on the way. Where nobody answers yet, as to an object that is to take another one's
+// place, that has to do.
 Status MissionProxy::check_behaviours() {
   if (!check_.connected()) return ok();
   auto list = check_.loan();
@@ -77,9 +78,16 @@ Status MissionProxy::check_behaviours() {
   const auto checked = check_.query(std::move(list));
   if (checked) return ok();
   if (checked.error().code == Code::not_found) return behaviours_.refuse(checked.error());
-  return fail(checked.error().code,
-              "cannot ask whether its behaviours are there: " + checked.error().message +
-                  "; let it come up after the fuser, with start_after");
+  host_.write_log(log::Level::debug,
+                  "cannot ask yet whether its behaviours are there: " + checked.error().message);
+  return ok();
+}
+
+Status MissionProxy::look_up(Trip& trip) {
+  const Status found = find_places(trip);
+  if (found.ok() || found.error().code == Code::invalid_argument) return found;
+  host_.write_log(log::Level::debug, found.error().message + "; it is asked again on the way");
+  return ok();
 }
 
 Status MissionProxy::find_places(Trip& trip) {
@@ -103,13 +111,10 @@ Status MissionProxy::find_place(Place& place) {
   if (!answer && answer.error().code == Code::not_found)
     return fail(Code::invalid_argument, answer.error().message);
   if (!answer)
-    return fail(answer.error().code, "cannot ask where " + in_quotes(place.name) +
-                                         " is: " + answer.error().message +
-                                         "; let it come up after the PlaceServer, with start_after");
+    return fail(answer.error().code,
+                "cannot ask where " + in_quotes(place.name) + " is: " + answer.error().message);
   const auto& point = (*answer)->coordinate().point();
-  place.x = point.x();
-  place.y = point.y();
-  place.z = point.z();
+  place = {point.x(), point.y(), point.z(), std::move(place.door), {}};
   return ok();
 }
 
@@ -122,6 +127,8 @@ std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double
   arrived_.subscribe();
   failed_.subscribe();
   if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
+  if (const Status found = find_places(drive_->trip); !found.ok())
+    return end(give_up(idl::GOAL_REFUSED, "refused: " + found.error().text()));
   const Status sent = send_due(time_limit);
   if (sent.ok() || may_come_back()) return std::nullopt;
   return end(give_up(idl::GOAL_REFUSED, "refused: " + sent.error().text()));
@@ -172,7 +179,7 @@ MissionProxy::Ending MissionProxy::give_up(idl::GoalFailure kind, const std::str
   failed->reason() = reason;
   failed->stamp(to_time_value(host_.now()));
   given_up_.push(std::move(failed));
-  return {false, reason};
+  return {false, drive_->mission, reason};
 }
 
 // Returns whether Goto or the fuser is in a process that may be started again.
@@ -240,13 +247,13 @@ PushSubject* MissionProxy::next_result(Duration longest) {
 // Returns the result; nothing if that is still open. Objects of other missions are late: their goals have been given up.
 std::optional<MissionProxy::Ending> MissionProxy::take_result(const PushSubject& port) {
   if (&port == &arrived_) {
-    if (is_ours(*arrived_.get_update())) return Ending{true, {}};
+    if (is_ours(*arrived_.get_update())) return Ending{true, drive_->mission, {}};
   } else if (&port == &failed_) {
     const auto failed = failed_.get_update();
     if (!is_ours(*failed)) return std::nullopt;
     host_.write_log(log::Level::warning,
                     "goal \"" + drive_->trip.name + "\" was not reached; " + failed->reason());
-    return Ending{false, failed->reason()};
+    return Ending{false, drive_->mission, failed->reason()};
   } else if (const auto path = path_.get_update(); is_ours(*path)) {
     note_way(*path);
   }

@@ -251,6 +251,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
     motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
     note_speed(steer.speed);
+    note_plan(navigator_->way_left());
     if (const auto ahead = navigator_->ahead(moment)) outlook_.lead.name(*ahead, 0.0);
   }
 

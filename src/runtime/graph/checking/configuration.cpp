@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "orca/xml/attributes.hpp"
 #include "reading/codes.hpp"
 #include "reading/parameters.hpp"
 
@@ -27,8 +28,9 @@ class ConfigurationCheck {
     for (const ComponentFault& fault : catalogue.try_components(graph_, candidates)) {
       const Node& node = all_.nodes[all_.model.component_by_name.at(fault.component)];
       const std::string param = fault.param.empty() ? "" : "parameter \"" + fault.param + "\": ";
-      report.error(codes::kComponentRefuses, place_of_param(node, fault.param),
-                   node.title() + ": " + param + fault.text);
+      for (const std::string_view line : xml::split(fault.text, "\n"))  // all faults of a file that it reads
+        report.error(codes::kComponentRefuses, place_of_param(node, fault.param),
+                     node.title() + ": " + param + std::string(line));
     }
   }
 

@@ -60,6 +60,10 @@ class Navigator {
   [[nodiscard]] std::optional<Vec2> ahead(const Moment& moment) const;
   /// Returns how far the robot can drive straight on [m], at most 1.5 m.
   [[nodiscard]] double room_ahead(const Moment& moment) const;
+  /// Returns what is left of the path [m]; nothing while there is none.
+  [[nodiscard]] std::optional<double> way_left() const {
+    return plan_.path.empty() ? std::nullopt : std::optional(plan_.path.length() - along_);
+  }
   /// Forgets the path: the robot does something else now.
   void drop_path();
 

@@ -54,6 +54,10 @@ class GoalFollower : public Component {
   /// Takes note of the speed [m/s] commanded in this lap, by a command that take() has not pushed.
   void note_speed(double speed) { before_ = {false, speed, before_.time}; }
 
+  /// Takes note of what is left of its plan [m]; nothing while it has none. Whoever plans says so each lap: the way around what is in
+  /// the way may lead away from the goal at first, and is progress all the same.
+  void note_plan(std::optional<double> left) { patience_.note_plan(left); }
+
   [[nodiscard]] PushServer<idl::MotionCommand>& motion() { return motion_; }
   [[nodiscard]] PushProxy<idl::RobotPose>& localizer() { return localizer_; }
   [[nodiscard]] PushProxy<idl::Odometry>& odometry() { return odometry_; }
@@ -108,7 +112,6 @@ class GoalFollower : public Component {
   void wait_for_pose();
   bool is_lost();
   [[nodiscard]] std::string doubt() const;
-  [[nodiscard]] std::string place() const;
   bool is_hopeless(const Pose2& pose);
   [[nodiscard]] bool are_motors_held() const;
   void end_route(idl::GoalFailure kind, const std::string& reason);

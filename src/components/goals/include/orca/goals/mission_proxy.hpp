@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ class MissionProxy {
   /// The result of a mission.
   struct Ending {
     bool reached = false;
+    std::uint64_t mission = 0;  ///< Its id.
     std::string
         reason;  ///< Why it is not, for people: "blocked: ..."; the words before the colon are one of a few.
   };
@@ -37,11 +39,11 @@ class MissionProxy {
   MissionProxy& operator=(const MissionProxy&) = delete;
 
   /// Connects its parts. @pre  called once, from the component's configure().
-  /// @errors  the fuser does not know the behaviours, or cannot be asked.
+  /// @errors  the fuser does not know the behaviours.
   [[nodiscard]] Status configure();
-  /// Completes the places of a trip that are given by their names.
-  /// @errors  invalid_argument: nobody says where they are, or there is no such place.
-  [[nodiscard]] Status find_places(Trip& trip);
+  /// Completes the places of a trip that are given by their names, as far as there is an answer now.
+  /// @errors  invalid_argument: nobody is there to say where they are, or there is no such place.
+  [[nodiscard]] Status look_up(Trip& trip);
 
   /// Sends the robot on a trip.
   /// @param time_limit [s]  for the way to the goal.
@@ -66,6 +68,7 @@ class MissionProxy {
   struct Drive;
 
   Status check_behaviours();
+  Status find_places(Trip& trip);
   Status find_place(Place& place);
   Status send_due(double time_limit);
   Status send_clients(const std::vector<std::string>& names);

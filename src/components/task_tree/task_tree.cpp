@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/component.hpp"
+#include "orca/goals/mission_proxy.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/idl/tasks.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/text/object_table.hpp"
+#include "task.hpp"
+#include "task_rules.hpp"
+#include "task_run.hpp"
+
+namespace {
+
+using orca::go::MissionProxy;
+using orca::tasks::Actor;
+using orca::tasks::Condition;
+using orca::tasks::Kind;
+using orca::tasks::Sight;
+using orca::tasks::Step;
+using orca::tasks::Task;
+using orca::tasks::TaskRun;
+
+constexpr const char* kQuestion = "QUESTION";  // kind of the alarm while it asks
+
+// A port whose objects conditions look at.
+struct Watched {
+  Sight sight;
+  std::function<void()> take_all;
+  std::function<std::optional<std::string>(const std::string& field)> newest;
+};
+
+/// A component that does a task (thesis 6.1, 11.5): it drives from place to place, waits, asks and looks, as a task file says, and
+/// reacts to what the system says meanwhile. Each drive is a mission. When the task is done the component is done, and when the task
+/// fails it has failed.
+class TaskTree final : public orca::Component, private Actor {
+ public:
+  explicit TaskTree(orca::ComponentHost& host) : Component(host) {
+    lap_every(std::chrono::milliseconds(100));
+  }
+
+ private:
+  orca::Status configure() override {
+    stay_active(true);
+    watch(battery_);
+    watch(gripper_);
+    watch(localization_);
+    if (const orca::Status read = read_file(); !read.ok()) return task_file_.refuse(read.error());
+    run_ = std::make_unique<TaskRun>(task_);
+    return mission_.configure();
+  }
+
+  template <class T>
+  void watch(orca::PushProxy<T>& port) {
+    if (!port.connected()) return;
+    const auto example = orca::make_object<T>();
+    watched_.push_back({{port.name(), orca::field_names(orca::object_type<T>(), &*example)},
+                        [&port] {
+                          while (port.new_data_arrived()) (void)port.get_update();
+                        },
+                        [&port](const std::string& field) { return field_of<T>(port.latest(), field); }});
+  }
+
+  template <class T>
+  static std::optional<std::string> field_of(const orca::ObjectPtr<T>& object, const std::string& field) {
+    if (!object) return std::nullopt;
+    const auto texts = orca::field_texts(orca::object_type<T>(), &*object, field);
+    if (!texts || texts->size() != 1) return std::nullopt;
+    return texts->front().text;
+  }
+
+  // Reports all faults of the file at once.
+  orca::Status read_file() {
+    std::vector<Sight> sights;
+    for (const Watched& watched : watched_) sights.push_back(watched.sight);
+    orca::xml::Diagnostics diagnostics;
+    std::optional<Task> task = orca::tasks::read_task(*task_file_, sights, diagnostics);
+    if (task) look_up_places(*task, diagnostics);
+    if (task && !diagnostics.has_errors()) {
+      task_ = std::move(*task);
+      return orca::ok();
+    }
+    std::string text = diagnostics.text();
+    while (text.ends_with('\n')) text.pop_back();
+    return orca::fail(orca::Code::invalid_argument, text);
+  }
+
+  void look_up_places(Task& task, orca::xml::Diagnostics& diagnostics) {
+    for (Step& step : task.steps) {
+      if (step.kind != Kind::drive) continue;
+      if (const orca::Status found = mission_.look_up(step.trip); !found.ok())
+        diagnostics.error(orca::tasks::codes::kPlace, step.position, found.error().message);
+    }
+  }
+
+  orca::Outcome work() override {
+    for (const Watched& watched : watched_) watched.take_all();
+    alarms_ = kept_alarms();
+    if (!paused_ && is_on()) run_->tick(*this, orca::to_seconds(now().time_since_epoch()));
+    show();
+    if (is_on()) return orca::again();
+    if (run_->state() == TaskRun::State::done) return orca::done();
+    return orca::failed(run_->memories()[0].reason);
+  }
+
+  [[nodiscard]] bool is_on() const {
+    return run_->state() == TaskRun::State::idle || run_->state() == TaskRun::State::running;
+  }
+
+  std::optional<Ending> begin(const Step& step) override {
+    if (step.kind == Kind::ask) {
+      asked_at_ = now();
+      answer_.reset();
+      raise_alarm(kQuestion, orca::idl::ALARM_NOTICE,
+                  step.words + "; answer with: orcactl send " + name() +
+                      ".TaskOrderSend '<TaskOrder kind=\"TASK_ORDER_YES\"/>'");
+      return std::nullopt;
+    }
+    return ending_of(mission_.begin(step.trip, step.time > 0.0 ? step.time : *goal_timeout_));
+  }
+
+  std::optional<Ending> go_on(const Step& step) override {
+    if (step.kind == Kind::drive) return ending_of(mission_.wait(orca::Duration{0}));
+    if (answer_) {
+      clear_alarm(kQuestion, *answer_ ? "answered: yes" : "answered: no");
+      return *answer_ ? Ending{true, {}} : Ending{false, "answered: no"};
+    }
+    if (orca::to_seconds(now() - asked_at_) < step.time) return std::nullopt;
+    clear_alarm(kQuestion, "nobody has answered");
+    return Ending{false, "unanswered: \"" + step.words + "\""};
+  }
+
+  void halt(const Step& step) override {
+    if (step.kind == Kind::drive) {
+      mission_.cancel("the task has something else to do");
+    } else {
+      clear_alarm(kQuestion, "it is not asked any more");
+    }
+  }
+
+  void say(const std::string& text) override { log_info(text); }
+
+  [[nodiscard]] bool holds(const Condition& condition) override {
+    return orca::tasks::holds(
+        condition,
+        {[this](const std::string& kind, const std::string& source) { return has_alarm(kind, source); },
+         [this](const std::string& port, const std::string& field) { return newest(port, field); }});
+  }
+
+  [[nodiscard]] bool has_alarm(const std::string& kind, const std::string& source) const {
+    return std::ranges::any_of(alarms_, [&](const orca::idl::Alarm& alarm) {
+      return alarm.active() && orca::kind_text(alarm) == kind && (source.empty() || alarm.source() == source);
+    });
+  }
+
+  [[nodiscard]] std::optional<std::string> newest(const std::string& port, const std::string& field) const {
+    const auto watched =
+        std::ranges::find_if(watched_, [&](const Watched& w) { return w.sight.port == port; });
+    return watched == watched_.end() ? std::nullopt : watched->newest(field);
+  }
+
+  static std::optional<Ending> ending_of(const std::optional<MissionProxy::Ending>& ending) {
+    if (!ending) return std::nullopt;
+    return Ending{
+        ending->reached,
+        ending->reached ? "" : ending->reason + " (mission " + std::to_string(ending->mission) + ")"};
+  }
+
+  orca::Status on_order(const orca::ObjectPtr<orca::idl::TaskOrder>& order) {
+    switch (order->kind()) {
+      case orca::idl::TASK_ORDER_PAUSE: return pause();
+      case orca::idl::TASK_ORDER_RESUME: paused_ = false; break;
+      case orca::idl::TASK_ORDER_SKIP: return skip();
+      case orca::idl::TASK_ORDER_END: run_->end(*this, "ended: by \"" + order->origin() + "\""); break;
+      case orca::idl::TASK_ORDER_BEGIN: return begin_anew();
+      case orca::idl::TASK_ORDER_YES: return answer(true);
+      case orca::idl::TASK_ORDER_NO: return answer(false);
+    }
+    return orca::ok();
+  }
+
+  orca::Status pause() {
+    paused_ = true;
+    run_->halt(*this);
+    return orca::ok();
+  }
+
+  orca::Status skip() {
+    const auto skipped = run_->skip(*this);
+    if (!skipped) return orca::fail(orca::Code::failed_precondition, "no step is on the way");
+    log_info("skipped: " + task_.steps[*skipped].text);
+    return orca::ok();
+  }
+
+  orca::Status begin_anew() {
+    run_->halt(*this);
+    run_ = std::make_unique<TaskRun>(task_);
+    paused_ = false;
+    return orca::ok();
+  }
+
+  orca::Status answer(bool yes) {
+    const auto active = run_->active();
+    const bool asks =
+        std::ranges::any_of(active, [this](std::size_t step) { return task_.steps[step].kind == Kind::ask; });
+    if (!asks) return orca::fail(orca::Code::failed_precondition, "the task asks nothing now");
+    answer_ = yes;
+    return orca::ok();
+  }
+
+  // Pushes the task if something of it has changed, or somebody has come who has not seen it.
+  void show() {
+    const bool is_new = state_.take_new_subscribers();
+    if (state_.subscriber_count() == 0) return;
+    auto state = state_.loan();
+    fill(*state);
+    std::string seen = std::to_string(state->phase()) + state->reason();
+    for (const auto& step : state->steps()) seen += std::to_string(step.state()) + step.reason();
+    if (!is_new && seen == shown_) return;
+    shown_ = std::move(seen);
+    state->stamp(orca::to_time_value(now()));
+    state_.push(std::move(state));
+  }
+
+  void fill(orca::idl::TaskState& state) const {
+    state.name() = task_.name;
+    state.phase(phase());
+    state.reason() = run_->last_failure();
+    for (std::size_t i = 0; i < task_.steps.size(); ++i) {
+      auto& step = state.steps().emplace_back();
+      step.text() = task_.steps[i].text;
+      step.depth(static_cast<std::uint32_t>(task_.steps[i].depth));
+      step.state(static_cast<orca::idl::TaskStepState>(run_->memories()[i].state));
+      step.reason() = run_->memories()[i].reason;
+    }
+  }
+
+  [[nodiscard]] orca::idl::TaskPhase phase() const {
+    if (run_->state() == TaskRun::State::done) return orca::idl::TASK_DONE;
+    if (run_->state() == TaskRun::State::failed) return orca::idl::TASK_FAILED;
+    return paused_ ? orca::idl::TASK_PAUSED : orca::idl::TASK_RUNNING;
+  }
+
+  void stop() override { mission_.stop(); }
+
+  void save_state(orca::StateWriter& state) const override {
+    state.write(step_texts(), run_->memories(), run_->last_failure(), paused_);
+  }
+
+  orca::Status load_state(orca::StateReader& state) override {
+    std::vector<std::string> texts;
+    std::vector<TaskRun::Memory> memories;
+    std::string last_failure;
+    bool paused = false;
+    if (orca::Status read = state.read(texts, memories, last_failure, paused); !read.ok()) return read;
+    if (texts != step_texts()) {
+      log_warning("the task is another one than before, so it begins anew");
+      return orca::ok();
+    }
+    run_->go_on_from(std::move(memories), std::move(last_failure));
+    paused_ = paused;
+    return orca::ok();
+  }
+
+  [[nodiscard]] std::vector<std::string> step_texts() const {
+    std::vector<std::string> texts;
+    for (const Step& step : task_.steps) texts.push_back(step.text);
+    return texts;
+  }
+
+  orca::SendServer<orca::idl::TaskOrder> orders_{
+      *this,
+      "TaskOrderSend",
+      &TaskTree::on_order,
+      {.text = "Orders of an operator, and answers to questions."}};
+  orca::PushServer<orca::idl::TaskState> state_{
+      *this,
+      "TaskStatePush",
+      {.text = "The task, whenever something of it changes, and for a new subscriber."}};
+  orca::PushProxy<orca::idl::Battery> battery_{
+      *this, "battery", {.text = "For conditions: the battery.", .optional = true}};
+  orca::PushProxy<orca::idl::GripperState> gripper_{
+      *this, "gripper", {.text = "For conditions: the gripper.", .optional = true}};
+  orca::PushProxy<orca::idl::Localization> localization_{
+      *this,
+      "localization",
+      {.text = "For conditions: how well it is known where the robot is.", .optional = true}};
+  MissionProxy mission_{*this, host()};
+  orca::Param<std::string> task_file_{
+      *this, "task", "", {.file = true, .fixed = true, .text = "The task file (README of TaskTree)."}};
+  orca::Param<double> goal_timeout_{
+      *this,
+      "goal_timeout",
+      300.0,
+      {.unit = "s", .min = 1.0, .text = "Longest time for a Drive that does not say its own."}};
+
+  Task task_;
+  std::unique_ptr<TaskRun> run_;
+  std::vector<Watched> watched_;
+  std::vector<orca::idl::Alarm> alarms_;  // of this lap
+  bool paused_ = false;
+  orca::TimePoint asked_at_{};
+  std::optional<bool> answer_;
+  std::string shown_;  // what has been pushed
+};
+
+}  // namespace
+
+ORCA_COMPONENT(TaskTree, "orca.TaskTree")

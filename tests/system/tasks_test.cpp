@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Robots that do tasks, in a world that is not as it should be.
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "deployer.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+using Catch::Contains;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Runs of graphs/pioneer_tasks.xml in an office in which something happens.
+struct Office {
+  TempFolder folder{};
+  std::string events{};  // elements of a world file
+
+  [[nodiscard]] Run run(const Words& more = {}) const {
+    std::string world = read_text(source_file("sim/worlds/office.xml"));
+    world.insert(world.rfind("</world>"), events);
+    return run_deployer(
+        Words{source_file("graphs/pioneer_tasks.xml"), "--set", "world=" + folder.write("office.xml", world),
+              "--set", "map=" + source_file("sim/worlds/office.xml")} +
+            virtual_clock() + more,
+        Seconds(120));
+  }
+
+  [[nodiscard]] Run run_task(const std::string& steps, const Words& more = {}) const {
+    const std::string text = "<task name=\"test\" version=\"1\">\n" + steps + "\n</task>\n";
+    return run(Words{"--set", "task=" + folder.write("task.xml", text)} + more);
+  }
+};
+
+std::string shut(double x, double y) {
+  return "<box name=\"leaf\" x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(y) +
+         "\" length=\"1\" width=\"0.08\" height=\"2 m\" comes=\"1 s\"/>";
+}
+
+Words names(const Run& run) {
+  Words names;
+  for (const Arrival& arrival : run.arrivals()) names.push_back(arrival.name);
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("a robot takes visitors on a tour", "[system][tasks]") {
+  const Run run = Office{}.run();
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"kitchen", "library", "office_2", "start"});
+  CHECK(run.contacts().empty());
+  CHECK(run.says("This is the library."));
+}
+
+TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]") {
+  const Run run = Office{.events = shut(3.6, 7.0)}.run();
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"library", "office_2", "start"});
+  CHECK(run.says("The kitchen cannot be reached today."));
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a task that nothing can save fails with its cause and its mission", "[system][tasks]") {
+  const Run run = Office{.events = shut(3.6, 7.0)}.run_task(
+      R"(<Drive to="library"/><Drive to="kitchen" within="20 s"/>)");
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("timed out: not reached within 20 s (mission 2)"));
+}
+
+TEST_CASE("a robot that is carried off goes on when it has found itself, if the task says so",
+          "[system][tasks]") {
+  const Office office{.events = R"(<kidnap robot="Pioneer" at="8 s" x="14" y="6"/>)"};
+  const std::string drives = R"(<Drive to="kitchen"/><Drive to="library"/>)";
+  const Run run = office.run_task("<Try>" + drives + R"(<Catch reason="lost" then="resume" times="3">
+    <Check when="localization.state is LOCALIZATION_LOCALIZED" within="30 s"/></Catch></Try>)");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"kitchen", "library"});
+
+  const Run without = office.run_task(drives);
+  INFO(without.err);
+  CHECK(without.exit_code() == 1);
+  CHECK(without.says("lost: it is not known any more where the robot is (mission 1)"));
+}
+
+TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an operator",
+          "[system][tasks]") {
+  const TempFolder folder;
+  Subprocess program(
+      deployer(Words{source_file("graphs/pioneer_tasks.xml"), "--pace", "0"} + virtual_clock()));
+  for (int tries = 0; run_orcactl({"pace"}).exit_code() != 0; ++tries) {
+    REQUIRE(tries < 200);
+    std::this_thread::sleep_for(50ms);
+  }
+  const auto now = [](const Words& order) {  // carried out while time passes
+    Subprocess asked(orcactl(order));
+    std::this_thread::sleep_for(100ms);
+    REQUIRE(run_orcactl({"pace", "4"}).exit_code() == 0);
+    const Run done = finish(asked, Seconds(20));
+    INFO(done.err << done.out);
+    CHECK(done.exit_code() == 0);
+    REQUIRE(run_orcactl({"pause"}).exit_code() == 0);
+    return done;
+  };
+  REQUIRE(run_orcactl({"step", "30s"}).exit_code() == 0);  // on the way to the library
+  CHECK_THAT(now({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out, Contains("orca.TaskTree/1"));
+  REQUIRE(run_orcactl({"step", "40s"}).exit_code() == 0);  // on the way to the office
+  now({"send", "task.TaskOrderSend", "<TaskOrder kind=\"TASK_ORDER_SKIP\"/>"});
+  REQUIRE(run_orcactl({"pace", "fast"}).exit_code() == 0);
+  const Run run = finish(program, Seconds(60));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"kitchen", "library", "start"});
+  CHECK(run.says("skipped: Drive to=office_2_hall > office_2"));
+}
+
+TEST_CASE("all faults of a task file are reported with their places before the robot starts",
+          "[system][tasks]") {
+  const TempFolder folder;
+  const std::string task = folder.write("bad.xml", R"(<task name="bad" version="1">
+  <Drve to="kitchen"/>
+  <Repeat><Say text="for ever"/></Repeat>
+</task>)");
+  const std::string lost = folder.write("lost.xml", R"(<task name="lost" version="1">
+  <Drive to="kitchn"/>
+  <Drive to="library"/>
+  <Drive to="hall > libary"/>
+</task>)");
+  const Words check{"--check", source_file("graphs/pioneer_tasks.xml"), "--set"};
+  const Run faults = run_deployer(check + Words{"task=" + task});
+  CHECK(faults.exit_code() == kRefusedByComponent);
+  CHECK_THAT(faults.err, Contains(task + ":2:3: error K002") && Contains("did you mean \"Drive\""));
+  CHECK_THAT(faults.err, Contains(task + ":3:3: error K013"));
+  const Run places = run_deployer(check + Words{"task=" + lost});
+  CHECK_THAT(places.err, Contains(lost + ":2:3: error K010") && Contains("did you mean \"kitchen\""));
+  CHECK_THAT(places.err, Contains(lost + ":4:3: error K010"));
+}
