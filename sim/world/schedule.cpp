@@ -2,6 +2,8 @@
 #include "schedule.hpp"
 
 #include <algorithm>
+#include <numbers>
+#include <utility>
 
 namespace orca::sim::detail {
 namespace {
@@ -19,6 +21,28 @@ bool holds(const std::vector<Device>& devices, const std::string& name) {
   return name.empty() ? !devices.empty() : std::ranges::find(devices, name, &Device::name) != devices.end();
 }
 
+// Puts a robot at a drawn place. Each step draws a line through the last place, and a place on the free part of that line. After many steps
+// each place to which there is a way is as likely as any other (hit-and-run: Smith, Operations Research 32(6), 1984).
+Status carry_off(World& world, RobotId robot, double away, RandomStream& random) {
+  constexpr int kLines = 300;  // for about ten rooms
+  constexpr int kMost = 100 * kLines;
+  constexpr double kLongest = 100.0;  // [m]
+  const Vec2 from = world.pose(robot).position();
+  Vec2 at = from;
+  for (int i = 1; i <= kMost; ++i) {
+    const double yaw = random.uniform(-std::numbers::pi, std::numbers::pi);
+    const auto free = [&](Vec2 way) {
+      const double height = world.robot_model(robot).bottom;
+      return world.caster().cast({at, way, kLongest, height, world.body(robot)}).range;
+    };
+    const Vec2 ahead = direction(yaw);
+    at = at + random.uniform(-free(-1.0 * ahead), free(ahead)) * ahead;
+    if (i % kLines == 0 && norm(at - from) >= away && world.place_robot(robot, {at.x, at.y, yaw}).ok())
+      return ok();
+  }
+  return fail(Code::not_found, "no free place was found that is far enough away");
+}
+
 }  // namespace
 
 bool has(const RobotModel& model, const Outage& outage) {
@@ -32,10 +56,11 @@ bool has(const RobotModel& model, const Outage& outage) {
   return false;
 }
 
-Schedule::Schedule(const Events& events) : outages_(events.outages) {
+Schedule::Schedule(const Events& events, std::uint64_t seed) : outages_(events.outages) {
   for (const Visitor& visitor : events.visitors) add(visitor);
   for (const Move& move : events.moves) add(move);
-  for (const Kidnap& kidnap : events.kidnaps) add(kidnap);
+  for (std::size_t i = 0; i < events.kidnaps.size(); ++i)
+    add(events.kidnaps[i], RandomStream(seed, events.kidnaps[i].robot, "kidnap " + std::to_string(i)));
   for (const Outage& outage : events.outages) add(outage);
   std::ranges::stable_sort(steps_, {}, &Step::at);
 }
@@ -61,10 +86,15 @@ void Schedule::add(const Move& move) {
                     }});
 }
 
-void Schedule::add(const Kidnap& kidnap) {
-  steps_.push_back({kidnap.at, kidnap.robot + " is kidnapped", [kidnap](World& world) -> Status {
+void Schedule::add(const Kidnap& kidnap, RandomStream random) {
+  const Duration at = kidnap.latest
+                          ? from_seconds(random.uniform(to_seconds(kidnap.at), to_seconds(*kidnap.latest)))
+                          : kidnap.at;
+  steps_.push_back({at, kidnap.robot + " is kidnapped", [kidnap, random](World& world) mutable -> Status {
                       const Result<RobotId> robot = robot_of(world, kidnap.robot);
-                      return robot ? world.place_robot(*robot, kidnap.X_WB) : robot.error();
+                      if (!robot) return robot.error();
+                      return kidnap.away ? carry_off(world, *robot, *kidnap.away, random)
+                                         : world.place_robot(*robot, kidnap.X_WB);
                     }});
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "orca/base/random.hpp"
 #include "orca/sim/event.hpp"
 #include "orca/sim/world.hpp"
 
@@ -18,7 +20,8 @@ namespace orca::sim::detail {
 // The events of a running world.
 class Schedule {
  public:
-  explicit Schedule(const Events& events);
+  // @param seed  of what is drawn.
+  Schedule(const Events& events, std::uint64_t seed);
 
   // Does what is due, in the order of its times, and notes it in words.
   void run(World& world, std::vector<std::string>& notes);
@@ -44,7 +47,7 @@ class Schedule {
 
   void add(const Visitor& visitor);
   void add(const Move& move);
-  void add(const Kidnap& kidnap);
+  void add(const Kidnap& kidnap, RandomStream random);
   void add(const Outage& outage);
   [[nodiscard]] Status with(const std::string& visitor, const std::function<Status(ObstacleId)>& act) const;
   // Returns whether it is over and done with.

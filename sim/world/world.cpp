@@ -55,7 +55,7 @@ struct World::Impl {
         caster(model),
         physics(model, errors),
         movers(model, o.seed, caster, physics),
-        schedule(model.events),
+        schedule(model.events, o.seed),
         team(o.threads) {}
 
   WorldModel model;

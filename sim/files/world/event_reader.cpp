@@ -69,8 +69,19 @@ void EventReader::move(const xml::Attributes& element) {
 void EventReader::kidnap(const xml::Attributes& element) {
   const auto robot = element.text("robot");
   const auto at = element.duration("at");
-  const auto pose = read_pose(element);
-  if (robot && at && pose) events_.kidnaps.push_back({*robot, *at, *pose});
+  if (!robot || !at) return;
+  const bool is_drawn = element.has("away");
+  const bool has_place = element.has("x") && element.has("y");
+  const bool has_some = element.has("x") || element.has("y") || element.has("yaw");
+  if (is_drawn ? has_some : !has_place)
+    return element.error(
+        world_codes::kBadEvent,
+        "give either x and y, where the robot is put, or away, how far from there a place is "
+        "drawn at least");
+  const auto pose = is_drawn ? Pose2{} : read_pose(element);
+  const auto away = is_drawn ? element.number("away") : std::nullopt;
+  if (!pose || is_drawn != away.has_value()) return;
+  events_.kidnaps.push_back({*robot, *at, *pose, read_end(element, "latest", *at), away});
 }
 
 void EventReader::outage(const xml::Attributes& element) {

@@ -93,8 +93,10 @@ constexpr std::array kWet{
 
 constexpr std::array kMove{required("of", kName), required("at", kTime), required("x", kCoordinate),
                            required("y", kCoordinate), optional("yaw", kAngle)};
-constexpr std::array kKidnap{required("robot", kText), required("at", kTime), required("x", kCoordinate),
-                             required("y", kCoordinate), optional("yaw", kAngle)};
+constexpr std::array kKidnap{required("robot", kText),   required("at", kTime),
+                             optional("latest", kTime),  optional("x", kCoordinate),
+                             optional("y", kCoordinate), optional("yaw", kAngle),
+                             optional("away", kLength)};
 constexpr std::array kOutage{required("robot", kText), required("sensor", one_of(kSensorKinds)),
                              required("at", kTime), optional("until", kTime), optional("device", kName)};
 

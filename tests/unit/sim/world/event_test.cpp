@@ -6,6 +6,7 @@
 #include "orca/sim/world_file.hpp"
 #include "scout.hpp"
 #include "shipped.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::sim;
@@ -117,6 +118,68 @@ TEST_CASE("nobody is put into a wall, and a robot that is not there is said once
   CHECK_THAT(happened[0], Contains("scout is kidnapped later: ") && Contains("obstacle 'east'"));
   CHECK_THAT(happened[1], Contains("dewey is kidnapped not at all: there is no robot \"dewey\""));
   CHECK(world.pose(robot).x == 0.0);
+}
+
+namespace {
+
+// Two rooms of 4 m by 4 m with a door between them, and one without a door.
+constexpr const char* kThreeRooms = R"(<world name="rooms" version="1">
+  <room from="0 0" to="4 4"><door side="east" at="2 m" width="1 m"/></room>
+  <wall from="4 0" to="8 0"/><wall from="8 0" to="8 4"/><wall from="4 4" to="8 4"/>
+  <room from="8 0" to="12 4"/>
+  <kidnap robot="scout" at="1 s" latest="3 s" away="2 m"/>
+</world>)";
+
+struct Carried {
+  double at = 0.0;  // [s]
+  Pose2 to;
+};
+
+// Where a robot in the first room is carried, and when.
+Carried carried(std::uint64_t seed) {
+  const TempFolder folder;
+  xml::Diagnostics diagnostics;
+  const auto model = read_world(folder.write("rooms.xml", kThreeRooms), {}, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(model);
+  World world(*model, {.seed = seed, .realism = Realism::ideal});
+  const RobotId robot = world.add_robot("scout", sim::test::scout(), {1.0, 1.0, 0.0}).value();
+  while (world.happened().empty()) world.step();
+  CHECK(world.happened() == Words{"scout is kidnapped"});
+  CHECK(world.contacts().empty());
+  return {to_seconds(world.time() - TimePoint{}), world.pose(robot)};
+}
+
+}  // namespace
+
+TEST_CASE("a robot is carried to a drawn place to which there is a way, at a drawn time", "[sim][event]") {
+  int in_next_room = 0;
+  double first = 9.0;
+  double last = 0.0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Carried one = carried(seed);
+    INFO("seed " << seed << ": " << one.to.x << ' ' << one.to.y);
+    CHECK(norm(one.to.position() - Vec2{1.0, 1.0}) >= 2.0);
+    CHECK(one.to.x < 8.0);
+    CHECK(one.at >= 1.0);
+    CHECK(one.at <= 3.02);
+    in_next_room += one.to.x > 4.0 ? 1 : 0;
+    first = std::min(first, one.at);
+    last = std::max(last, one.at);
+  }
+  // The next room has about two thirds of the places that are far enough away.
+  CHECK(in_next_room > 18);
+  CHECK(in_next_room < 36);
+  CHECK(last - first > 1.5);
+  CHECK(carried(7).to == carried(7).to);
+}
+
+TEST_CASE("a robot is not carried off where no place is far enough away", "[sim][event]") {
+  World world = world_with({.kidnaps = {{.robot = "scout", .at = seconds(1), .away = 50.0}}});
+  REQUIRE(world.add_robot("scout", sim::test::scout(), {0.0, 0.0, 0.0}));
+  const Words happened = run_to(world, 1.2);
+  REQUIRE(happened.size() == 1);
+  CHECK_THAT(happened[0], Contains("scout is kidnapped not at all: no free place was found"));
 }
 
 TEST_CASE("sensors that are out read nothing, and others go on", "[sim][event]") {

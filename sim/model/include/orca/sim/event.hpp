@@ -40,7 +40,10 @@ struct Move {
 struct Kidnap {
   std::string robot;
   Duration at{0};
-  Pose2 X_WB;
+  Pose2 X_WB{};
+  std::optional<Duration> latest{};  ///< The time is drawn between `at` and this.
+  /// [m] The place and the direction are drawn: any free place at least so far away to which there is a way. X_WB is not read.
+  std::optional<double> away{};
 };
 
 /// All sensors of a kind of a robot are silent, or one of them.
