@@ -259,7 +259,6 @@ class Localizer final : public orca::Component {
     pose->steering_velocity(odometry.steering_velocity());
     pose->stamp(odometry.stamp());
     poses_.push(std::move(pose));
-    if (states_.subscriber_count() == 0) return;
     auto state = states_.loan();
     state->state(state_of(known));
     const std::vector<PlaceBelief> places = localizer_->places(*reckoned_);

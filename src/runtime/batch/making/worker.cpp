@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/batch/localization.hpp"
 #include "orca/batch/referee.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
@@ -119,6 +120,36 @@ Ending ending_of(const host::RunResult& result, const Judgement& judgement) {
   return is_over ? Ending::goal_failed : Ending::failed;
 }
 
+PoseClaim::Says said_by(const idl::Localization& belief) {
+  if (belief.places().empty()) return PoseClaim::Says::nothing;
+  switch (belief.state()) {
+    case idl::LOCALIZATION_LOCALIZED: return PoseClaim::Says::place;
+    case idl::LOCALIZATION_AMBIGUOUS: return PoseClaim::Says::several;
+    default: return PoseClaim::Says::nothing;
+  }
+}
+
+std::vector<PoseClaim> poses_claimed(const host::RunResult& result) {
+  std::vector<PoseClaim> claims;
+  for (const idl::Localization& belief : result.localizations) {
+    PoseClaim& claim =
+        claims.emplace_back(PoseClaim{result.robots.of(belief.origin()), to_time_point(belief.stamp())});
+    claim.says = said_by(belief);
+    if (claim.says != PoseClaim::Says::place) continue;
+    const idl::Pose2D& place = belief.places()[0];
+    claim.X_WR = {place.x(), place.y(), place.orientation()};
+  }
+  return claims;
+}
+
+void add_localization(const host::RunResult& result, Measures& measures) {
+  const LocalizationShares shares = judge_poses(poses_claimed(result), *result.scene);
+  measures.noticed = shares.noticed;
+  measures.found_again = shares.found_again;
+  measures.sure_but_wrong = shares.sure_but_wrong;
+  measures.ambiguous = shares.ambiguous;
+}
+
 std::string reason_of(const host::RunResult& result) {
   return result.error ? result.error->text() : result.culprit;
 }
@@ -128,6 +159,7 @@ void add_scene(const host::RunResult& result, const RunEnd& end, Outcome& outcom
   measures.claimed = outcome.measures.claimed;
   measures.claimed_wrongly = outcome.measures.claimed_wrongly;
   measures.not_claimed = outcome.measures.not_claimed;
+  add_localization(result, measures);
   outcome.measures = measures;
   if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
   outcome.sketch = sketch_of(*result.scene);

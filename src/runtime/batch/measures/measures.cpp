@@ -30,6 +30,8 @@ constexpr double kBestSpeed = 2.0;  // [m/s]
 // The needs of measures: without them a run has none.
 constexpr const char* kReference = "a world with a reference";
 constexpr const char* kPeople = "a world with people";
+constexpr const char* kLocalizer = "a localizer that says how sure it is";
+constexpr const char* kKidnapping = "a robot with one that is carried off";
 constexpr const char* kContact = "a contact";
 constexpr const char* kGoals = "goals of the experiment";
 constexpr const char* kRobot = "a simulated robot";
@@ -66,7 +68,15 @@ constexpr std::array kMeasures{
     Measure{"people_run_into", "", "Those in which the robot moved, by more than 0.05 m/s.",
             &Measures::people_run_into, kPeople},
     Measure{"near_misses", "", "Times that a robot came nearer than 0.3 m to a person and touched nobody.",
-            &Measures::near_misses, kPeople}};
+            &Measures::near_misses, kPeople},
+    Measure{"noticed", "", "Share of kidnappings that its localizer noticed within 3 s or 1 m.",
+            &Measures::noticed, kKidnapping},
+    Measure{"found_again", "", "Share of kidnappings after which it was right within 15 s or 8 m.",
+            &Measures::found_again, kKidnapping},
+    Measure{"sure_but_wrong", "", "Share of the time in which it was sure and more than 0.5 m off.",
+            &Measures::sure_but_wrong, kLocalizer},
+    Measure{"ambiguous", "", "Share of the time in which it said that there are several places.",
+            &Measures::ambiguous, kLocalizer}};
 
 constexpr std::array<std::pair<Failure, const char*>, 8> kFailures{{{Failure::none, ""},
                                                                     {Failure::crash, "crash"},

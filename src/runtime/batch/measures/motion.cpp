@@ -10,12 +10,17 @@ namespace orca::batch {
 namespace {
 
 constexpr double kTurns = 0.1;  // [rad/s]
+constexpr double kJump = 1.0;   // [m] in a tenth of a second
 
 double way_between(const Scene::Step& one, const Scene::Step& next) {
-  return norm(next.pose.position() - one.pose.position());
+  return is_carried(one, next) ? 0.0 : norm(next.pose.position() - one.pose.position());
 }
 
 }  // namespace
+
+bool is_carried(const Scene::Step& one, const Scene::Step& next) {
+  return norm(next.pose.position() - one.pose.position()) > kJump;
+}
 
 double way_of(std::span<const Scene::Step> steps) {
   double way = 0.0;

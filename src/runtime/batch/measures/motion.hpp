@@ -14,7 +14,9 @@ namespace orca::batch {
 /// Properties of one robot's motion, as pure functions of its steps, which are evenly spaced. None needs any step to be there, unless
 /// it says so.
 
-/// Returns the length of the way [m].
+/// Returns whether the robot was carried off between two steps: it is farther away than it can drive.
+[[nodiscard]] bool is_carried(const Scene::Step& one, const Scene::Step& next);
+/// Returns the length of the way [m] that the robot drove.
 [[nodiscard]] double way_of(std::span<const Scene::Step> steps);
 /// Returns when the way reached this length [m], between two steps in proportion; nothing if it never did.
 [[nodiscard]] std::optional<TimePoint> time_of_way(std::span<const Scene::Step> steps, double way);

@@ -7,8 +7,8 @@
 namespace orca::batch {
 namespace {
 
-constexpr std::array kBetterWhenMore{"success",   "spl",          "barn_score",
-                                     "clearance", "clearance_p5", "clearance_mean"};
+constexpr std::array kBetterWhenMore{"success",        "spl",     "barn_score", "clearance", "clearance_p5",
+                                     "clearance_mean", "noticed", "found_again"};
 // The metrics of finished runs only: those of an unfinished one cannot be compared with them.
 constexpr std::array kOfSuccesses{"time", "way", "way_ratio", "curvature", "jerk", "reversals"};
 

@@ -82,6 +82,7 @@ class Run {
     if (options_.visitors != nullptr) make_door();
     if (options_.looks_on) reporter().look_on(view_.sightings());
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
+    if (options_.keeps_motion) reporter().keep_localizations();
     if (const Status built = watched_.build(); !built.ok()) return conclusion_.report_failure(built.error());
     reporter().introduce(find_robots(graph_, system().robots()));
     if (options_.looks_on) listener_.built(view_);

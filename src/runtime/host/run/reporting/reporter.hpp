@@ -38,6 +38,9 @@ class Reporter final : public LinkObserver {
   /// Passes what travels on to `recorder` as well.
   /// @pre  nothing runs yet.
   void record(Recorder& recorder) { recorder_ = &recorder; }
+  /// Keeps what localizers say for the result.
+  /// @pre  nothing runs yet.
+  void keep_localizations() { keeps_localizations_ = true; }
   /// Passes what travels on to `taps` as well.
   /// @pre  nothing runs yet.
   void tap(PortTaps& taps) { taps_ = &taps; }
@@ -98,6 +101,7 @@ class Reporter final : public LinkObserver {
 
   void hear(const idl::Arrived& arrived);
   void hear(const idl::GoalFailed& failed);
+  void hear(const idl::Localization& belief);
   [[nodiscard]] std::string doubt(const idl::Arrived& arrived) const;
   void follow_mission(std::string_view component, std::string_view port, const ObjectRef& object);
 
@@ -115,6 +119,9 @@ class Reporter final : public LinkObserver {
   std::vector<idl::GoalFailed> failures_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
+  bool keeps_localizations_ = false;
+  std::vector<idl::Localization> localizations_;
+  std::map<std::string, TimePoint, std::less<>> localized_at_;  // the last one's stamp, by component
   RobotNames robots_;
   std::map<std::string, Truth, std::less<>> truths_;  // by robot
   LineLimit trouble_lines_;

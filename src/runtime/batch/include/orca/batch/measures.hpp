@@ -51,6 +51,10 @@ struct Measures {
   std::optional<double> people_touched{};
   std::optional<double> people_run_into{};
   std::optional<double> near_misses{};
+  std::optional<double> noticed{};
+  std::optional<double> found_again{};
+  std::optional<double> sure_but_wrong{};
+  std::optional<double> ambiguous{};
   friend bool operator==(const Measures&, const Measures&) = default;
 };
 

@@ -87,6 +87,8 @@ struct RunResult {
   std::vector<idl::Arrived> arrivals;       ///< In the order in which they were pushed.
   std::vector<idl::GoalFailed> failures;    ///< In the order in which they were pushed.
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
+  /// Of each localizer at most ten a second, in the order in which they were pushed; only if RunOptions::keeps_motion.
+  std::vector<idl::Localization> localizations;
   std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
   std::vector<Way> ways;                    ///< Only if RunOptions::looks_on.
   std::optional<Scene> scene;               ///< Only if RunOptions::keeps_motion, and all strands have ended.
