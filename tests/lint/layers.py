@@ -53,6 +53,7 @@ LAYERS = (
     Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("carmen", "recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
+    Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("fcl",)),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
     Layer("image", ("src/image",), ("orca/image/",), ("base",), ("png",)),
     Layer("maps", ("src/maps",), ("orca/maps/",), ("image", "geometry", "xml", "idl", "base"), ("yaml",)),
@@ -103,7 +104,7 @@ LAYERS = (
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fcl", "fmt"),
+    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "hw_player", "navigation", "geometry_objects", *DEVICE), ("eigen", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
     Layer("task_tree", ("src/components/task_tree",), (), ("goals", "geometry_objects", "geometry", "text", "xml", *COMPONENT)),
