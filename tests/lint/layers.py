@@ -52,7 +52,7 @@ LAYERS = (
           ("eigen",)),
     Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("carmen", "recording", "ros", "geometry", "idl", "base")),
-    Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base")),
+    Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base"), ("eigen",), ("eigen",)),
     Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("fcl",)),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
     Layer("image", ("src/image",), ("orca/image/",), ("base",), ("png",)),

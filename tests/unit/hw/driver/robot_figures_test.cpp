@@ -2,6 +2,7 @@
 // What drivers make of a robot's file, which they read with the simulator's reader.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 #include <tuple>
@@ -54,6 +55,31 @@ Vec2 size_of(const sim::Shape& footprint) {
   return {2.0 * std::max(-low.x, high.x), 2.0 * std::max(-low.y, high.y)};
 }
 
+bool is_corner_of(const std::vector<Vec2>& corners, Vec2 p) {
+  return std::ranges::any_of(corners, [&](Vec2 corner) { return norm(corner - p) < 1e-9; });
+}
+
+// Each part is the prism over the simulator's plan of it, and as high.
+void check_parts(const std::vector<robot_file::BodyPart>& parts, const std::vector<sim::Part>& expected) {
+  REQUIRE(parts.size() == expected.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto [low, high] = sim::height_range_of({expected[i]});
+    CHECK(parts[i].bottom == Approx(low).margin(1e-9));
+    CHECK(parts[i].top == Approx(high).margin(1e-9));
+    const sim::Shape plan = sim::footprint_of({expected[i]});
+    if (parts[i].corners.size() == 1) {
+      const auto [from, to] = sim::bounds_of(plan);
+      CHECK(norm(0.5 * (from + to) - parts[i].corners[0]) < 0.01 * parts[i].radius);
+      CHECK(0.5 * (to.x - from.x) ==
+            Approx(parts[i].radius).epsilon(0.01));  // of its polygon, if not in the middle
+      continue;
+    }
+    const std::vector<sim::Segment> edges = sim::edges_of(plan);
+    CHECK(edges.size() == parts[i].corners.size());
+    for (const sim::Segment& edge : edges) CHECK(is_corner_of(parts[i].corners, edge.a));
+  }
+}
+
 // The drive of a Pioneer, with what is wrong or missing in it.
 std::string drive_with(const std::string& more) {
   return "<robot name='r'>\n<orca radius='0.2 m'><drive type='differential' max_speed='1 m/s' "
@@ -95,6 +121,7 @@ TEST_CASE(
     const Vec2 size = size_of(model->footprint);
     CHECK(figures->size->x == Approx(size.x).margin(1e-9));
     CHECK(figures->size->y == Approx(size.y).margin(1e-9));
+    check_parts(figures->parts, model->parts);
     REQUIRE(figures->lasers.size() == model->lasers.size());
     for (std::size_t i = 0; i < model->lasers.size(); ++i) {
       CHECK(figures->lasers[i].center.x == Approx(model->lasers[i].center.x).margin(1e-12));
@@ -103,6 +130,19 @@ TEST_CASE(
       CHECK(figures->lasers[i].height == Approx(model->lasers[i].height).margin(1e-12));
     }
   }
+}
+
+TEST_CASE("a gripper has its paddles beside the room of what it holds", "[hw][robot_file]") {
+  std::vector<HardwareFault> faults;
+  const auto figures = hw::read_robot_figures(kRobots + "pioneer_2dx_gripper.urdf", faults);
+  REQUIRE(figures);
+  REQUIRE(figures->paddles.size() == 2);
+  REQUIRE(figures->load.size() == 1);
+  CHECK(figures->paddles[0].top == Approx(0.05 + 0.08 + 0.05));
+  const auto has = [](const robot_file::BodyPart& part, Vec2 p) { return is_corner_of(part.corners, p); };
+  CHECK((has(figures->load[0], {0.211, -0.11}) && has(figures->load[0], {0.311, 0.11})));
+  CHECK((has(figures->paddles[0], {0.311, 0.11}) && has(figures->paddles[0], {0.311, 0.13})));
+  CHECK((has(figures->paddles[1], {0.311, -0.11}) && has(figures->paddles[1], {0.211, -0.13})));
 }
 
 TEST_CASE("without a file there are no figures, and nothing is wrong", "[hw][robot_file]") {

@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "orca/component/host.hpp"
-#include "orca/geometry/vec2.hpp"
-#include "orca/robot_file/devices.hpp"
+#include "orca/robot_file/figures.hpp"
 
 namespace orca::hw {
 
-/// What a driver knows of its robot from the file that the simulator reads, too (docs/robot-files.md). Of all devices only lasers have their
-/// places. A plain value.
-struct RobotFigures : robot_file::Devices {
-  std::optional<Vec2> size{};  ///< [m] Length and width of its plan; 0: it is round; nothing: not known.
-  std::string usual;  ///< What the file does not say and is taken instead, for people; empty: nothing.
-
+/// What a driver knows of its robot from the file that the simulator reads, too. A plain value.
+struct RobotFigures : robot_file::Figures {
   /// Returns the directions [rad] in which the bumpers of all rings face.
   [[nodiscard]] std::vector<double> bumper_directions() const;
 };

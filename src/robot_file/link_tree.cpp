@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "link_tree.hpp"
+#include "orca/robot_file/link_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "orca/base/portable_math.hpp"
@@ -12,12 +14,12 @@
 #include "orca/xml/attributes.hpp"
 #include "orca/xml/number.hpp"
 
-namespace orca::hw {
+namespace orca::robot_file {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
-using robot_file::only_child;
+using Eigen::Vector3d;
 using xml::Element;
 
 // Returns the rotation by roll, then pitch, then yaw, about axes that stay.
@@ -32,11 +34,6 @@ Matrix3d turned(double roll, double pitch, double yaw) {
   return rotation;
 }
 
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
-using robot_file::only_child;
-using xml::Element;
-
 constexpr double kSame = 1e-9;  // [m] below which two places are one
 
 double number(const Element& e, const char* name) {
@@ -44,44 +41,56 @@ double number(const Element& e, const char* name) {
   return a != nullptr ? xml::parse_number(a->value).value_or(0.0) : 0.0;
 }
 
-// A part of the body, seen from above.
-struct Part {
-  std::vector<Vec2> points;  // whose hull, widened by the radius, holds it
-  double radius = 0.0;       // [m]
-  [[nodiscard]] bool is_round_in_the_middle() const {
-    return radius > 0.0 && std::ranges::all_of(points, [](const Vec2& p) { return norm(p) < kSame; });
-  }
-  [[nodiscard]] double reach() const {
-    double farthest = 0.0;
-    for (const Vec2& p : points) farthest = std::max(farthest, norm(p));
-    return farthest + radius;
-  }
-  [[nodiscard]] Vec2 half_size() const {
-    Vec2 half;
-    for (const Vec2& p : points)
-      half = {std::max(half.x, std::abs(p.x) + radius), std::max(half.y, std::abs(p.y) + radius)};
-    return half;
-  }
-};
+bool is_left_of(Vec2 from, Vec2 to, Vec2 p) { return cross(to - from, p - from) > kSame * kSame; }
 
-Part box(const Vector3d& size, const Isometry3d& place) {
-  Part part;
+// Adds the lower hull of points that are sorted by x, without the last one.
+void add_half_hull(const std::vector<Vec2>& points, std::vector<Vec2>& hull) {
+  const std::size_t first = hull.size();
+  for (const Vec2 p : points) {
+    while (hull.size() >= first + 2 && !is_left_of(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
+    hull.push_back(p);
+  }
+  hull.pop_back();
+}
+
+// Returns the corners of the convex hull, counter-clockwise.
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  std::ranges::sort(points, [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Vec2> hull;
+  add_half_hull(points, hull);
+  std::ranges::reverse(points);
+  add_half_hull(points, hull);
+  return hull;
+}
+
+BodyPart box(const Vector3d& size, const Isometry3d& place) {
+  std::vector<Vec2> points;
+  BodyPart part;
+  part.bottom = std::numeric_limits<double>::infinity();
+  part.top = -part.bottom;
   for (const double x : {-0.5, 0.5})
     for (const double y : {-0.5, 0.5})
       for (const double z : {-0.5, 0.5}) {
         const Vector3d corner = place * Vector3d(x * size.x(), y * size.y(), z * size.z());
-        part.points.push_back({corner.x(), corner.y()});
+        points.push_back({corner.x(), corner.y()});
+        part.bottom = std::min(part.bottom, corner.z());
+        part.top = std::max(part.top, corner.z());
       }
+  part.corners = hull_of(std::move(points));
   return part;
 }
 
-Part cylinder(double radius, double length, const Isometry3d& place) {
-  const bool upright = place.linear().col(2).head<2>().norm() < kSame;
-  if (!upright) return box({2.0 * radius, 2.0 * radius, length}, place);
-  return {{{place.translation().x(), place.translation().y()}}, radius};
+BodyPart round(double radius, double half_height, const Isometry3d& place) {
+  const Vector3d middle = place.translation();
+  return {{{middle.x(), middle.y()}}, radius, middle.z() - half_height, middle.z() + half_height};
 }
 
-std::optional<Part> part_of(const Element& geometry, const LinkTree& tree, const Isometry3d& place) {
+BodyPart cylinder(double radius, double length, const Isometry3d& place) {
+  const bool upright = place.linear().col(2).head<2>().norm() < kSame;
+  return upright ? round(radius, 0.5 * length, place) : box({2.0 * radius, 2.0 * radius, length}, place);
+}
+
+std::optional<BodyPart> part_of(const Element& geometry, const LinkTree& tree, const Isometry3d& place) {
   if (const Element* const e = only_child(geometry, "box")) {
     const std::array<double, 3> size = tree.three(*e, "size");
     return box({size[0], size[1], size[2]}, place);
@@ -89,13 +98,14 @@ std::optional<Part> part_of(const Element& geometry, const LinkTree& tree, const
   if (const Element* const e = only_child(geometry, "cylinder"))
     return cylinder(number(*e, "radius"), number(*e, "length"), place);
   if (const Element* const e = only_child(geometry, "sphere"))
-    return Part{{{place.translation().x(), place.translation().y()}}, number(*e, "radius")};
+    return round(number(*e, "radius"), number(*e, "radius"), place);
   return std::nullopt;
 }
 
-// All parts; nothing if there is one that cannot be read.
-std::optional<std::vector<Part>> parts_of(const Element& robot, const LinkTree& tree) {
-  std::vector<Part> parts;
+}  // namespace
+
+std::optional<std::vector<BodyPart>> body_parts(const Element& robot, const LinkTree& tree) {
+  std::vector<BodyPart> parts;
   for (const Element& link : robot.children()) {
     if (link.name() != "link") continue;
     for (const Element& e : link.children()) {
@@ -105,15 +115,14 @@ std::optional<std::vector<Part>> parts_of(const Element& robot, const LinkTree& 
       const Isometry3d at = origin != nullptr ? tree.origin(*origin) : Isometry3d::Identity();
       const xml::Attribute* const name = link.attribute("name");
       const Isometry3d place = tree.place_of(name != nullptr ? name->value : "") * at;
-      const std::optional<Part> part = geometry != nullptr ? part_of(*geometry, tree, place) : std::nullopt;
+      const std::optional<BodyPart> part =
+          geometry != nullptr ? part_of(*geometry, tree, place) : std::nullopt;
       if (!part) return std::nullopt;
       parts.push_back(*part);
     }
   }
   return parts;
 }
-
-}  // namespace
 
 LinkTree::LinkTree(const Element& robot, xml::Reporter& reporter) : reporter_(reporter) {
   const auto link = [&](const Element* e) {
@@ -153,19 +162,18 @@ std::array<double, 3> LinkTree::three(const Element& e, const char* name) const 
   return values ? std::array{(*values)[0], (*values)[1], (*values)[2]} : std::array<double, 3>{};
 }
 
-std::optional<Vec2> plan_size(const Element& robot, const LinkTree& tree) {
-  const std::optional<std::vector<Part>> parts = parts_of(robot, tree);
-  if (!parts || parts->empty()) return std::nullopt;
+Vec2 plan_size(const std::vector<BodyPart>& parts) {
   double round = 0.0;
   double reach = 0.0;
   Vec2 half;
-  for (const Part& part : *parts) {
-    if (part.is_round_in_the_middle()) round = std::max(round, part.radius);
-    reach = std::max(reach, part.reach());
-    const Vec2 own = part.half_size();
-    half = {std::max(half.x, own.x), std::max(half.y, own.y)};
+  for (const BodyPart& part : parts) {
+    if (part.corners.size() == 1 && norm(part.corners[0]) < kSame) round = std::max(round, part.radius);
+    for (const Vec2& p : part.corners) {
+      reach = std::max(reach, norm(p) + part.radius);
+      half = {std::max(half.x, std::abs(p.x) + part.radius), std::max(half.y, std::abs(p.y) + part.radius)};
+    }
   }
   return reach <= round + kSame ? Vec2{} : 2.0 * half;
 }
 
-}  // namespace orca::hw
+}  // namespace orca::robot_file

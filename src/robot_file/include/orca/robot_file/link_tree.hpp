@@ -6,12 +6,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "orca/geometry/vec2.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/reporter.hpp"
 
-namespace orca::hw {
+namespace orca::robot_file {
 
 /// The links of a robot's file and where they are when all joints stand at zero.
 ///
@@ -38,9 +39,23 @@ class LinkTree {
   std::map<std::string, Joint> joints_;  // by the link below
 };
 
-/// Returns the size of the rectangle around the origin that holds the plan of all collision geometry [m], as the simulator tells
-/// it: 0 and 0 if a round part in the middle holds all others. Nothing if the file has none, or meshes, which it does not read.
-/// @thread  pure function; any thread.
-[[nodiscard]] std::optional<Vec2> plan_size(const xml::Element& robot, const LinkTree& tree);
+/// A solid part of a robot's body: the upright prism that holds it, in the frame of the robot.
+struct BodyPart {
+  std::vector<Vec2>
+      corners;  ///< [m] of its convex plan, counter-clockwise; a single one is the middle of a circle.
+  double radius = 0.0;  ///< [m] of that circle.
+  double bottom = 0.0;  ///< [m] above the floor.
+  double top = 0.0;     ///< [m] above the floor.
+};
 
-}  // namespace orca::hw
+/// Reads all collision geometry of a file. Nothing if it has meshes, which are not read here.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::optional<std::vector<BodyPart>> body_parts(const xml::Element& robot,
+                                                              const LinkTree& tree);
+
+/// Returns the size of the rectangle around the origin that holds the plan of all parts [m], as the simulator computes it: 0 and 0 if a round
+/// part in the middle holds all others, or if there is none.
+/// @thread  pure function; any thread.
+[[nodiscard]] Vec2 plan_size(const std::vector<BodyPart>& parts);
+
+}  // namespace orca::robot_file
