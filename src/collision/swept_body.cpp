@@ -184,12 +184,12 @@ class SweptBody::Motion {
     near_.push_back({post, index, std::min(margin, there - kNoNearer), there, 0.0});
   }
 
-  // Steps on by as much as no post can come too near meanwhile.
+  // Steps on by a little less than as much as no post can come too near meanwhile: a long step must not end too near by a rounding.
   Approach advance() {
     std::ranges::sort(near_, {}, &Neighbour::distance);
     for (double share = 0.0; look(share) && share < 1.0;) {
       approach_.share = share;
-      share = std::min(1.0, share + std::max(spare_, kStep) / length_);
+      share = std::min(1.0, share + std::max(spare_ - 0.5 * kStep, kStep) / length_);
     }
     if (!approach_.post) approach_.share = 1.0;
     return approach_;

@@ -141,6 +141,16 @@ TEST_CASE("heights count: a low body passes under a table top that holds a tall 
   CHECK(std::abs(1.5 * tray.share - (0.8 - 0.4 - 0.02)) < 0.003);
 }
 
+TEST_CASE("the way straight up to a post is free to the margin, however far away it is", "[collision]") {
+  const SweptBody body(first(1));
+  for (double gap = 0.05; gap < 0.6; gap += 0.01) {
+    const std::array ahead{Post{{0.25 + gap, 0.0}}};
+    CAPTURE(gap);
+    CHECK(std::abs(0.7 * body.along({0.7, 0.0, 0.0}, ahead, 0.02).share - (gap - 0.02)) <
+          SweptBody::kStep + kExact);
+  }
+}
+
 TEST_CASE("a body may leave what is within its margin, and must not come nearer to it", "[collision]") {
   const SweptBody body(kTall);
   const std::array near{Post{{0.26, 0.0}, 0.0, 0.3}};
