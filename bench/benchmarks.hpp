@@ -17,5 +17,6 @@ void register_sim_cast();
 void register_sim_world();
 void register_sim_scaling();
 void register_stalling_device();
+void register_planner();
 
 }  // namespace orca::bench

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   register_sim_world();
   register_sim_scaling();
   register_stalling_device();
+  register_planner();
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   const int missed = print_table(std::cout, rows());

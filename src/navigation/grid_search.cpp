@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <functional>
 #include <utility>
@@ -10,32 +11,21 @@
 namespace orca::nav {
 namespace {
 
-constexpr std::uint32_t kStraight = 5;
-constexpr std::uint32_t kDiagonal = 7;
 constexpr int kCellBits = 24;
-constexpr std::int8_t kStart = -1;
+// Below the round in the mark of a node: whether it is closed, and the direction that led there.
+constexpr std::uint32_t kStart = 8;
+constexpr std::uint32_t kDirectionBits = 15;
+constexpr std::uint32_t kIsClosed = 16;
+// A bucket is at most as wide as a straight step over plain cells. A step over the dearest cells away from the goal leads less than this many on.
+constexpr std::size_t kBuckets = 512;
 
 struct Direction {
   int column;
   int row;
-  std::uint32_t length;
 };
-constexpr std::array<Direction, 8> kDirections{{{1, 0, kStraight},
-                                                {0, 1, kStraight},
-                                                {-1, 0, kStraight},
-                                                {0, -1, kStraight},
-                                                {1, 1, kDiagonal},
-                                                {-1, 1, kDiagonal},
-                                                {-1, -1, kDiagonal},
-                                                {1, -1, kDiagonal}}};
-
-// Returns the cost of the way to the goal if nothing made it dearer.
-std::uint32_t least_cost(Cell cell, Cell goal) {
-  const auto columns = static_cast<std::uint32_t>(std::abs(cell.column - goal.column));
-  const auto rows = static_cast<std::uint32_t>(std::abs(cell.row - goal.row));
-  const std::uint32_t diagonal = std::min(columns, rows);
-  return (kDiagonal * diagonal + kStraight * (std::max(columns, rows) - diagonal)) * kPlainCost;
-}
+constexpr std::array<Direction, 8> kDirections{
+    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+constexpr std::uint32_t kDiagonals = 4;  // the directions from this one on
 
 std::int64_t squared_distance(Cell cell, Cell goal) {
   const std::int64_t columns = cell.column - goal.column;
@@ -43,61 +33,128 @@ std::int64_t squared_distance(Cell cell, Cell goal) {
   return columns * columns + rows * rows;
 }
 
+// As Lattice::cell_of(), but faster: the number of a cell has few digits.
+Cell cell_of(const Lattice& lattice, std::size_t index) {
+  const auto number = static_cast<std::uint32_t>(index);
+  const auto columns = static_cast<std::uint32_t>(lattice.columns);
+  const std::uint32_t row = number / columns;
+  return {static_cast<int>(number - row * columns), static_cast<int>(row)};
+}
+
+// Returns by which directions ways lead on from a cell between equal cells, as bits: straight ahead, and behind a diagonal step also along both
+// sides of it. All others are reached from the cell before as cheaply without this cell.
+std::uint32_t natural_directions(std::uint32_t from) {
+  constexpr std::uint32_t kAll = 0xFF;
+  if (from == kStart) return kAll;
+  if (from < kDiagonals) return 1U << from;
+  return 1U << from | 1U << (from - kDiagonals) | 1U << ((from + 1) % kDiagonals);
+}
+
+// Returns the costs of the cells around one, in the order of kDirections; 0 outside of the lattice.
+std::array<std::uint16_t, 8> costs_around(const Lattice& lattice, std::span<const std::uint16_t> costs,
+                                          Cell cell) {
+  std::array<std::uint16_t, 8> around{};
+  const bool within =
+      cell.column > 0 && cell.row > 0 && cell.column + 1 < lattice.columns && cell.row + 1 < lattice.rows;
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const Cell next{cell.column + kDirections[i].column, cell.row + kDirections[i].row};
+    if (within || lattice.holds(next)) around[i] = costs[lattice.index(next)];
+  }
+  return around;
+}
+
 }  // namespace
+
+GridSearch::GridSearch(SearchRules rules)
+    : rules_(rules), shift_(std::bit_width(rules.straight * kPlainCost) - 1) {}
 
 CellWay GridSearch::operator()(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell start,
                                Cell goal) {
-  nodes_.resize(costs.size());
-  heap_.clear();
-  ++round_;
-  open(lattice.index(start), 0, kStart, least_cost(start, goal));
+  const Task task{lattice, costs, goal};
+  begin(costs.size());
+  turn_ = least_cost(start, goal) >> shift_;
+  open(task, start, 0, kStart);
   const std::size_t end = lattice.index(goal);
   std::size_t nearest = lattice.index(start);
   std::int64_t distance = squared_distance(start, goal);
-  while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
-    const std::size_t index = heap_.back() & ((1U << kCellBits) - 1);
-    heap_.pop_back();
-    if (std::exchange(nodes_[index].closed, true)) continue;
-    if (index == end) break;
-    const std::int64_t off = squared_distance(lattice.cell_of(index), goal);
+  const auto arrived = [&] { return is_found(end) && nodes_[end].cost >> shift_ < turn_; };
+  for (auto index = take(); index && !arrived(); index = take()) {
+    if ((nodes_[*index].mark & kIsClosed) != 0) continue;
+    nodes_[*index].mark |= kIsClosed;
+    const Cell cell = cell_of(lattice, *index);
+    const std::int64_t off = squared_distance(cell, goal);
     if (off < distance) {
       distance = off;
-      nearest = index;
+      nearest = *index;
     }
-    expand(lattice, costs, index, goal);
+    expand(task, cell, *index);
   }
-  const bool complete = nodes_[end].round == round_ && nodes_[end].closed;
-  CellWay way = way_to(lattice, complete ? end : nearest);
-  way.complete = complete;
+  CellWay way = way_to(lattice, is_found(end) ? end : nearest);
+  way.complete = is_found(end);
   return way;
 }
 
-void GridSearch::open(std::size_t index, std::uint32_t cost, std::int8_t from, std::uint32_t estimate) {
-  Node& node = nodes_[index];
-  if (node.round == round_ && (node.closed || node.cost <= cost)) return;
-  node = {cost, round_, from, false};
-  heap_.push_back((static_cast<std::uint64_t>(cost + estimate) << kCellBits) | index);
-  std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
+void GridSearch::begin(std::size_t cells) {
+  nodes_.resize(cells);
+  buckets_.resize(kBuckets);
+  for (std::vector<std::uint64_t>& bucket : buckets_) bucket.clear();
+  waiting_ = 0;
+  if (round_ == UINT32_MAX >> kRoundShift) {
+    std::ranges::fill(nodes_, Node{});
+    round_ = 0;
+  }
+  ++round_;
 }
 
-void GridSearch::expand(const Lattice& lattice, std::span<const std::uint16_t> costs, std::size_t index,
-                        Cell goal) {
-  const Cell cell = lattice.cell_of(index);
-  const auto cost_at = [&](Cell at) {
-    return lattice.holds(at) ? costs[lattice.index(at)] : std::uint16_t{0};
-  };
-  const std::uint32_t here = std::max(costs[index], kPlainCost);
+// Returns the cost of the way to the goal if nothing made it dearer.
+std::uint32_t GridSearch::least_cost(Cell cell, Cell goal) const {
+  const auto columns = static_cast<std::uint32_t>(std::abs(cell.column - goal.column));
+  const auto rows = static_cast<std::uint32_t>(std::abs(cell.row - goal.row));
+  const std::uint32_t diagonal = std::min(columns, rows);
+  return (rules_.diagonal * diagonal + rules_.straight * (std::max(columns, rows) - diagonal)) * kPlainCost;
+}
+
+void GridSearch::open(const Task& task, Cell cell, std::uint32_t cost, std::uint32_t from) {
+  const std::size_t index = task.lattice.index(cell);
+  Node& node = nodes_[index];
+  if (is_found(index) && node.cost <= cost) return;
+  node = {cost, round_ << kRoundShift | from};
+  const std::uint64_t whole = std::uint64_t{cost} + least_cost(cell, task.goal);
+  const std::uint64_t turn = whole >> shift_;
+  std::vector<std::uint64_t>& bucket = buckets_[turn % kBuckets];
+  bucket.push_back(whole << kCellBits | index);
+  if (rules_.ordered && turn == turn_) std::ranges::push_heap(bucket, std::greater<>{});
+  ++waiting_;
+}
+
+// Takes the cell out whose whole way is estimated to be cheapest, if not ordered to within a bucket.
+std::optional<std::size_t> GridSearch::take() {
+  if (waiting_ == 0) return std::nullopt;
+  const bool used_up = buckets_[turn_ % kBuckets].empty();
+  while (buckets_[turn_ % kBuckets].empty()) ++turn_;
+  std::vector<std::uint64_t>& bucket = buckets_[turn_ % kBuckets];
+  if (rules_.ordered && used_up) std::ranges::make_heap(bucket, std::greater<>{});
+  if (rules_.ordered) std::ranges::pop_heap(bucket, std::greater<>{});
+  const std::size_t index = bucket.back() & ((1U << kCellBits) - 1);
+  bucket.pop_back();
+  --waiting_;
+  return index;
+}
+
+void GridSearch::expand(const Task& task, Cell cell, std::size_t index) {
+  const std::array<std::uint16_t, 8> around = costs_around(task.lattice, task.costs, cell);
+  const std::uint32_t here = std::max(task.costs[index], kPlainCost);
+  const std::uint32_t so_far = nodes_[index].cost;
+  const bool level = !rules_.ordered && std::ranges::all_of(around, [&](auto cost) { return cost == here; });
+  const std::uint32_t ways = level ? natural_directions(nodes_[index].mark & kDirectionBits) : 0xFF;
   for (std::size_t i = 0; i < kDirections.size(); ++i) {
-    const Direction& step = kDirections[i];
-    const Cell next{cell.column + step.column, cell.row + step.row};
-    const std::uint32_t there = cost_at(next);
-    if (there == 0) continue;
-    const bool cuts = step.length == kDiagonal &&
-                      (cost_at({next.column, cell.row}) == 0 || cost_at({cell.column, next.row}) == 0);
-    if (cuts) continue;
-    open(lattice.index(next), nodes_[index].cost + step.length * (here + there) / 2,
-         static_cast<std::int8_t>(i), least_cost(next, goal));
+    if (around[i] == 0 || (ways >> i & 1U) == 0) continue;
+    const bool diagonal = i >= kDiagonals;
+    // A diagonal lies between the direction of its own number and the next one.
+    if (diagonal && (around[i - kDiagonals] == 0 || around[(i + 1) % kDiagonals] == 0)) continue;
+    const std::uint32_t length = diagonal ? rules_.diagonal : rules_.straight;
+    open(task, {cell.column + kDirections[i].column, cell.row + kDirections[i].row},
+         so_far + length * (here + around[i]) / 2, static_cast<std::uint32_t>(i));
   }
 }
 
@@ -106,12 +163,13 @@ CellWay GridSearch::way_to(const Lattice& lattice, std::size_t end) const {
   way.cost = nodes_[end].cost;
   Cell cell = lattice.cell_of(end);
   way.cells.push_back(cell);
-  for (std::int8_t from = nodes_[end].from; from != kStart; from = nodes_[lattice.index(cell)].from) {
-    const Direction& step = kDirections[static_cast<std::size_t>(from)];
+  const auto from = [&] { return nodes_[lattice.index(cell)].mark & kDirectionBits; };
+  while (from() != kStart) {
+    const Direction& step = kDirections[from()];
     cell = {cell.column - step.column, cell.row - step.row};
     way.cells.push_back(cell);
   }
-  std::reverse(way.cells.begin(), way.cells.end());
+  std::ranges::reverse(way.cells);
   return way;
 }
 
