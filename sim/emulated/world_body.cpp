@@ -36,6 +36,7 @@ void WorldBody::sense(const SharedWorld::Inbox& inbox) {
   for (const auto& [laser, scan] : inbox.laser)
     if (laser == 0) see(scan);
   if (!inbox.gripper.empty()) gripper_ = inbox.gripper.back();
+  if (!inbox.battery.empty()) battery_voltage_ = inbox.battery.back().voltage;
   for (const OdometryReading& reading : inbox.odometry) {
     if (stall_.look(reading)) stalled_ = true;
     if (!stall_.is_slow(reading)) stalled_ = false;

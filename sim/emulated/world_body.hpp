@@ -37,6 +37,7 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   [[nodiscard]] bool is_stalled() const override { return stalled_; }
   void move_gripper(emulators::GripperMove move) override;
   [[nodiscard]] std::optional<emulators::GripperLook> gripper() const override;
+  [[nodiscard]] std::optional<double> battery_voltage() const override { return battery_voltage_; }
   [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override;
 
  private:
@@ -53,6 +54,7 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   bool stalled_ = false;
   std::optional<LaserScan> scan_;
   std::optional<GripperReading> gripper_;  // the last one
+  std::optional<double> battery_voltage_;  // [V]
 };
 
 }  // namespace orca::sim

@@ -350,7 +350,8 @@ void P2osFirmware::send_information(TimePoint now) {
   add_word(body, std::lround(here.yaw * 4096.0 / (2.0 * std::numbers::pi)));
   add_word(body, std::lround(1000.0 * (velocity.forward - turning)));
   add_word(body, std::lround(1000.0 * (velocity.forward + turning)));
-  body.push_back(static_cast<std::uint8_t>(std::lround(10.0 * settings_.voltage)));
+  body.push_back(
+      static_cast<std::uint8_t>(std::lround(10.0 * body_.battery_voltage().value_or(settings_.voltage))));
   const unsigned stall = is_stalled() ? 1 : 0;
   const unsigned bumpers = body_.bumpers();
   body.push_back(static_cast<std::uint8_t>(stall | (((bumpers >> 8) & 0x7F) << 1)));

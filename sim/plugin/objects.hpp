@@ -23,6 +23,7 @@ void fill(idl::BumperReadings& object, const BumperReading& reading, const Bumpe
 void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance);
 void fill(idl::TurretAngle& object, const TurretReading& reading);
 void fill(idl::GripperState& object, const GripperReading& reading);
+void fill(idl::Battery& object, const BatteryReading& reading);
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth);
 
 /// Returns the readings of sensors without a robot, in whose frame nobody lives: seen from the world's.

@@ -88,6 +88,15 @@ void fill(idl::GripperState& object, const GripperReading& reading) {
   object.stamp(to_time_value(reading.stamp));
 }
 
+void fill(idl::Battery& object, const BatteryReading& reading) {
+  object.name("drive");
+  object.voltage(reading.voltage);
+  object.current(std::nan(""));
+  object.charge(reading.charge);
+  object.charging(reading.charging);
+  object.stamp(to_time_value(reading.stamp));
+}
+
 void fill(idl::RobotPose& object, const SharedWorld::Inbox::Truth& truth) {
   object.x(truth.pose.x);
   object.y(truth.pose.y);

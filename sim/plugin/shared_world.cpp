@@ -52,9 +52,11 @@ Result<RobotId> SharedWorld::add_robot(const std::string& name, const RobotModel
   const Result<RobotId> robot = world_.add_robot(name, model, X_WB);
   const TimePoint next_turret = model.turret ? world_.time() + model.turret->period : kForever;
   const TimePoint next_gripper = model.gripper ? world_.time() + model.gripper->period : kForever;
+  const TimePoint next_battery = model.battery ? world_.time() + model.battery->period : kForever;
   const TimePoint now = world_.time();
   if (robot)
-    members_.push_back({*robot, name, truth_period, now + truth_period, next_turret, next_gripper, now, {}});
+    members_.push_back(
+        {*robot, name, truth_period, now + truth_period, next_turret, next_gripper, next_battery, now, {}});
   return robot;
 }
 
@@ -157,6 +159,13 @@ void SharedWorld::collect_gripper(Member& member) {
   member.inbox.gripper.back().stamp = on_run_clock(world_.time());
 }
 
+void SharedWorld::collect_battery(Member& member) {
+  if (world_.time() < member.next_battery) return;
+  member.next_battery += world_.robot_model(member.robot).battery->period;
+  member.inbox.battery.push_back(battery_in(world_, member.robot).value());
+  member.inbox.battery.back().stamp = on_run_clock(world_.time());
+}
+
 void SharedWorld::collect_motion(Member& member) {
   if (!member.next_step || world_.time() < *member.next_step) return;
   *member.next_step += kMotionPeriod;
@@ -179,6 +188,7 @@ void SharedWorld::collect(Member& member) {
   collect_readings(member);
   collect_turret(member);
   collect_gripper(member);
+  collect_battery(member);
   collect_motion(member);
   collect_encounters(member);
   if (const auto& odometry = world_.odometry(member.robot)) {

@@ -47,6 +47,7 @@ class SharedWorld {
     std::vector<OdometryReading> odometry;
     std::vector<TurretReading> turret;
     std::vector<GripperReading> gripper;
+    std::vector<BatteryReading> battery;
     std::vector<Truth> truth;
     struct Contact {
       ContactEvent event;
@@ -134,6 +135,7 @@ class SharedWorld {
     TimePoint next_truth;
     TimePoint next_turret;
     TimePoint next_gripper;
+    TimePoint next_battery;
     TimePoint seen;  // World's clock when it last polled.
     Inbox inbox;
     std::optional<TimePoint> next_step{};  // Only if its motion is kept.
@@ -149,6 +151,7 @@ class SharedWorld {
   void collect_readings(Member& member);
   void collect_turret(Member& member);
   void collect_gripper(Member& member);
+  void collect_battery(Member& member);
   void collect_motion(Member& member);
   void collect_encounters(Member& member);
   void collect_events();

@@ -56,6 +56,7 @@ SimSensors::SimSensors(const RobotModel& robot, Realism realism) : realism_(real
   make(bumpers_, robot.bumpers);
   if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
   if (robot.gripper) gripper_ = std::make_unique<hw::SensorHW<idl::GripperState>>(robot.gripper->period);
+  if (robot.battery) battery_ = std::make_unique<hw::SensorHW<idl::Battery>>(robot.battery->period);
   if (!robot.odometer) return;
   odometry_ = std::make_unique<hw::SensorHW<idl::Odometry>>(robot.odometer->period);
   uncertainty_.emplace(type_of(robot.drive.kind), robot.drive.track, robot.odometer->errors.at(realism));
@@ -70,6 +71,7 @@ std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
   if (odometry_) all.push_back(odometry_.get());
   if (turret_) all.push_back(turret_.get());
   if (gripper_) all.push_back(gripper_.get());
+  if (battery_) all.push_back(battery_.get());
   all.push_back(&truth_);
   return all;
 }
@@ -85,6 +87,7 @@ void SimSensors::publish(const SharedWorld::Inbox& inbox) {
   }
   for (const TurretReading& reading : inbox.turret) publish_one(*turret_, reading);
   for (const GripperReading& reading : inbox.gripper) publish_one(*gripper_, reading);
+  for (const BatteryReading& reading : inbox.battery) publish_one(*battery_, reading);
   for (const auto& truth : inbox.truth) publish_one(truth_, truth);
 }
 

@@ -53,6 +53,7 @@ class SimSensors {
   std::optional<OdometryUncertainty> uncertainty_;
   std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;
   std::unique_ptr<hw::SensorHW<idl::GripperState>> gripper_;
+  std::unique_ptr<hw::SensorHW<idl::Battery>> battery_;
   hw::SensorHW<idl::RobotPose> truth_{kTruthPeriod, hw::Source::truth};
 };
 

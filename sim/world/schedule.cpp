@@ -62,6 +62,7 @@ Schedule::Schedule(const Events& events, std::uint64_t seed) : outages_(events.o
   for (std::size_t i = 0; i < events.kidnaps.size(); ++i)
     add(events.kidnaps[i], RandomStream(seed, events.kidnaps[i].robot, "kidnap " + std::to_string(i)));
   for (const Outage& outage : events.outages) add(outage);
+  for (const Drain& drain : events.drains) add(drain);
   std::ranges::stable_sort(steps_, {}, &Step::at);
 }
 
@@ -109,6 +110,13 @@ void Schedule::add(const Outage& outage) {
   const std::string who = name_of(outage.sensor) + which + " of " + outage.robot;
   steps_.push_back({outage.from, who + " fails", look});
   if (outage.until) steps_.push_back({*outage.until, who + " works again", look});
+}
+
+void Schedule::add(const Drain& drain) {
+  steps_.push_back({drain.at, "the battery of " + drain.robot + " changes", [drain](World& world) -> Status {
+                      const Result<RobotId> robot = robot_of(world, drain.robot);
+                      return robot ? set_charge(world, *robot, drain.to) : Status(robot.error());
+                    }});
 }
 
 // A visitor that has not come yet has a robot in its way.

@@ -49,6 +49,7 @@ class Schedule {
   void add(const Move& move);
   void add(const Kidnap& kidnap, RandomStream random);
   void add(const Outage& outage);
+  void add(const Drain& drain);
   [[nodiscard]] Status with(const std::string& visitor, const std::function<Status(ObstacleId)>& act) const;
   // Returns whether it is over and done with.
   static bool take(Step& step, World& world, std::vector<std::string>& notes);

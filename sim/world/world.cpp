@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "batteries.hpp"
 #include "items.hpp"
 #include "motion/physics.hpp"
 #include "movers.hpp"
@@ -68,6 +69,7 @@ struct World::Impl {
   detail::Schedule schedule;
   std::deque<detail::Robot> robots;  // Robots do not move in memory. Their numbers are those in physics.
   detail::Items items{model, robots, movers};
+  detail::Batteries batteries{model, robots};
   std::vector<std::size_t> bodies;        // The robots' numbers in the caster.
   std::vector<detail::RobotSolids> seen;  // What sensors see of the robots.
   std::set<double> eyes;                  // [m] Heights of all sensors of ranges.
@@ -213,6 +215,7 @@ Result<RobotId> World::add_robot(const std::string& name, const RobotModel& mode
   impl_->robots.emplace_back(detail::Robot::Birth{name, X_WB, impl_->now, impl_->options.seed, kTick}, model,
                              impl_->errors);
   impl_->show(impl_->robots.back());
+  impl_->batteries.add();
   return RobotId{impl_->physics.add_robot(model, X_WB)};
 }
 
@@ -309,6 +312,7 @@ void World::step() {
   impl_->report_contacts();
   impl_->move();
   impl_->items.handle(kTick, impl_->notes);
+  impl_->batteries.work(kTick);
   impl_->sense();
 }
 
@@ -386,6 +390,19 @@ std::vector<Standing> standing_in(const World& world) {
   return all;
 }
 
+std::optional<BatteryReading> battery_in(const World& world, RobotId robot) {
+  const detail::BatteryModel* const battery = std::as_const(world.impl_->batteries).of(index(robot));
+  return battery == nullptr ? std::nullopt : std::optional(battery->reading(world.impl_->now));
+}
+
+Status set_charge(World& world, RobotId robot, double charge) {
+  detail::BatteryModel* const battery = world.impl_->batteries.of(index(robot));
+  if (battery == nullptr)
+    return fail(Code::not_found, "this robot has no battery", world.impl_->robot(robot).name);
+  battery->set_charge(charge);
+  return ok();
+}
+
 Status set_silent(World& world, const Outage& which, bool silent) {
   World::Impl& impl = *world.impl_;
   const auto robot = world.find(which.robot);
@@ -407,6 +424,7 @@ std::uint64_t World::state_hash() const {
   for (const detail::Robot& r : impl_->robots) r.add_to(hash);
   impl_->movers.add_to(hash);
   impl_->items.add_to(hash);
+  impl_->batteries.add_to(hash);
   return hash.value();
 }
 

@@ -63,6 +63,27 @@ void read_gripper(const xml::Attributes& e, Devices& model) {
   model.gripper = gripper;
 }
 
+void read_battery(const xml::Attributes& e, Devices& model) {
+  Battery battery;
+  const auto driving = e.duration("driving");
+  const auto standing = e.duration("standing");
+  const auto charging = e.duration("charging");
+  set(battery.voltage, e.number("voltage"));
+  set(battery.period, e.duration("period"));
+  battery.label = read_label(e);
+  if (battery.period > Duration{0}) check_period(e, battery.period);
+  if (!driving || !standing || !charging) return;
+  if (*standing < *driving)
+    e.error_at("standing", codes::kContradiction,
+               "a battery lasts at least as long at rest as while the robot drives");
+  if (*charging >= *standing)
+    e.error_at("charging", codes::kContradiction, "a charger must give more than the robot takes at rest");
+  battery.driving = *driving;
+  battery.standing = *standing;
+  battery.charging = *charging;
+  model.battery = battery;
+}
+
 void read_odometry(const xml::Attributes& e, Devices& model) {
   Guesses<WheelErrorGuess> errors = read_wheel_errors(e);
   if (!errors.is_known()) {

@@ -15,6 +15,7 @@ using namespace values;
 void read_drive(const xml::Attributes& e, Devices& model);
 void read_turret(const xml::Attributes& e, Devices& model);
 void read_gripper(const xml::Attributes& e, Devices& model);
+void read_battery(const xml::Attributes& e, Devices& model);
 void read_sonar_ring(const xml::Attributes& e, Devices& model);
 void read_laser(const xml::Attributes& e, Devices& model);
 void read_infrared_ring(const xml::Attributes& e, Devices& model);

@@ -24,6 +24,7 @@ constexpr std::array kPartKinds{
     PartKind{&kDriveRule, true, read_drive},
     PartKind{&kTurretRule, true, read_turret},
     PartKind{&kGripperRule, true, read_gripper},
+    PartKind{&kBatteryRule, true, read_battery},
     PartKind{&kSonarRingRule, false, read_sonar_ring},
     PartKind{&kLaserRule, false, read_laser},
     PartKind{&kInfraredRingRule, false, read_infrared_ring},
@@ -43,7 +44,7 @@ void read_robot_attributes(const xml::Attributes& e, Devices& model) {
 
 // Sensors without a robot need no drive.
 void check_fixed(const xml::Attributes& orca, const std::set<const xml::ElementRule*>& parts) {
-  for (const xml::ElementRule* const rule : {&kOdometryRule, &kTurretRule, &kGripperRule})
+  for (const xml::ElementRule* const rule : {&kOdometryRule, &kTurretRule, &kGripperRule, &kBatteryRule})
     if (parts.contains(rule))
       orca.error(codes::kMissing,
                  "<orca> needs the element <drive>, because it has <" + std::string(rule->name) + ">");

@@ -52,6 +52,14 @@ constexpr std::array kGripper{
     required("lift", kReach),    required("paddle_time", kWholeWay), required("lift_time", kWholeWay),
     required("period", kPeriod), optional("vendor", kText),          optional("model", kText),
     optional("port", kText)};
+constexpr std::array kBattery{required("voltage", positive("V", 1000.0)),
+                              required("driving", kPeriod),
+                              required("standing", kPeriod),
+                              required("charging", kPeriod),
+                              required("period", kPeriod),
+                              optional("vendor", kText),
+                              optional("model", kText),
+                              optional("port", kText)};
 // Directions are given by `angles`, or else by `first_angle` and `pitch`.
 constexpr std::array kSonarRing{required("name", kName),
                                 required("count", kDevices),
@@ -131,6 +139,7 @@ constexpr std::array kInRangeSensor{&kRangeErrorsRule};
 constexpr ElementRule kDriveRule{.name = "drive", .attributes = kDrive};
 constexpr ElementRule kTurretRule{.name = "turret", .attributes = kTurret};
 constexpr ElementRule kGripperRule{.name = "gripper", .attributes = kGripper};
+constexpr ElementRule kBatteryRule{.name = "battery", .attributes = kBattery};
 constexpr ElementRule kSonarRingRule{
     .name = "sonar_ring", .attributes = kSonarRing, .children = kInRangeSensor};
 constexpr ElementRule kLaserRule{.name = "laser", .attributes = kLaser, .children = kInRangeSensor};
@@ -141,8 +150,9 @@ constexpr ElementRule kOdometryRule{.name = "odometry", .attributes = kOdometry,
 
 namespace {
 
-constexpr std::array kInOrca{&kDriveRule, &kTurretRule,       &kGripperRule,    &kSonarRingRule,
-                             &kLaserRule, &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
+constexpr std::array kInOrca{&kDriveRule,        &kTurretRule,     &kGripperRule,
+                             &kBatteryRule,      &kSonarRingRule,  &kLaserRule,
+                             &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
 
 }  // namespace
 
@@ -155,9 +165,10 @@ namespace {
 constexpr std::array kInRobot{&kOrcaRule};
 constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 
-constexpr std::array kRobotElements{&kRobotRule,      &kOrcaRule,      &kDriveRule,       &kTurretRule,
-                                    &kGripperRule,    &kSonarRingRule, &kLaserRule,       &kInfraredRingRule,
-                                    &kBumperRingRule, &kOdometryRule,  &kWheelErrorsRule, &kRangeErrorsRule};
+constexpr std::array kRobotElements{&kRobotRule,        &kOrcaRule,       &kDriveRule,     &kTurretRule,
+                                    &kGripperRule,      &kBatteryRule,    &kSonarRingRule, &kLaserRule,
+                                    &kInfraredRingRule, &kBumperRingRule, &kOdometryRule,  &kWheelErrorsRule,
+                                    &kRangeErrorsRule};
 
 }  // namespace
 

@@ -4,6 +4,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 OWN_POSE = {"odometry", "slam"}  # profiles whose pose is the robot's own
+OWN_GRAPHS = ("pioneer_localize.xml", "pioneer_tasks.xml")  # graphs with a pose of their own in every profile
 
 
 def variants_of(text):
@@ -11,8 +12,13 @@ def variants_of(text):
     root = ElementTree.fromstring(text.encode())
     if root.tag != "experiment":
         return []
-    return [(variant.get("name"), set((variant.get("profile") or root.get("profile") or "").split()))
-            for variant in root.findall("variant")]
+    variants = []
+    for variant in root.findall("variant"):
+        profiles = set((variant.get("profile") or root.get("profile") or "").split())
+        if (variant.get("graph") or root.get("graph") or "").endswith(OWN_GRAPHS):
+            profiles.add("odometry")
+        variants.append((variant.get("name"), profiles))
+    return variants
 
 
 def find(tree):
@@ -44,6 +50,7 @@ GOOD = [
     _experiment('name="a"' + _ODOMETRY),
     _experiment('name="a" profile="sim slam"'),
     _experiment('name="a_truth" profile="sim"', _ODOMETRY),
+    {"sim/experiments/e.xml": '<experiment name="e" graph="../../graphs/pioneer_tasks.xml"><variant name="a"/></experiment>'},
     {"sim/experiments/g.xml": '<graph name="g"/>'},
     {"tests/data/e.xml": '<experiment name="e"><variant name="a"/></experiment>'},
 ]

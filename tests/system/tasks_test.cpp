@@ -91,6 +91,28 @@ TEST_CASE("a robot that is carried off goes on when it has found itself, if the 
   CHECK(without.says("lost: it is not known any more where the robot is (mission 1)"));
 }
 
+TEST_CASE("a robot that patrols goes to charge in time, and on from where it was", "[system][tasks]") {
+  const Office office{.events = R"(<drain robot="Pioneer" at="20 s" to="15 %"/>)"};
+  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "1500 s"};
+  const Run run = office.run(patrol);
+  INFO(run.err);
+  const Words reached = names(run);
+  REQUIRE(reached.size() > 3);
+  CHECK(reached[0] == "kitchen");
+  CHECK(reached[1] == "dock");
+  CHECK(reached[2] == "library");
+  CHECK(run.says("I go on."));
+  CHECK(run.contacts().empty());
+
+  // Without that handler it stands somewhere with an empty battery.
+  std::string text = read_text(source_file("graphs/tasks/patrol.xml"));
+  const auto begin = text.find("<On when=\"battery");
+  text.erase(begin, text.find("</On>", begin) + 5 - begin);
+  const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="1 %"/>)"}.run(
+      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "1500 s"});
+  CHECK(bare.arrivals().back().t < 800.0);
+}
+
 TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an operator",
           "[system][tasks]") {
   const TempFolder folder;

@@ -31,5 +31,7 @@ inline constexpr const char* kBadEvent = "W024";
 inline constexpr const char* kBadItem = "W025";
 inline constexpr const char* kOtherFormat = "W026";
 inline constexpr const char* kLightGrey = "W027";
+inline constexpr const char* kNoSuchPlace = "W028";
+inline constexpr const char* kBadBase = "W029";
 
 }  // namespace orca::sim::detail::world_codes

@@ -93,6 +93,13 @@ void EventReader::outage(const xml::Attributes& element) {
       {*robot, *sensor, *at, read_end(element, "until", *at), element.text("device").value_or("")});
 }
 
+void EventReader::drain(const xml::Attributes& element) {
+  const auto robot = element.text("robot");
+  const auto at = element.duration("at");
+  const auto to = element.number("to");
+  if (robot && at && to) events_.drains.push_back({*robot, *at, *to});
+}
+
 Events EventReader::take() {
   if (events_.visitors.size() > kMostVisitors)
     reporter_.error(world_codes::kTooMany, last_visitor_,

@@ -22,6 +22,7 @@ class EventReader {
   void move(const xml::Attributes& element);
   void kidnap(const xml::Attributes& element);
   void outage(const xml::Attributes& element);
+  void drain(const xml::Attributes& element);
 
   // Returns what was read, after a look whether it fits together.
   Events take();

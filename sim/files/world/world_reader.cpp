@@ -23,25 +23,6 @@ namespace {
 
 constexpr double kWallThickness = 0.1;
 constexpr double kWallHeight = 2.5;
-constexpr std::size_t kMaxCorners = 1000;
-
-// Returns the reason why these corners do not bound an area; empty if they do.
-std::string polygon_fault(const std::vector<Vec2>& corners) {
-  if (corners.size() < 3)
-    return "a polygon needs at least 3 corners, found " + std::to_string(corners.size());
-  if (corners.size() > kMaxCorners)
-    return "a polygon may have 1000 corners, found " + std::to_string(corners.size()) + "; use a <bitmap>";
-  if (corners.front() == corners.back())
-    return "the last corner repeats the first; a polygon closes by itself, leave the last one out";
-  const std::vector<Segment> edges = outline_of(corners).edges;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (edges[i].a == edges[i].b) return "two corners in a row are the same point";
-    for (std::size_t k = i + 2; k < edges.size(); ++k)
-      if (cross_each_other(edges[i], edges[k])) return "two sides of the polygon cross each other";
-  }
-  const Bounds b = bounds_of(Outline{edges});
-  return b.low.x < b.high.x && b.low.y < b.high.y ? "" : "the polygon has no area";
-}
 
 std::optional<BitmapScale> scale_of(const xml::Attributes& bitmap) {
   const bool has_width = bitmap.has("width");
@@ -98,14 +79,14 @@ bool within_limits(const xml::Attributes& world, const Elements& elements) {
   const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
   const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
   const bool items = too_many(count(kItemRule), "items", kMaxItems);
-  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule),
-                               "moves, kidnaps and outages", kMaxEvents);
+  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule) + count(kDrainRule),
+                               "moves, kidnaps, outages and drains", kMaxEvents);
   return !obstacles && !places && !walkers && !items && !events;
 }
 
 }  // namespace
 
-constexpr std::array<WorldReader::Reader, 16> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
+constexpr std::array<WorldReader::Reader, 11> WorldReader::kReaders{{{&kWallRule, &WorldReader::wall},
                                                                      {&kRoomRule, &WorldReader::room},
                                                                      {&kBoxRule, &WorldReader::box},
                                                                      {&kCylinderRule, &WorldReader::cylinder},
@@ -115,29 +96,77 @@ constexpr std::array<WorldReader::Reader, 16> WorldReader::kReaders{{{&kWallRule
                                                                      {&kPlaceRule, &WorldReader::place},
                                                                      {&kGenerateRule, &WorldReader::generate},
                                                                      {&kWalkerRule, &WorldReader::walker},
-                                                                     {&kItemRule, &WorldReader::item},
-                                                                     {&kSillRule, &WorldReader::sill},
-                                                                     {&kWetRule, &WorldReader::wet},
-                                                                     {&kMoveRule, &WorldReader::move},
-                                                                     {&kKidnapRule, &WorldReader::kidnap},
-                                                                     {&kOutageRule, &WorldReader::outage}}};
+                                                                     {&kItemRule, &WorldReader::item}}};
+
+namespace {
+
+using FixtureRead = void (FixtureReader::*)(const xml::Attributes&, const std::string&);
+using EventRead = void (EventReader::*)(const xml::Attributes&);
+
+constexpr std::array<std::pair<const xml::ElementRule*, FixtureRead>, 3> kFixtures{
+    {{&kSillRule, &FixtureReader::sill},
+     {&kWetRule, &FixtureReader::wet},
+     {&kChargerRule, &FixtureReader::charger}}};
+constexpr std::array<std::pair<const xml::ElementRule*, EventRead>, 4> kEvents{
+    {{&kMoveRule, &EventReader::move},
+     {&kKidnapRule, &EventReader::kidnap},
+     {&kOutageRule, &EventReader::outage},
+     {&kDrainRule, &EventReader::drain}}};
+
+// Returns how the elements of a rule are read; null: another table has that.
+template <class Table>
+auto find_in(const Table& table, const xml::ElementRule* rule) {
+  const auto found = std::ranges::find(table, rule, &Table::value_type::first);
+  return found == table.end() ? nullptr : found->second;
+}
+
+}  // namespace
 
 WorldModel WorldReader::read(const xml::Element& root) {
   const Attributes world = attributes_of(root, kWorldRule);
   header(world);
-  const auto elements = world.children();
-  if (!within_limits(world, elements)) return std::move(world_);
-  for (const auto& [element, rule] : elements) {
-    // Each rule of an element inside <world> has its reader.
-    const auto reader = std::ranges::find(kReaders, rule, &Reader::rule);
-    (this->*reader->read)(attributes_of(*element, *rule));
-  }
+  if (world.has("base")) read_base(world);
+  read_elements(world);
   check_seed();
   check_places();
   check_walkers();
   check_items();
+  fixtures_.place_chargers();
   world_.events = events_.take();
   return std::move(world_);
+}
+
+void WorldReader::read_elements(const Attributes& world) {
+  const auto elements = world.children();
+  if (!within_limits(world, elements)) return;
+  for (const auto& [element, rule] : elements) {
+    // Each rule of an element inside <world> has its reader.
+    const Attributes attributes = attributes_of(*element, *rule);
+    if (const auto read = find_in(kFixtures, rule)) {
+      (fixtures_.*read)(attributes, own_name(attributes));
+    } else if (const auto read_event = find_in(kEvents, rule)) {
+      (events_.*read_event)(attributes);
+    } else {
+      (this->*std::ranges::find(kReaders, rule, &Reader::rule)->read)(attributes);
+    }
+  }
+}
+
+// Reads the elements of another world as if they stood here. Files that they name lie beside it.
+void WorldReader::read_base(const Attributes& world) {
+  const std::string own_file = file_name_;
+  file_name_ = (std::filesystem::path(own_file).parent_path() / world.text("base").value_or("")).string();
+  if (const auto document = xml::read_file(file_name_, reporter_.diagnostics())) {
+    const Attributes base = attributes_of(document->root, kWorldRule);
+    if (document->root.name() != kWorldRule.name || base.has("base")) {
+      world.error_at(
+          "base", world_codes::kBadBase,
+          in_quotes(file_name_) + " is no world, or one with a base of its own; name one that has none");
+    } else {
+      read_elements(base);
+    }
+  }
+  file_name_ = own_file;
 }
 
 WorldReader::Attributes WorldReader::attributes_of(const xml::Element& element,
@@ -360,27 +389,6 @@ void WorldReader::item(const Attributes& element) {
   if (!name || !x || !y || !radius || !tall) return;
   world_.items.push_back({*name, *radius, *tall, {*x, *y, 0.0}});
   item_positions_.push_back(element.element().position());
-}
-
-void WorldReader::sill(const Attributes& element) {
-  const auto from = read_point(element, "from");
-  const auto to = read_point(element, "to");
-  const auto tall = element.number("height");
-  const std::string name = own_name(element);
-  if (from && to && tall) world_.floor.sills.push_back({name, {*from, *to}, *tall});
-}
-
-void WorldReader::wet(const Attributes& element) {
-  WetPatch patch;
-  patch.name = own_name(element);
-  set(patch.slip, element.number_or("slip", patch.slip));
-  set(patch.grip, element.number_or("grip", patch.grip));
-  const auto corners = read_points(element, "points");
-  if (!corners) return;
-  if (const std::string fault = polygon_fault(*corners); !fault.empty())
-    return element.error_at("points", world_codes::kBadPolygon, fault);
-  patch.area = outline_of(*corners);
-  world_.floor.patches.push_back(std::move(patch));
 }
 
 void WorldReader::check_walkers() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "event_reader.hpp"
+#include "fixture_reader.hpp"
 #include "model/walls.hpp"
 #include "orca/sim/world_model.hpp"
 #include "orca/xml/attributes.hpp"
@@ -32,9 +33,11 @@ class WorldReader {
     const xml::ElementRule* rule;
     void (WorldReader::*read)(const Attributes&);
   };
-  static const std::array<Reader, 16> kReaders;
+  static const std::array<Reader, 11> kReaders;
 
   void header(const Attributes& world);
+  void read_base(const Attributes& world);
+  void read_elements(const Attributes& world);
   void wall(const Attributes& element);
   void room(const Attributes& element);
   void box(const Attributes& element);
@@ -46,11 +49,6 @@ class WorldReader {
   void generate(const Attributes& element);
   void walker(const Attributes& element);
   void item(const Attributes& element);
-  void sill(const Attributes& element);
-  void wet(const Attributes& element);
-  void move(const Attributes& element) { events_.move(element); }
-  void kidnap(const Attributes& element) { events_.kidnap(element); }
-  void outage(const Attributes& element) { events_.outage(element); }
 
   void add_wall(const Attributes& element, WallPlan plan);
   void add(const Attributes& element, Shape shape, double height);
@@ -70,6 +68,7 @@ class WorldReader {
   xml::Reporter reporter_;
   WorldModel world_;
   EventReader events_{reporter_};
+  FixtureReader fixtures_{world_, reporter_};
   std::map<std::string, xml::Position> taken_;  // Places of the elements by kind and name.
   std::vector<xml::Position> place_positions_;
   std::vector<xml::Position> walker_positions_;

@@ -25,7 +25,8 @@ constexpr std::array<std::string_view, 5> kGeneratorKinds{"barn", "u_trap", "nar
 
 constexpr ValueRule kSurface = one_of(kFinishes);
 
-constexpr std::array kWorld{required("name", kName), required("version", kText), optional("text", kText)};
+constexpr std::array kWorld{required("name", kName), required("version", kText), optional("text", kText),
+                            optional("base", kText)};
 constexpr std::array kWall{optional("name", kName),     required("from", kText),
                            required("to", kText),       optional("thickness", kLength),
                            optional("height", kLength), optional("surface", kSurface)};
@@ -100,6 +101,10 @@ constexpr std::array kKidnap{required("robot", kText),   required("at", kTime),
 constexpr std::array kOutage{required("robot", kText), required("sensor", one_of(kSensorKinds)),
                              required("at", kTime), optional("until", kTime), optional("device", kName)};
 
+constexpr std::array kDrain{required("robot", kText), required("at", kTime),
+                            required("to", not_negative("", 1.0))};
+constexpr std::array kCharger{required("place", kName), required("reach", positive("m", 10.0))};
+
 constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
 constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};
 constexpr std::array kInWall{&kDoorRule};
@@ -123,13 +128,15 @@ constexpr ElementRule kWetRule{.name = "wet", .attributes = kWet};
 constexpr ElementRule kMoveRule{.name = "move", .attributes = kMove};
 constexpr ElementRule kKidnapRule{.name = "kidnap", .attributes = kKidnap};
 constexpr ElementRule kOutageRule{.name = "outage", .attributes = kOutage};
+constexpr ElementRule kDrainRule{.name = "drain", .attributes = kDrain};
+constexpr ElementRule kChargerRule{.name = "charger", .attributes = kCharger};
 
 namespace {
 
-constexpr std::array kInWorld{&kWallRule,     &kRoomRule,   &kBoxRule,    &kCylinderRule,
-                              &kPolygonRule,  &kBitmapRule, &kMeshRule,   &kPlaceRule,
-                              &kGenerateRule, &kWalkerRule, &kItemRule,   &kSillRule,
-                              &kWetRule,      &kMoveRule,   &kKidnapRule, &kOutageRule};
+constexpr std::array kInWorld{&kWallRule,   &kRoomRule,  &kBoxRule,    &kCylinderRule, &kPolygonRule,
+                              &kBitmapRule, &kMeshRule,  &kPlaceRule,  &kGenerateRule, &kWalkerRule,
+                              &kItemRule,   &kSillRule,  &kWetRule,    &kMoveRule,     &kKidnapRule,
+                              &kOutageRule, &kDrainRule, &kChargerRule};
 
 }  // namespace
 
@@ -137,10 +144,10 @@ constexpr ElementRule kWorldRule{.name = "world", .attributes = kWorld, .childre
 
 namespace {
 
-constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule, &kBoxRule,
-                                    &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule, &kPlaceRule,
-                                    &kGenerateRule, &kWalkerRule,  &kItemRule,   &kSillRule, &kWetRule,
-                                    &kMoveRule,     &kKidnapRule,  &kOutageRule};
+constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule,  &kBoxRule,
+                                    &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule,  &kPlaceRule,
+                                    &kGenerateRule, &kWalkerRule,  &kItemRule,   &kSillRule,  &kWetRule,
+                                    &kMoveRule,     &kKidnapRule,  &kOutageRule, &kDrainRule, &kChargerRule};
 
 }  // namespace
 

@@ -24,6 +24,8 @@ extern const xml::ElementRule kWetRule;
 extern const xml::ElementRule kMoveRule;
 extern const xml::ElementRule kKidnapRule;
 extern const xml::ElementRule kOutageRule;
+extern const xml::ElementRule kDrainRule;
+extern const xml::ElementRule kChargerRule;
 
 extern const xml::FileRules kWorldFile;
 

@@ -31,6 +31,7 @@ std::string identity_of(const Experiment& experiment) {
   Fnv1a hash;
   hash.add_text(experiment.name);
   hash.add_u64(static_cast<std::uint64_t>(experiment.until.count()));
+  if (experiment.has_task) hash.add_text("task");
   const std::string folder = std::filesystem::absolute(experiment.file).lexically_normal().parent_path();
   add_settings(experiment.settings, folder, hash);
   add_goals(experiment.goals, hash);

@@ -74,6 +74,7 @@ class ExperimentReader {
     profiles_ = words_of(experiment.text("profile").value_or(""));
     experiment_.seeds = numbers(experiment, "seeds");
     experiment_.metrics = metrics(experiment);
+    if (experiment.has("claims")) experiment_.has_task = experiment.choice("claims") == "task";
     experiment_.until = experiment.duration("until").value_or(Duration{0});
     experiment_.limit = experiment.duration_or("limit", from_seconds(kDefaultLimit)).value_or(Duration{0});
     experiment_.memory_limit =

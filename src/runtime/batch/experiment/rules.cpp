@@ -25,6 +25,9 @@ constexpr ValueRule kTolerance{
     .form = ValueRule::Form::number, .unit = "rad", .min = 0.0, .max = 0.5 * kTurn, .above_min = true};
 constexpr ValueRule kBytes{.form = ValueRule::Form::number, .unit = "B", .min = 1e8, .max = 1e15};
 
+constexpr std::array<std::string_view, 2> kSubjects{"goals", "task"};
+constexpr ValueRule kSubject{.choices = kSubjects};
+
 constexpr std::array kExperiment{
     AttributeRule{"name", true, "Name of the experiment.", kName},
     AttributeRule{"version", false, "Version of the format; the only one is 1."},
@@ -34,6 +37,11 @@ constexpr std::array kExperiment{
                   "default_profile if not given."},
     AttributeRule{"seeds", true, "Seeds of the runs: numbers and ranges, \"1-20 50\"."},
     AttributeRule{"until", true, "Time after which a run ends, on its own clock.", kSeconds},
+    AttributeRule{
+        "claims", false,
+        "What components' words are about: \"goals\", each of one of the goals in their order; or \"task\", "
+        "which is done or has failed.",
+        kSubject},
     AttributeRule{"metrics", false, "In which variants are compared; \"success time\" if not given."},
     AttributeRule{
         "computing", false,

@@ -80,6 +80,13 @@ void scramble_heap() {
   (void)mmap(nullptr, kMovedBy, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
 }
 
+// The criteria that a run is judged by.
+struct Criteria {
+  std::vector<Goal> goals;
+  bool has_task = false;
+  std::optional<double> reference;  // [m] of the world
+};
+
 // Returns what components said of their goals, in the order of the times.
 std::vector<GoalClaim> claims_of(const host::RunResult& result) {
   std::vector<GoalClaim> claims;
@@ -102,8 +109,17 @@ Judgement own_word(const host::RunResult& result) {
   return judgement;
 }
 
-Result<Judgement> judgement_of(const host::RunResult& result, const std::vector<Goal>& goals) {
+// A task may drive elsewhere between its goals, and give one up for another.
+Result<Judgement> judgement_of_task(const host::RunResult& result, const std::vector<Goal>& goals) {
+  Result<Judgement> judgement = judge_goals(goals, result.scene.value_or(Scene{}), {}, result.end);
+  if (judgement && result.outcome != host::RunOutcome::finished) judgement->done.reset();
+  return judgement;
+}
+
+Result<Judgement> judgement_of(const host::RunResult& result, const Criteria& criteria) {
+  const std::vector<Goal>& goals = criteria.goals;
   if (goals.empty()) return own_word(result);
+  if (criteria.has_task) return judgement_of_task(result, goals);
   return judge_goals(goals, result.scene.value_or(Scene{}), claims_of(result), result.end);
 }
 
@@ -165,17 +181,17 @@ void add_scene(const host::RunResult& result, const RunEnd& end, Outcome& outcom
   outcome.sketch = sketch_of(*result.scene);
 }
 
-Outcome outcome_of(const host::RunResult& result, const std::vector<Goal>& goals,
-                   const std::optional<double>& reference) {
+Outcome outcome_of(const host::RunResult& result, const Criteria& criteria) {
   Outcome outcome;
-  const Result<Judgement> judged = judgement_of(result, goals);
+  const Result<Judgement> judged = judgement_of(result, criteria);
   const Judgement judgement = judged ? *judged : Judgement{};
   outcome.ending = judged ? ending_of(result, judgement) : Ending::failed;
   if (outcome.ending == Ending::failed) {
     outcome.reason = judged || result.error ? reason_of(result) : judged.error().message;
     outcome.failure = Failure::crash;
   }
-  RunEnd end{.succeeded = outcome.ending == Ending::success, .end = result.end, .reference = reference};
+  RunEnd end{
+      .succeeded = outcome.ending == Ending::success, .end = result.end, .reference = criteria.reference};
   end.lost = judgement.claimed_wrongly > 0;
   end.overload = std::ranges::any_of(
       result.counters.computing, [](const auto& one) { return 2 * one.second.overruns > one.second.laps; });
@@ -185,8 +201,8 @@ Outcome outcome_of(const host::RunResult& result, const std::vector<Goal>& goals
   outcome.goals = judgement.reached;
   outcome.failed_goals = judgement.missed;
   outcome.contacts = static_cast<std::uint32_t>(result.contacts.size());
-  outcome.measures.claimed = judgement.claimed;
-  if (!goals.empty()) {
+  if (!criteria.has_task) outcome.measures.claimed = judgement.claimed;
+  if (!criteria.goals.empty() && !criteria.has_task) {
     outcome.measures.claimed_wrongly = judgement.claimed_wrongly;
     outcome.measures.not_claimed = judgement.not_claimed;
   }
@@ -208,13 +224,9 @@ std::vector<LapCost> laps_of(const host::RunResult& result) {
 // Hands the outcome over as soon as it is known.
 class Reporter final : public host::RunListener {
  public:
-  /// @param goals      that the run is judged by.
-  /// @param reference  [m] of the world.
-  Reporter(int to, const std::vector<Goal>& goals, const std::optional<double>& reference)
-      : to_(to), goals_(goals), reference_(reference) {}
+  Reporter(int to, Criteria criteria) : to_(to), criteria_(std::move(criteria)) {}
   void ended(const host::RunResult& result) override {
-    write_all(to_,
-              to_text(outcome_of(result, goals_, reference_)) + kLapsFollow + laps_text(laps_of(result)));
+    write_all(to_, to_text(outcome_of(result, criteria_)) + kLapsFollow + laps_text(laps_of(result)));
   }
   [[noreturn]] void abandon(const host::RunResult& result) override {
     ended(result);
@@ -223,8 +235,7 @@ class Reporter final : public host::RunListener {
 
  private:
   const int to_;
-  const std::vector<Goal> goals_;
-  const std::optional<double> reference_;
+  const Criteria criteria_;
 };
 
 // Sanitizers take terabytes of addresses for themselves.
@@ -277,7 +288,8 @@ void work(const Experiment& experiment, const Run& run, const BatchOptions& opti
     _exit(EXIT_SUCCESS);
   }
   if (plan.elsewhere) go_elsewhere();  // not before: relative paths of the graph start at the current folder
-  Reporter reporter(plan.to, experiment.goals_of(run), experiment.worlds[run.world].reference);
+  Reporter reporter(plan.to,
+                    {experiment.goals_of(run), experiment.has_task, experiment.worlds[run.world].reference});
   (void)host::run_system(*graph, catalogue, run_options(experiment, run, options, plan), stop, reporter);
   _exit(EXIT_SUCCESS);
 }

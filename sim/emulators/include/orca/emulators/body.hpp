@@ -61,6 +61,8 @@ class Body {
   virtual void move_gripper(GripperMove) {}
   /// Returns what the gripper tells of itself; nothing if the body has none. It has one all the time, or never.
   [[nodiscard]] virtual std::optional<GripperLook> gripper() const { return std::nullopt; }
+  /// Returns the voltage of its battery [V]; nothing if it is not known, so that the controller reports one of its own.
+  [[nodiscard]] virtual std::optional<double> battery_voltage() const { return std::nullopt; }
 };
 
 /// A turn of a scanning laser's mirror.

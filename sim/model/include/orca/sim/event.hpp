@@ -55,6 +55,13 @@ struct Outage {
   std::string device{};  ///< Name of the one; empty: all.
 };
 
+/// The battery of a robot has another charge, at once.
+struct Drain {
+  std::string robot;
+  Duration at{0};
+  double to = 0.0;  ///< Share of a full charge, 0 to 1.
+};
+
 /// What happens in a world while it runs, besides people who walk about; times count from its start. What a robot is in the way of
 /// happens as soon as it is gone. Plain values.
 struct Events {
@@ -62,6 +69,7 @@ struct Events {
   std::vector<Move> moves{};
   std::vector<Kidnap> kidnaps{};
   std::vector<Outage> outages{};
+  std::vector<Drain> drains{};
 };
 
 }  // namespace orca::sim

@@ -83,6 +83,14 @@ struct GripperReading {
   bool holds = false;       ///< The paddles hold an item.
 };
 
+/// The state of a battery.
+struct BatteryReading {
+  TimePoint stamp;
+  double charge = 1.0;    ///< Share of a full charge, 0 to 1.
+  double voltage = 0.0;   ///< [V]
+  bool charging = false;  ///< The robot rests at a charger.
+};
+
 /// The beginning of a touch between a robot and something else.
 struct ContactEvent {
   std::string robot;

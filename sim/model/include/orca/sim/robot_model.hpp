@@ -11,6 +11,7 @@
 
 namespace orca::sim {
 
+using robot_file::Battery;
 using robot_file::BumperRing;
 using robot_file::DeviceLabel;
 using robot_file::Drive;

@@ -80,6 +80,13 @@ struct Place {
   Pose2 pose;
 };
 
+/// A place where the batteries of robots are charged that rest there.
+struct Charger {
+  std::string place;  ///< Name of the place.
+  Vec2 position{};
+  double reach = 0.0;  ///< [m] How far the middle of a robot may be from there.
+};
+
 /// A thing that a gripper can carry: an upright cylinder that stands on the floor.
 struct Item {
   std::string name;     ///< Name that contacts report; not that of another item or of a walker.
@@ -88,7 +95,7 @@ struct Item {
   Pose2 pose;           ///< Where it stands at first, in the world frame.
 };
 
-/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, things to carry, and what
+/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, things to carry, chargers, and what
 /// happens in it. A plain value.
 struct WorldModel {
   std::string name;
@@ -98,6 +105,7 @@ struct WorldModel {
   Floor floor{};
   Events events{};
   std::vector<Item> items{};
+  std::vector<Charger> chargers{};
 
   /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;

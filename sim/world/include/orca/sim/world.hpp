@@ -188,6 +188,8 @@ class World {
   friend std::vector<Person> people_in(const World& world);
   friend std::vector<std::string> robots_in(const World& world);
   friend std::vector<Standing> standing_in(const World& world);
+  friend std::optional<BatteryReading> battery_in(const World& world, RobotId robot);
+  friend Status set_charge(World& world, RobotId robot, double charge);
   friend Status set_silent(World& world, const Outage& which, bool silent);
   friend std::vector<std::string> silent_in(const World& world, RobotId robot);
 
@@ -214,5 +216,10 @@ Status set_silent(World& world, const Outage& which, bool silent);
 
 /// Returns what is silent of a robot: "laser", or "laser rear" for one of several.
 [[nodiscard]] std::vector<std::string> silent_in(const World& world, RobotId robot);
+
+/// Returns the present state of a robot's battery; nothing if it has none. An empty one drives the base no more.
+[[nodiscard]] std::optional<BatteryReading> battery_in(const World& world, RobotId robot);
+/// Gives a robot's battery another charge. @param charge  share of a full one, 0 to 1. @errors  not_found: it has none.
+Status set_charge(World& world, RobotId robot, double charge);
 
 }  // namespace orca::sim

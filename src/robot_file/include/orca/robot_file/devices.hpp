@@ -171,6 +171,16 @@ struct Gripper {
   DeviceLabel label{};
 };
 
+/// The battery that drives the robot, as far as the simulator needs it.
+struct Battery {
+  double voltage = 0.0;  ///< [V] when it is full, > 0.
+  Duration driving{0};   ///< Time for which it lasts at the greatest speed, > 0.
+  Duration standing{0};  ///< Time for which it lasts at rest, at least `driving`.
+  Duration charging{0};  ///< Time in which a charger fills it, > 0 and less than `standing`.
+  Duration period{0};    ///< Time from one reading to the next.
+  DeviceLabel label{};
+};
+
 /// A ring of sonar transducers. Number k looks along first_angle + k * pitch from the ring's centre and sits
 /// `radius` from it in that direction. An uneven ring lists the directions of all, and may list their places.
 struct SonarRing {
@@ -224,6 +234,7 @@ struct Devices {
   Drive drive;
   std::optional<Turret> turret;
   std::optional<Gripper> gripper{};
+  std::optional<Battery> battery{};
   std::vector<SonarRing> sonars;
   std::vector<LaserScanner> lasers;
   std::vector<InfraredRing> infrareds;

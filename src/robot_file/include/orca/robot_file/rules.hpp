@@ -12,6 +12,7 @@ extern const xml::ElementRule kOrcaRule;
 extern const xml::ElementRule kDriveRule;
 extern const xml::ElementRule kTurretRule;
 extern const xml::ElementRule kGripperRule;
+extern const xml::ElementRule kBatteryRule;
 extern const xml::ElementRule kSonarRingRule;
 extern const xml::ElementRule kLaserRule;
 extern const xml::ElementRule kInfraredRingRule;

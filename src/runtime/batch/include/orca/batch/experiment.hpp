@@ -92,6 +92,9 @@ struct Experiment {
   std::string file;               ///< Path.
   std::vector<Setting> settings;  ///< For all runs.
   std::vector<Goal> goals{};      ///< Each robot's in their order; none: components' own word counts.
+  /// Components' words are about a task: a goal on the way may be given up, but the task must be done. Otherwise each word is about
+  /// one of the goals, in their order.
+  bool has_task = false;
   std::vector<Variant> variants;
   std::vector<World> worlds;
   std::vector<std::uint64_t> seeds;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "batteries.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace orca::sim::detail {
+namespace {
+
+constexpr double kAtRest = 0.005;  // [m/s]
+
+}  // namespace
+
+void Batteries::add() {
+  const RobotModel& model = robots_.back().model;
+  if (model.battery) batteries_.emplace(robots_.size() - 1, *model.battery);
+}
+
+bool Batteries::is_charged(const Robot& robot) const {
+  return robot.speed() < kAtRest && std::ranges::any_of(world_.chargers, [&](const Charger& charger) {
+           return norm(robot.body.position() - charger.position) <= charger.reach;
+         });
+}
+
+void Batteries::work(Duration tick) {
+  for (auto& [number, battery] : batteries_) {
+    Robot& robot = robots_[number];
+    battery.step(to_seconds(tick), std::min(robot.speed() / robot.model.drive.max_speed, 1.0),
+                 is_charged(robot));
+    if (battery.is_empty()) robot.drive.command({});
+  }
+}
+
+const BatteryModel* Batteries::of(std::size_t robot) const {
+  const auto found = batteries_.find(robot);
+  return found == batteries_.end() ? nullptr : &found->second;
+}
+
+BatteryModel* Batteries::of(std::size_t robot) {
+  const auto found = batteries_.find(robot);
+  return found == batteries_.end() ? nullptr : &found->second;
+}
+
+void Batteries::add_to(Fnv1a& hash) const {
+  for (const auto& [number, battery] : batteries_)
+    hash.add_u64(std::bit_cast<std::uint64_t>(battery.charge()));
+}
+
+}  // namespace orca::sim::detail
