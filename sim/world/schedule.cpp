@@ -21,24 +21,38 @@ bool holds(const std::vector<Device>& devices, const std::string& name) {
   return name.empty() ? !devices.empty() : std::ranges::find(devices, name, &Device::name) != devices.end();
 }
 
+// Returns the circle in which a robot turns round, with some room.
+Circle turning_circle(const RobotModel& robot, Vec2 at) {
+  constexpr double kBeside = 0.1;  // [m]
+  double radius = 0.0;
+  if (const auto* round = std::get_if<Circle>(&robot.footprint)) radius = norm(round->center) + round->radius;
+  for (const Segment& edge : edges_of(robot.footprint)) radius = std::max(radius, norm(edge.a));
+  return {at, radius + kBeside};
+}
+
+// Returns whether a robot could turn round at a place, were it not for what moves.
+bool has_room(const World& world, const RobotModel& robot, Vec2 at) {
+  return world.model().obstacle_at(turning_circle(robot, at), robot.bottom, robot.top) == nullptr;
+}
+
 // Puts a robot at a drawn place. Each step draws a line through the last place, and a place on the free part of that line. After many steps
 // each place to which there is a way is as likely as any other (hit-and-run: Smith, Operations Research 32(6), 1984).
 Status carry_off(World& world, RobotId robot, double away, RandomStream& random) {
   constexpr int kLines = 300;  // for about ten rooms
   constexpr int kMost = 100 * kLines;
   constexpr double kLongest = 100.0;  // [m]
+  const RobotModel& model = world.robot_model(robot);
   const Vec2 from = world.pose(robot).position();
   Vec2 at = from;
   for (int i = 1; i <= kMost; ++i) {
     const double yaw = random.uniform(-std::numbers::pi, std::numbers::pi);
     const auto free = [&](Vec2 way) {
-      const double height = world.robot_model(robot).bottom;
-      return world.caster().cast({at, way, kLongest, height, world.body(robot)}).range;
+      return world.caster().cast({at, way, kLongest, model.bottom, world.body(robot)}).range;
     };
     const Vec2 ahead = direction(yaw);
     at = at + random.uniform(-free(-1.0 * ahead), free(ahead)) * ahead;
-    if (i % kLines == 0 && norm(at - from) >= away && world.place_robot(robot, {at.x, at.y, yaw}).ok())
-      return ok();
+    if (i % kLines != 0 || norm(at - from) < away || !has_room(world, model, at)) continue;
+    if (world.place_robot(robot, {at.x, at.y, yaw}).ok()) return ok();
   }
   return fail(Code::not_found, "no free place was found that is far enough away");
 }

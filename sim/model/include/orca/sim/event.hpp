@@ -42,7 +42,8 @@ struct Kidnap {
   Duration at{0};
   Pose2 X_WB{};
   std::optional<Duration> latest{};  ///< The time is drawn between `at` and this.
-  /// [m] The place and the direction are drawn: any free place at least so far away to which there is a way. X_WB is not read.
+  /// [m] The place and the direction are drawn: any free place at least so far away to which there is a way, and where
+  /// the robot can turn round. X_WB is not read.
   std::optional<double> away{};
 };
 
