@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "orca/navigation/distance_transform.hpp"
@@ -35,6 +36,25 @@ SurfaceMap surface_map_of(const FloorGrid& grid) {
   return map;
 }
 
+// Returns the corners of all blocks of the search's top level in which the map is free somewhere, row by row.
+std::vector<Cell> free_blocks_of(const FloorGrid& grid, const ScanSearch& search) {
+  constexpr int kTop = ScanSearch::kLevels - 1;
+  std::set<std::pair<int, int>> blocks;
+  std::pair<int, int> last{};
+  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
+    const Cell cell = grid.lattice.cell_of(i);
+    if (!grid.free(cell)) continue;
+    const Cell at = search.lattice().cell_at(grid.lattice.middle_of(cell));
+    const std::pair<int, int> block{at.row >> kTop, at.column >> kTop};
+    if (block != last || blocks.empty()) blocks.insert(block);
+    last = block;
+  }
+  std::vector<Cell> corners;
+  corners.reserve(blocks.size());
+  for (const auto& [row, column] : blocks) corners.push_back({column * (1 << kTop), row * (1 << kTop)});
+  return corners;
+}
+
 }  // namespace
 
 KnownMap::KnownMap(FloorGrid grid)
@@ -42,7 +62,8 @@ KnownMap::KnownMap(FloorGrid grid)
       distance_(distances_of(grid_, [this](Cell cell) { return grid_.occupied(cell); })),
       clear_(distances_of(grid_, [this](Cell cell) { return !grid_.free(cell); })),
       surface_(surface_map_of(grid_)),
-      search_(surface_.points()) {}
+      search_(surface_.points()),
+      free_blocks_(surface_.points().empty() ? std::vector<Cell>{} : free_blocks_of(grid_, search_)) {}
 
 double KnownMap::distance(Vec2 place) const {
   const Cell cell = grid_.lattice.cell_at(place);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -15,27 +14,14 @@ namespace {
 constexpr int kTop = ScanSearch::kLevels - 1;
 constexpr double kSide = ScanSearch::kSide;
 
-// Returns into how many directions the circle is divided, so that the farthest point moves by a cell and a half from one to the next.
+// Returns into how many directions the circle is divided, so that a point 12 m away, or the farthest one if that is nearer, moves by a cell
+// and a half from one to the next. More of them take more time, and a score forgives some cells.
 int turns_of(std::span<const SurfacePoint> scan) {
+  constexpr double kFar = 12.0;  // [m]
   double farthest = 1.0;
   for (const SurfacePoint& point : scan) farthest = std::max(farthest, norm(point.at));
+  farthest = std::min(farthest, kFar);
   return static_cast<int>(std::ceil(2.0 * std::numbers::pi * farthest / (1.5 * kSide)));
-}
-
-// Returns the corners of all blocks in which the map is free somewhere, row by row.
-std::vector<Cell> free_blocks(const KnownMap& map) {
-  const FloorGrid& grid = map.grid();
-  std::set<std::pair<int, int>> blocks;
-  for (std::size_t i = 0; i < grid.cells.size(); ++i) {
-    const Cell cell = grid.lattice.cell_of(i);
-    if (!grid.free(cell)) continue;
-    const Cell at = map.search().lattice().cell_at(grid.lattice.middle_of(cell));
-    blocks.insert({at.row >> kTop, at.column >> kTop});
-  }
-  std::vector<Cell> corners;
-  corners.reserve(blocks.size());
-  for (const auto& [row, column] : blocks) corners.push_back({column * (1 << kTop), row * (1 << kTop)});
-  return corners;
 }
 
 }  // namespace
@@ -47,7 +33,7 @@ PlaceSearch::PlaceSearch(const KnownMap& map, std::vector<SurfacePoint> scan,
       options_(options),
       turns_(turns_of(scan_)),
       full_(ScanSearch::kFull * static_cast<double>(std::max<std::size_t>(1, scan_.size()))),
-      tops_(map.surface().points().empty() ? std::vector<Cell>{} : free_blocks(map)) {}
+      tops_(map.free_blocks()) {}
 
 std::vector<Cell> PlaceSearch::turned_by(int turn) const {
   const Lattice& lattice = map_.search().lattice();

@@ -90,6 +90,8 @@ class KnownMap {
 
   [[nodiscard]] const SurfaceMap& surface() const { return surface_; }
   [[nodiscard]] const ScanSearch& search() const { return search_; }
+  /// Returns the corners, as ScanSearch::bound() takes them, of all blocks of its top level in which the map is free somewhere, row by row.
+  [[nodiscard]] const std::vector<Cell>& free_blocks() const { return free_blocks_; }
 
  private:
   static constexpr double kSoft = 0.1;    // [m]
@@ -100,6 +102,7 @@ class KnownMap {
   std::vector<std::uint8_t> clear_;     // [cm] to the next one that is not free
   SurfaceMap surface_;
   ScanSearch search_;
+  std::vector<Cell> free_blocks_;
 };
 
 }  // namespace orca::nav

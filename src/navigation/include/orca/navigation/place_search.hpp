@@ -55,9 +55,9 @@ class PlaceSearch {
   std::vector<SurfacePoint> scan_;
   PlaceSearchOptions options_;
   int turns_;
-  double full_;                // sum of a perfect fit
-  std::vector<Cell> tops_;     // corners of the blocks of the top level in which the map is free somewhere
-  std::vector<Block> blocks_;  // of them and each direction, those that are worth it
+  double full_;                    // sum of a perfect fit
+  const std::vector<Cell>& tops_;  // the map's free blocks
+  std::vector<Block> blocks_;      // of them and each direction, those that are worth it
   std::vector<std::vector<Cell>> turned_;
   std::size_t next_ = 0;  // direction, then block
   bool sorted_ = false;
