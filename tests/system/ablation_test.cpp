@@ -102,8 +102,9 @@ const std::vector<Case> kCases{
     {"pioneer_fetch", "command", How::silent, Worse::stands},
     {"pioneer_fetch", "porter", How::silent, Worse::stands},
     {"pioneer_fetch", "goto", How::silent, Worse::nowhere},
-    {"pioneer_fetch", "avoid", How::removed, Worse::contact},
+    {"pioneer_fetch", "avoid", How::removed, Worse::nowhere},  // its gate keeps it off the column
     {"pioneer_fetch", "fuser", How::silent, Worse::stands},
+    {"pioneer_fetch", "gate", How::silent, Worse::stands},
     {"pioneer_fetch", "base", How::silent, Worse::stands},
     {"pioneer_fetch", "laser", How::crashed, Worse::nowhere},
     {"pioneer_fetch", "localizer", How::crashed, Worse::nowhere},

@@ -36,6 +36,23 @@ void SensorEndpoint::publish_loan(ObjectLoan reading) {
   for (std::size_t i = 1; i < sinks_.size(); ++i) sinks_[i].second(copy_value(latest_));
 }
 
+Twist2 twist_of(const idl::MotionCommand& command, const DriveLimits& limits) {
+  if (command.kind() == idl::FULLSTOP) return {};
+  const auto turning = [&](double rate) {
+    return std::clamp(rate, -limits.max_turn_rate, limits.max_turn_rate);
+  };
+  Twist2 twist;
+  twist.forward = std::clamp(command.speed(), -limits.max_speed, limits.max_speed);
+  if (command.steering() == idl::BY_TURN_RATE) {
+    twist.turn_rate = turning(command.turn_rate());
+    return twist;
+  }
+  twist.turn_rate = turning(limits.steer_gain * command.direction());
+  if (limits.big_turn_angle > 0.0 && std::abs(command.direction()) > limits.big_turn_angle)
+    twist.forward = std::clamp(twist.forward, -limits.big_turn_speed, limits.big_turn_speed);
+  return twist;
+}
+
 MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
     : limits_(limits), max_command_age_(max_command_age) {}
 
@@ -48,9 +65,8 @@ Status MotionHW::check(const idl::MotionCommand& command) {
 
 Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
   if (Status checked = check(command); !checked.ok()) return checked;
-  const bool stop = command.kind() == idl::FULLSTOP;
-  return move({.velocity = stop ? Twist2{} : within_limits(command), .at_once = stop}, command.mission(),
-              now);
+  return move({.velocity = twist_of(command, limits_), .at_once = command.kind() == idl::FULLSTOP},
+              command.mission(), now);
 }
 
 Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
@@ -101,19 +117,6 @@ Twist2 MotionHW::within_limits(const idl::HolonomicVelocity& velocity) const {
   const double speed = portable::hypot(velocity.forward(), velocity.left());
   const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
   return {share * velocity.forward(), share * velocity.left(), within_limits(velocity.turn_rate())};
-}
-
-Twist2 MotionHW::within_limits(const idl::MotionCommand& command) const {
-  Twist2 twist;
-  twist.forward = std::clamp(command.speed(), -limits_.max_speed, limits_.max_speed);
-  if (command.steering() == idl::BY_TURN_RATE) {
-    twist.turn_rate = within_limits(command.turn_rate());
-    return twist;
-  }
-  twist.turn_rate = within_limits(limits_.steer_gain * command.direction());
-  if (limits_.big_turn_angle > 0.0 && std::abs(command.direction()) > limits_.big_turn_angle)
-    twist.forward = std::clamp(twist.forward, -limits_.big_turn_speed, limits_.big_turn_speed);
-  return twist;
 }
 
 DriveSetpoint MotionHW::due(TimePoint now) {

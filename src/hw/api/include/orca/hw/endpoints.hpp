@@ -95,6 +95,10 @@ struct DriveLimits {
   idl::DriveType type = idl::DIFFERENTIAL;  ///< Only a holonomic base takes velocities with a sideways part.
 };
 
+/// Returns the velocity that a base with these limits makes of a crisp command: 0 for a FULLSTOP.
+/// @thread  pure function; any thread.
+[[nodiscard]] Twist2 twist_of(const idl::MotionCommand& command, const DriveLimits& limits);
+
 /// A crisp set-point for the motors of a base of any kind.
 struct DriveSetpoint {
   Twist2 velocity{};  ///< Of the robot frame; to the left only if the base is holonomic.
@@ -173,7 +177,6 @@ class MotionHW {
   [[nodiscard]] std::uint64_t expired_count() const;
 
  private:
-  [[nodiscard]] Twist2 within_limits(const idl::MotionCommand& command) const;
   [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
   [[nodiscard]] double within_limits(double turn_rate) const;
   Status move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now);

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "orca/base/portable_math.hpp"
+
+namespace orca::gate {
+namespace {
+
+constexpr double kBehind = 0.02;     // [m] A place that much behind a reading is hidden by it.
+constexpr double kPast = 0.1;        // [m] A laser that sees that far behind a place sees past it.
+constexpr double kSpacing = 0.04;    // [m] of the posts on the arc of a sonar's cone
+constexpr std::size_t kMost = 2000;  // echoes of a source
+
+// The sight that a scan has of a place.
+enum class Sight {
+  beside,  // It does not look there, or has read nothing there.
+  hidden,  // Something else is in front of it.
+  clear    // Its beams reach it.
+};
+
+struct Look {
+  Sight sight = Sight::beside;
+  double away = 0.0;   // [m] of the place from the sensor
+  double least = 0.0;  // [m] reading of the beams beside it
+};
+
+Look look(const Sweep& sweep, Vec2 place) {
+  const Vec2 seen = seen_from(sweep.X_OS, place);
+  Look look{.away = norm(seen)};
+  if (sweep.ranges.empty() || look.away >= sweep.max_range) return look;
+  const auto last = static_cast<double>(sweep.ranges.size() - 1);
+  const double width = sweep.angle_increment * last;
+  const double middle = sweep.angle_start + 0.5 * width;
+  const double off = wrapped(portable::atan2(seen.y, seen.x) - middle) + 0.5 * width;
+  const double beam = sweep.angle_increment == 0.0 ? 0.0 : off / sweep.angle_increment;
+  if (beam < -0.5 || beam > last + 0.5) return look;
+  const auto nearest = static_cast<long>(std::clamp(std::round(beam), 0.0, last));
+  if (std::isnan(sweep.ranges[static_cast<std::size_t>(nearest)])) return look;
+  look.least = std::numeric_limits<double>::infinity();
+  for (long i = std::max(0L, nearest - 1); i <= std::min(static_cast<long>(last), nearest + 1); ++i)
+    look.least = std::fmin(look.least, sweep.ranges[static_cast<std::size_t>(i)]);
+  look.sight = look.least + kBehind < look.away ? Sight::hidden : Sight::clear;
+  return look;
+}
+
+// Returns whether a laser sees what is behind a place.
+bool sees_past(const Sweep& sweep, Vec2 place) {
+  const Look seen = look(sweep, place);
+  return seen.sight == Sight::clear && seen.least > seen.away + kPast;
+}
+
+}  // namespace
+
+void Surroundings::age(double time) {
+  for (Source& source : sources_) {
+    for (Echo& echo : source.echoes) echo.age += time;
+    std::erase_if(source.echoes, [](const Echo& echo) { return echo.age > kKept; });
+  }
+}
+
+Surroundings::Source& Surroundings::source(const std::string& name, bool is_laser) {
+  const auto known = std::ranges::find(sources_, name, &Source::name);
+  if (known != sources_.end()) return *known;
+  return sources_.emplace_back(Source{name, is_laser, {}, {}});
+}
+
+void Surroundings::see(const std::string& name, Sweep sweep) {
+  Source& laser = source(name, true);
+  std::erase_if(laser.echoes,
+                [&](const Echo& echo) { return look(sweep, echo.place).sight == Sight::clear; });
+  const double farthest = std::min(sweep.max_range, kRange);
+  for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
+    if (!(sweep.ranges[i] < farthest)) continue;
+    const double angle = sweep.angle_start + sweep.angle_increment * static_cast<double>(i);
+    laser.echoes.push_back({sweep.X_OS * (sweep.ranges[i] * direction(angle))});
+  }
+  if (laser.echoes.size() > kMost)
+    laser.echoes.erase(laser.echoes.begin(), laser.echoes.end() - static_cast<std::ptrdiff_t>(kMost));
+  laser.sweep = std::move(sweep);
+}
+
+void Surroundings::hear(const std::string& name, std::size_t sonar, const Cone& cone, double farthest) {
+  Source& ring = source(name, false);
+  std::erase_if(ring.echoes, [&](const Echo& echo) { return echo.sonar == sonar; });
+  if (!(cone.range < std::min(farthest, kRange))) return;
+  const auto steps = static_cast<int>(std::ceil(2.0 * cone.half_angle * cone.range / kSpacing));
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = steps == 0 ? 0.0 : cone.half_angle * (2.0 * i / steps - 1.0);
+    ring.echoes.push_back({cone.X_OS * (cone.range * direction(angle)), 0.0, sonar});
+  }
+}
+
+collision::Post Surroundings::post_of(const Source& source, Vec2 place) const {
+  collision::Post post{place};
+  if (!source.is_laser) return post;
+  for (const Source& other : sources_) {
+    if (!other.is_laser || other.sweep.height == source.sweep.height || !sees_past(other.sweep, place))
+      continue;
+    if (other.sweep.height > source.sweep.height) post.top = std::min(post.top, other.sweep.height);
+    if (other.sweep.height < source.sweep.height) post.bottom = std::max(post.bottom, other.sweep.height);
+  }
+  return post;
+}
+
+std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR) {
+  posts_.clear();
+  owners_.clear();
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    for (const Echo& echo : sources_[i].echoes) {
+      collision::Post post = post_of(sources_[i], echo.place);
+      post.place = seen_from(X_OR, post.place);
+      if (norm(post.place) > kRange) continue;
+      posts_.push_back(post);
+      owners_.push_back(i);
+    }
+  }
+  return posts_;
+}
+
+const std::string& Surroundings::source_of(std::size_t post) const { return sources_[owners_[post]].name; }
+
+}  // namespace orca::gate

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "orca/base/time.hpp"
+#include "orca/collision/swept_body.hpp"
+#include "orca/geometry/pose2.hpp"
+
+namespace orca::gate {
+
+/// A level scan, where it was taken.
+struct Sweep {
+  std::vector<double> ranges;    ///< [m]; at or above max_range nothing was seen, NaN: not read.
+  double max_range = 0.0;        ///< [m]
+  double angle_start = 0.0;      ///< [rad] of the first beam, in the frame of the sensor.
+  double angle_increment = 0.0;  ///< [rad]
+  Pose2 X_OS{};                  ///< The sensor's, in the frame of the odometry.
+  double height = 0.0;           ///< [m] above the floor.
+};
+
+/// An echo of a sonar, where it was heard.
+struct Cone {
+  double range = 0.0;       ///< [m]; 0: something is at the sonar.
+  double half_angle = 0.0;  ///< [rad] of the part of the cone that counts.
+  Pose2 X_OS{};             ///< The sonar's, in the frame of the odometry; x is the axis of the cone.
+};
+
+/// The surroundings as all sensors of a robot have seen them lately: upright posts in the frame of the odometry.
+///
+/// An echo shows that something is at the height of its sensor. Nobody knows how far it reaches down and up, so it counts at all heights
+/// but for those at which another laser sees past it, and beyond. A scan replaces what the same laser saw before where it looks now;
+/// what lies beside its field of view or behind something else is kept for kKept.
+///
+/// Thread contract: as for a container.
+class Surroundings {
+ public:
+  static constexpr double kKept = 4.0;   ///< [s] that the robot drives.
+  static constexpr double kRange = 2.5;  ///< [m] from the sensor; what is farther away does not count.
+
+  /// Forgets all.
+  void clear() { sources_.clear(); }
+  /// Lets what is out of sight grow older by a time [s].
+  void age(double time);
+  /// Takes a scan. @param source  name of the laser.
+  void see(const std::string& source, Sweep sweep);
+  /// Takes the echo of a sonar, which replaces the one before. @param sonar  its number. A range at or above `farthest` is none.
+  void hear(const std::string& source, std::size_t sonar, const Cone& cone, double farthest);
+
+  /// Returns what counts now, in the frame of a robot. Valid until the next call.
+  [[nodiscard]] std::span<const collision::Post> posts(const Pose2& X_OR);
+  /// Returns whose echo made a post of the last posts().
+  [[nodiscard]] const std::string& source_of(std::size_t post) const;
+
+ private:
+  struct Echo {
+    Vec2 place;        // [m] in the frame of the odometry
+    double age = 0.0;  // [s]
+    std::size_t sonar = 0;
+  };
+  struct Source {
+    std::string name;
+    bool is_laser;
+    Sweep sweep;  // the last one of a laser
+    std::vector<Echo> echoes;
+  };
+  Source& source(const std::string& name, bool is_laser);
+  [[nodiscard]] collision::Post post_of(const Source& source, Vec2 place) const;
+
+  std::vector<Source> sources_;
+  std::vector<collision::Post> posts_;
+  std::vector<std::size_t> owners_;  // of each post, an index of sources_
+};
+
+}  // namespace orca::gate

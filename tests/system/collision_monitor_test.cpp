@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A robot that nobody keeps off what stands in its way, with a CollisionMonitor before its wheels and without.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "batches.hpp"
+#include "orca/base/random.hpp"
+#include "orca/geometry/vec2.hpp"
+#include "slow_run.hpp"
+
+using namespace orca;
+using namespace orca::test;
+
+namespace {
+
+constexpr double kStart = 1.5;      // [m] x of the place at which the robot begins
+constexpr double kY = 3.0;          // [m]
+constexpr double kAppears = 5.0;    // [s]
+constexpr double kScan = 0.1;       // [s] from one scan to the next
+constexpr double kReaction = 0.3;   // [s] of the gate 0.15, and of the base: lag and dead time
+constexpr double kEmergency = 3.0;  // [m/s2] of the Pioneer's emergency stop
+constexpr double kHarmless = 0.1;   // [m/s]
+const Words kSpeeds{"0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"};
+
+// A solid of the Pioneer as its file has it, seen from above.
+struct Rectangle {
+  double front;  // [m]
+  double side;   // [m]
+};
+constexpr std::array kBody{Rectangle{0.211, 0.07}, Rectangle{0.187, 0.1}, Rectangle{0.143, 0.153},
+                           Rectangle{0.0825, 0.2125}};
+
+std::string hall(const std::string& content) {
+  return "<world name='hall' version='1' text='A hall'><room name='hall' from='0 0' to='17 6'/>"
+         "<place name='start' x='1.5' y='3'/>" +
+         content + "</world>";
+}
+
+std::string world_element(const std::string& name, const std::string& file, const std::string& speed) {
+  return "<world name='" + name + "'><set arg='world' file='" + file + "'/><set arg='speed' value='" + speed +
+         " m/s'/></world>";
+}
+
+std::string experiment(const std::string& variants, const std::string& until, const std::string& worlds) {
+  return "<experiment name='sudden' seeds='1' until='" + until + "' graph='" + system_graph("sudden.xml") +
+         "'>" + variants + worlds + "</experiment>";
+}
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> split(const std::string& line, char mark) {
+  std::vector<std::string> words;
+  std::istringstream in(line + mark);
+  for (std::string word; std::getline(in, word, mark);) words.push_back(word);
+  return words;
+}
+
+std::vector<Row> rows_of(const std::string& csv) {
+  std::vector<Row> rows;
+  const std::vector<std::string> lines = split_lines(csv);
+  const std::vector<std::string> names = split(lines.at(0), ',');
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> values = split(lines[i], ',');
+    Row row;
+    for (std::size_t k = 0; k < std::min(names.size(), values.size()); ++k) row[names[k]] = values[k];
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+double number(const Row& row, const std::string& column) {
+  return row.at(column).empty() ? 0.0 : std::stod(row.at(column));
+}
+
+// A box or a cylinder that appears in front of the robot.
+struct Surprise {
+  std::string speed;
+  bool is_round;
+  double x, y, length, width, yaw;
+
+  [[nodiscard]] std::string element() const {
+    std::ostringstream text;
+    text << (is_round ? "<cylinder" : "<box") << " name='thing' x='" << x << "' y='" << y << "' ";
+    if (is_round) text << "radius='" << 0.5 * length << "'";
+    if (!is_round) text << "length='" << length << "' width='" << width << "' yaw='" << yaw << "'";
+    text << " height='1 m' comes='" << kAppears << " s'/>";
+    return text.str();
+  }
+  // Returns its outline, a point each few millimetres.
+  [[nodiscard]] std::vector<Vec2> outline() const {
+    std::vector<Vec2> points;
+    for (int i = 0; i < 720; ++i) {
+      const double angle = i * std::numbers::pi / 360;
+      Vec2 p = 0.5 * length * direction(angle);
+      if (!is_round) {
+        const Vec2 d = direction(angle);
+        const double out = std::min(0.5 * length / std::max(std::abs(d.x), 1e-9),
+                                    0.5 * width / std::max(std::abs(d.y), 1e-9));
+        p = rotated(out * d, yaw);
+      }
+      points.push_back(Vec2{x, y} + p);
+    }
+    return points;
+  }
+  // Returns how far a robot at an x can drive straight on until it touches it [m]; infinity: for ever.
+  [[nodiscard]] double free_way(double from) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec2 p : outline())
+      for (const Rectangle& part : kBody)
+        if (std::abs(p.y - kY) < part.side) least = std::min(least, p.x - from - part.front);
+    return least;
+  }
+};
+
+// Returns how far robots of each speed are from the start when things appear [m].
+std::map<std::string, double> ways_until_then(const TempFolder& folder) {
+  std::string worlds;
+  const std::string file = folder.write("empty.xml", hall(""));
+  for (std::size_t i = 0; i < kSpeeds.size(); ++i)
+    worlds += world_element("v" + std::to_string(i), file, kSpeeds[i]);
+  const std::string variant = "<variant name='none' profile='none'/>";
+  const std::string table =
+      batch(folder.write("ways.xml", experiment(variant, std::to_string(kAppears) + " s", worlds)),
+            folder.file("ways.batch"));
+  std::map<std::string, double> ways;
+  for (const Row& row : rows_of(table))
+    ways[kSpeeds[std::stoul(row.at("world").substr(1))]] = number(row, "way");
+  REQUIRE(ways.size() == kSpeeds.size());
+  return ways;
+}
+
+Surprise draw(RandomStream& random, const std::map<std::string, double>& ways) {
+  Surprise thing;
+  thing.speed =
+      kSpeeds[static_cast<std::size_t>(random.uniform(0.0, 0.999) * static_cast<double>(kSpeeds.size()))];
+  thing.is_round = random.uniform(0.0, 1.0) < 0.4;
+  thing.length = random.uniform(0.05, 0.6);
+  thing.width = random.uniform(0.05, 0.6);
+  thing.yaw = random.uniform(0.0, std::numbers::pi);
+  thing.y = kY + random.uniform(-0.35, 0.35);
+  const double reach = thing.is_round ? 0.5 * thing.length : 0.5 * norm({thing.length, thing.width});
+  thing.x = kStart + ways.at(thing.speed) + 0.211 + random.uniform(0.03, 1.2) + reach;
+  return thing;
+}
+
+// Things of which each appears before a robot of its own, and the runs with the gate and without.
+struct Campaign {
+  Campaign(const TempFolder& folder, std::size_t count) : ways(ways_until_then(folder)) {
+    RandomStream random(52, "test", "surprises");
+    std::string worlds;
+    for (std::size_t i = 0; i < count; ++i) {
+      things.push_back(draw(random, ways));
+      const std::string name = "w" + std::to_string(i);
+      worlds += world_element(name, folder.write(name + ".xml", hall(things.back().element())),
+                              things.back().speed);
+    }
+    const std::string variants = "<variant name='gate'/><variant name='none' profile='none'/>";
+    const std::string table =
+        batch(folder.write("sudden.xml", experiment(variants, "13 s", worlds)), folder.file("sudden.batch"));
+    for (const Row& row : rows_of(table))
+      runs[row.at("variant")][std::stoul(row.at("world").substr(1))] = row;
+    REQUIRE(runs["gate"].size() == count);
+    REQUIRE(runs["none"].size() == count);
+  }
+  // Returns how far the robot could drive on when the thing appeared [m].
+  [[nodiscard]] double free_way(std::size_t i) const {
+    return things[i].free_way(kStart + ways.at(things[i].speed));
+  }
+  // Returns whether a robot that does what it can comes to rest before the thing.
+  [[nodiscard]] bool can_stop(std::size_t i) const {
+    const double v = std::stod(things[i].speed);
+    return free_way(i) >= v * (kScan + kReaction) + 0.5 * v * v / kEmergency;
+  }
+  // Returns the speed at which it touches the thing [m/s]; nothing if it does not.
+  [[nodiscard]] std::optional<double> impact(const std::string& variant, std::size_t i) const {
+    const Row& row = runs.at(variant).at(i);
+    if (number(row, "contacts") == 0.0) return std::nullopt;
+    return number(row, "impact_speed");
+  }
+
+  std::map<std::string, double> ways;
+  std::vector<Surprise> things;
+  std::map<std::string, std::map<std::size_t, Row>> runs;  // by variant
+};
+
+Run drive(const TempFolder& folder, const std::string& things, const Words& more) {
+  return run_deployer(Words{system_graph("sudden.xml"), "--set",
+                            "world=" + folder.write("world.xml", hall(things)), "--until", "16 s"} +
+                      more + virtual_clock());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "what appears before a robot is never run into where stopping was possible, and without the gate it is",
+    "[system][gate]") {
+  const TempFolder folder;
+  const std::size_t count = part_of<std::size_t>(1000);
+  const Campaign campaign(folder, count);
+  std::size_t in_the_way = 0, stoppable = 0, touched = 0, hit = 0, hit_without = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto with = campaign.impact("gate", i), without = campaign.impact("none", i);
+    const double way = campaign.free_way(i);
+    in_the_way += std::isfinite(way) ? 1 : 0;
+    hit_without += std::isfinite(way) && without >= kHarmless ? 1 : 0;
+    touched += with ? 1 : 0;
+    hit += with >= kHarmless ? 1 : 0;
+    if (!std::isfinite(way) || !campaign.can_stop(i)) continue;
+    ++stoppable;
+    CAPTURE(i, campaign.things[i].speed, campaign.things[i].element(), way);
+    CHECK(with.value_or(0.0) < kHarmless);
+  }
+  std::printf(
+      "of %zu things %zu were in the way, %zu of them could be stopped for; with the gate %zu were touched, "
+      "%zu of them at 0.1 m/s or more, without it %zu\n",
+      count, in_the_way, stoppable, touched, hit, hit_without);
+  CHECK(stoppable > count / 2);
+  CHECK(hit_without > stoppable);
+}
+
+TEST_CASE("a robot whose laser falls silent stands 0.7 s later, and says which one is silent",
+          "[system][gate]") {
+  const TempFolder folder;
+  const Run run =
+      drive(folder, "",
+            {"--fail", "laser=throw@5s", "--record", folder.file("odometry.csv") + "=base.OdometryPush"});
+  CHECK(run.says(
+      "alarm SENSOR_SILENT: the robot stands: nothing valid comes from laser.LaserRangeReadingsPush"));
+  std::vector<double> late;  // [m/s] speeds after 0.3 s of silence, a lap, and 0.3 s of braking
+  for (const Row& row : rows_of(text_in(folder.file("odometry.csv"))))
+    if (number(row, "stamp") > 5.7) late.push_back(number(row, "translational_velocity"));
+  REQUIRE(late.size() > 100);
+  CHECK(std::ranges::all_of(late, [](double speed) { return speed == 0.0; }));
+}
+
+TEST_CASE("low and overhanging things that one of two lasers sees stop a robot before it touches them",
+          "[system][gate]") {
+  const std::map<std::string, std::string> things{
+      {"a pallet below the high laser",
+       "<box name='thing' x='4' y='3' length='1' width='1' height='0.14 m'/>"},
+      {"a table top above the low laser",
+       "<box name='thing' x='4' y='3' length='1' width='1' bottom='0.25 m' height='0.4 m'/>"}};
+  const Words courier{"--set", "robot=" + source_file("sim/robots/courier.urdf"), "--set", "speed=0.8 m/s"};
+  for (const auto& [name, element] : things) {
+    CAPTURE(name);
+    const TempFolder folder;
+    const Run with = drive(folder, element, courier + Words{"--profile", "two_lasers"});
+    INFO(with.err);
+    CHECK(with.contacts().empty());
+    CHECK(with.says("gate: stops the robot: "));
+    CHECK_FALSE(drive(folder, element, courier + Words{"--profile", "none"}).contacts().empty());
+  }
+}

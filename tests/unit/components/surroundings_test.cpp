@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The memory of a CollisionMonitor for what sensors have seen.
+#include "collision_monitor/surroundings.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+using namespace orca;
+using namespace orca::gate;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// A scan of 181 beams over the half plane ahead, all of which read the same.
+Sweep scan(double range, double height = 0.3, const Pose2& X_OS = {}) {
+  return {std::vector<double>(181, range), 8.0, -90 * kDegree, kDegree, X_OS, height};
+}
+
+Sweep scan_with(double range, std::size_t beam, double reading, double height = 0.3) {
+  Sweep sweep = scan(range, height);
+  sweep.ranges[beam] = reading;
+  return sweep;
+}
+
+}  // namespace
+
+TEST_CASE("a beam that ends near the robot leaves a post at its end, and one without an echo none",
+          "[gate]") {
+  Surroundings seen;
+  seen.see("laser", scan_with(8.0, 90, 1.5));
+  const auto posts = seen.posts({1.0, 0.0, 90 * kDegree});
+  REQUIRE(posts.size() == 1);
+  CHECK(posts[0].place.x == Approx(0.0).margin(1e-12));
+  CHECK(posts[0].place.y == Approx(-0.5));
+  CHECK(posts[0].bottom == 0.0);
+  CHECK(std::isinf(posts[0].top));
+  CHECK(seen.source_of(0) == "laser");
+}
+
+TEST_CASE("a scan replaces what it looks at, and keeps what is beside it or hidden", "[gate]") {
+  Surroundings seen;
+  seen.see("laser", scan_with(8.0, 90, 1.5));
+  seen.see("laser", scan(8.0));
+  CHECK(seen.posts({}).empty());
+  seen.see("laser", scan_with(8.0, 90, 1.5));
+  seen.see("laser", scan(8.0, 0.3, {0.0, 0.0, 180 * kDegree}));  // looks the other way
+  CHECK(seen.posts({}).size() == 1);
+  Sweep curtain = scan(8.0);
+  std::fill(curtain.ranges.begin() + 85, curtain.ranges.begin() + 96, 0.7);
+  seen.see("laser", curtain);
+  CHECK(seen.posts({}).size() == 12);
+}
+
+TEST_CASE("a beam that has read nothing says nothing", "[gate]") {
+  Surroundings seen;
+  seen.see("laser", scan_with(8.0, 90, 1.5));
+  seen.see("laser", scan_with(8.0, 90, std::nan("")));
+  CHECK(seen.posts({}).size() == 1);
+}
+
+TEST_CASE("what is out of sight is forgotten after a while of driving", "[gate]") {
+  Surroundings seen;
+  seen.see("laser", scan_with(8.0, 90, 1.5));
+  seen.age(0.9 * Surroundings::kKept);
+  CHECK(seen.posts({}).size() == 1);
+  seen.age(0.2 * Surroundings::kKept);
+  CHECK(seen.posts({}).empty());
+}
+
+TEST_CASE("an echo counts at all heights but for those at which another laser sees past it", "[gate]") {
+  Surroundings seen;
+  seen.see("low", scan_with(8.0, 90, 1.5, 0.1));
+  seen.see("high", scan(8.0, 0.6));
+  REQUIRE(seen.posts({}).size() == 1);
+  CHECK(seen.posts({})[0].bottom == 0.0);
+  CHECK(seen.posts({})[0].top == 0.6);  // a step
+  seen.clear();
+  seen.see("low", scan(8.0, 0.1));
+  seen.see("high", scan_with(8.0, 90, 1.5, 0.6));
+  REQUIRE(seen.posts({}).size() == 1);
+  CHECK(seen.posts({})[0].bottom == 0.1);  // a table top
+  CHECK(std::isinf(seen.posts({})[0].top));
+}
+
+TEST_CASE("an echo of a sonar may come from anywhere on the arc of its cone, and the next one replaces it",
+          "[gate]") {
+  Surroundings seen;
+  seen.hear("ring", 3, {1.0, 10 * kDegree, {0.2, 0.0, 0.0}}, 5.0);
+  const auto posts = seen.posts({});
+  REQUIRE(posts.size() >= 9);
+  for (const collision::Post& post : posts) CHECK(norm(post.place - Vec2{0.2, 0.0}) == Approx(1.0));
+  CHECK(posts.front().place.y == Approx(-std::sin(10 * kDegree)));
+  CHECK(posts.back().place.y == Approx(std::sin(10 * kDegree)));
+  seen.hear("ring", 4, {0.0, 10 * kDegree, {0.2, 0.0, 0.0}}, 5.0);
+  const std::size_t before = posts.size();
+  CHECK(seen.posts({}).size() == before + 1);
+  seen.hear("ring", 3, {5.0, 10 * kDegree, {0.2, 0.0, 0.0}}, 5.0);
+  CHECK(seen.posts({}).size() == 1);
+}
