@@ -18,5 +18,6 @@ void register_sim_world();
 void register_sim_scaling();
 void register_stalling_device();
 void register_planner();
+void register_collision();
 
 }  // namespace orca::bench

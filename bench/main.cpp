@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   register_sim_scaling();
   register_stalling_device();
   register_planner();
+  register_collision();
   Progress progress;
   benchmark::RunSpecifiedBenchmarks(&progress);
   const int missed = print_table(std::cout, rows());

@@ -87,6 +87,7 @@ class CollisionMonitor final : public orca::Component {
     if (sent_ != Twist2{}) (void)base_.send(orca::full_stop());
     lasers_.unsubscribe_all();
     sonars_.unsubscribe_all();
+    blind_since_.reset();
     tally_.has_acted() ? log_info(tally_.text()) : log_debug(tally_.text());
   }
 
@@ -218,7 +219,7 @@ class CollisionMonitor final : public orca::Component {
     }
     const TimePoint stamp = orca::to_time_point(odometry.stamp());
     const bool stands = std::abs(twist_.forward) < 0.005 && std::abs(twist_.turn_rate) < 0.01;
-    if (!history_.empty() && !stands) surroundings_.age(orca::to_seconds(stamp - history_.newest()));
+    if (!history_.empty()) surroundings_.age(orca::to_seconds(stamp - history_.newest()), !stands);
     twist_ = {odometry.translational_velocity(), odometry.sideways_velocity(), odometry.steering_velocity()};
     history_.add(stamp, orca::plane_pose(odometry));
     pose_ = orca::plane_pose(odometry);
@@ -260,12 +261,14 @@ class CollisionMonitor final : public orca::Component {
       const TimePoint fired = has_stamp ? orca::to_time_point(round->stamps()[i]) : now();
       if (fired == ring.fired[i]) continue;
       ring.fired[i] = fired;
-      const double range = round->ranges()[i] < round->min_range() ? 0.0 : round->ranges()[i];
-      surroundings_.hear(ring.source.path(), i,
-                         {.range = range,
+      const Pose2 mount = orca::plane_pose(round->poses()[i]);
+      surroundings_.hear(ring.source.path(),
+                         {.sonar = i,
+                          .range = round->ranges()[i] > round->min_range() ? round->ranges()[i] : 0.0,
+                          .farthest = round->max_range(),
                           .half_angle = kShareOfCone * round->half_lobe(),
-                          .X_OS = at(fired) * orca::plane_pose(round->poses()[i])},
-                         round->max_range());
+                          .X_OS = at(fired) * mount,
+                          .place = mount.position()});
     }
   }
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kBehind = 0.02;     // [m] A place that much behind a reading is hidden by it.
 constexpr double kPast = 0.1;        // [m] A laser that sees that far behind a place sees past it.
+constexpr double kSamePlace = 0.15;  // [m] Echoes of sonars nearer to each other are of one thing.
 constexpr double kSpacing = 0.04;    // [m] of the posts on the arc of a sonar's cone
 constexpr std::size_t kMost = 2000;  // echoes of a source
 
@@ -56,10 +57,12 @@ bool sees_past(const Sweep& sweep, Vec2 place) {
 
 }  // namespace
 
-void Surroundings::age(double time) {
+void Surroundings::age(double time, bool drives) {
   for (Source& source : sources_) {
+    if (source.is_laser && !drives) continue;
+    const double most = source.is_laser ? kKept : kHeard;
     for (Echo& echo : source.echoes) echo.age += time;
-    std::erase_if(source.echoes, [](const Echo& echo) { return echo.age > kKept; });
+    std::erase_if(source.echoes, [&](const Echo& echo) { return echo.age > most; });
   }
 }
 
@@ -84,14 +87,23 @@ void Surroundings::see(const std::string& name, Sweep sweep) {
   laser.sweep = std::move(sweep);
 }
 
-void Surroundings::hear(const std::string& name, std::size_t sonar, const Cone& cone, double farthest) {
+void Surroundings::hear(const std::string& name, const Cone& cone) {
   Source& ring = source(name, false);
-  std::erase_if(ring.echoes, [&](const Echo& echo) { return echo.sonar == sonar; });
-  if (!(cone.range < std::min(farthest, kRange))) return;
+  const Vec2 middle = cone.X_OS * Vec2{cone.range, 0.0};
+  const auto is_same = [&](const Echo& echo) {
+    return !echo.is_carried && norm(echo.place - middle) < kSamePlace;
+  };
+  const bool is_sure = std::ranges::any_of(ring.echoes, is_same);
+  std::erase_if(ring.echoes, [&](const Echo& echo) {
+    return echo.sonar == cone.sonar && (!echo.is_sure || echo.is_carried || is_same(echo));
+  });
+  if (!(cone.range < cone.farthest) || cone.range > kRange) return;
+  if (cone.range <= 0.0) return ring.echoes.push_back({cone.place, 0.0, cone.sonar, false, true});
   const auto steps = static_cast<int>(std::ceil(2.0 * cone.half_angle * cone.range / kSpacing));
   for (int i = 0; i <= steps; ++i) {
     const double angle = steps == 0 ? 0.0 : cone.half_angle * (2.0 * i / steps - 1.0);
-    ring.echoes.push_back({cone.X_OS * (cone.range * direction(angle)), 0.0, sonar});
+    const bool stays = is_sure && i == steps / 2;
+    ring.echoes.push_back({cone.X_OS * (cone.range * direction(angle)), 0.0, cone.sonar, stays, false});
   }
 }
 
@@ -113,7 +125,7 @@ std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     for (const Echo& echo : sources_[i].echoes) {
       collision::Post post = post_of(sources_[i], echo.place);
-      post.place = seen_from(X_OR, post.place);
+      if (!echo.is_carried) post.place = seen_from(X_OR, post.place);
       if (norm(post.place) > kRange) continue;
       posts_.push_back(post);
       owners_.push_back(i);

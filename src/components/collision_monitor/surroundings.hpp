@@ -23,11 +23,14 @@ struct Sweep {
   double height = 0.0;           ///< [m] above the floor.
 };
 
-/// An echo of a sonar, where it was heard.
+/// A reading of a sonar, where it fired.
 struct Cone {
-  double range = 0.0;       ///< [m]; 0: something is at the sonar.
+  std::size_t sonar = 0;    ///< Its number in the ring.
+  double range = 0.0;       ///< [m] 0: something is at the sonar, and nobody knows how near.
+  double farthest = 0.0;    ///< [m] A range at or above it is no echo.
   double half_angle = 0.0;  ///< [rad] of the part of the cone that counts.
   Pose2 X_OS{};             ///< The sonar's, in the frame of the odometry; x is the axis of the cone.
+  Vec2 place{};             ///< [m] of the sonar, in the frame of the robot.
 };
 
 /// The surroundings as all sensors of a robot have seen them lately: upright posts in the frame of the odometry.
@@ -36,20 +39,24 @@ struct Cone {
 /// but for those at which another laser sees past it, and beyond. A scan replaces what the same laser saw before where it looks now;
 /// what lies beside its field of view or behind something else is kept for kKept.
 ///
+/// A sonar that hears nothing says little: near the robot an echo is lost between two cones, or below the least range. So an echo that was heard
+/// twice is kept for kHeard, whatever the sonar hears then; one that was heard once is replaced by the next reading.
+///
 /// Thread contract: as for a container.
 class Surroundings {
  public:
-  static constexpr double kKept = 4.0;   ///< [s] that the robot drives.
+  static constexpr double kKept = 4.0;   ///< [s] that the robot drives; what lasers saw.
+  static constexpr double kHeard = 1.5;  ///< [s] The same for sonars, whether it drives or not.
   static constexpr double kRange = 2.5;  ///< [m] from the sensor; what is farther away does not count.
 
   /// Forgets all.
   void clear() { sources_.clear(); }
-  /// Lets what is out of sight grow older by a time [s].
-  void age(double time);
+  /// Lets what is out of sight grow older by a time [s]. @param drives  whether the robot did meanwhile.
+  void age(double time, bool drives);
   /// Takes a scan. @param source  name of the laser.
   void see(const std::string& source, Sweep sweep);
-  /// Takes the echo of a sonar, which replaces the one before. @param sonar  its number. A range at or above `farthest` is none.
-  void hear(const std::string& source, std::size_t sonar, const Cone& cone, double farthest);
+  /// Takes a reading of a sonar.
+  void hear(const std::string& source, const Cone& cone);
 
   /// Returns what counts now, in the frame of a robot. Valid until the next call.
   [[nodiscard]] std::span<const collision::Post> posts(const Pose2& X_OR);
@@ -58,9 +65,11 @@ class Surroundings {
 
  private:
   struct Echo {
-    Vec2 place;        // [m] in the frame of the odometry
-    double age = 0.0;  // [s]
-    std::size_t sonar = 0;
+    Vec2 place;               // [m] in the frame of the odometry
+    double age = 0.0;         // [s]
+    std::size_t sonar = 0;    // that heard it
+    bool is_sure = false;     // a sonar has heard it twice
+    bool is_carried = false;  // it is at a sonar: its place is in the frame of the robot
   };
   struct Source {
     std::string name;
