@@ -94,6 +94,23 @@ CellWay GridSearch::operator()(const Lattice& lattice, std::span<const std::uint
   return way;
 }
 
+void GridSearch::flood(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell goal, Cell start,
+                       std::uint32_t beyond) {
+  const Task task{lattice, costs, start, true};
+  begin(costs.size());
+  turn_ = 0;
+  open(task, goal, 0, kStart);
+  const std::size_t end = lattice.index(start);
+  const auto done = [&] {
+    return is_found(end) && (std::uint64_t{nodes_[end].cost} + beyond) >> shift_ < turn_;
+  };
+  for (auto index = take(); index && !done(); index = take()) {
+    if ((nodes_[*index].mark & kIsClosed) != 0) continue;
+    nodes_[*index].mark |= kIsClosed;
+    expand(task, cell_of(lattice, *index), *index);
+  }
+}
+
 void GridSearch::begin(std::size_t cells) {
   nodes_.resize(cells);
   buckets_.resize(kBuckets);
@@ -119,7 +136,7 @@ void GridSearch::open(const Task& task, Cell cell, std::uint32_t cost, std::uint
   Node& node = nodes_[index];
   if (is_found(index) && node.cost <= cost) return;
   node = {cost, round_ << kRoundShift | from};
-  const std::uint64_t whole = std::uint64_t{cost} + least_cost(cell, task.goal);
+  const std::uint64_t whole = std::uint64_t{cost} + (task.floods ? 0 : least_cost(cell, task.goal));
   const std::uint64_t turn = whole >> shift_;
   std::vector<std::uint64_t>& bucket = buckets_[turn % kBuckets];
   bucket.push_back(whole << kCellBits | index);

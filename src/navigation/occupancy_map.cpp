@@ -27,6 +27,15 @@ OccupancyMap::OccupancyMap(double side, double extent) {
   reset({});
 }
 
+OccupancyMap::OccupancyMap(const FloorGrid& grid) : lattice_(grid.lattice), cells_(grid.lattice.size()) {
+  constexpr std::uint8_t kMiddle = 128;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell cell = lattice_.cell_of(i);
+    if (grid.occupied(cell)) cells_[i] = {kHit, {kMiddle, kMiddle}, 0};
+    if (grid.free(cell)) cells_[i].evidence = -kMiss;
+  }
+}
+
 void OccupancyMap::reset(Vec2 middle) {
   // On whole cells of the frame, so that a map does not depend on where the robot happened to be first.
   const auto snapped = [this](double value) { return std::floor(value / lattice_.side) * lattice_.side; };

@@ -53,6 +53,18 @@ class GridSearch {
   [[nodiscard]] CellWay operator()(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell start,
                                    Cell goal);
 
+  /// Finds what the cheapest way from each cell to `goal` costs, in the order of these costs, until it knows that of `start` and of all whose
+  /// way costs at most `beyond` more.
+  /// @pre  as for a search. Ways cost as much in both directions, if all cells are passable.
+  void flood(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell goal, Cell start,
+             std::uint32_t beyond);
+  /// Returns what the last flood() has found for a cell; for one that it has not come to, a cost that its way reaches at least.
+  /// @return UINT32_MAX if no way leads to the goal.
+  [[nodiscard]] std::uint32_t cost_from(std::size_t index) const {
+    if (is_found(index)) return nodes_[index].cost;
+    return waiting_ > 0 ? static_cast<std::uint32_t>(turn_ << shift_) : UINT32_MAX;
+  }
+
  private:
   static constexpr int kRoundShift = 5;
   struct Node {
@@ -65,6 +77,7 @@ class GridSearch {
     const Lattice& lattice;
     std::span<const std::uint16_t> costs;
     Cell goal;
+    bool floods = false;  // to everywhere
   };
 
   void begin(std::size_t cells);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "orca/navigation/known_map.hpp"
 #include "orca/navigation/lattice.hpp"
 
 namespace orca::nav {
@@ -31,6 +32,8 @@ class OccupancyMap {
  public:
   /// @param side [m]  of a cell.   @param extent [m]  of the window.
   OccupancyMap(double side, double extent);
+  /// Takes over a map of any shape, each cell as one scan would have seen it, echoes in the middle. It is not to follow() anything.
+  explicit OccupancyMap(const FloorGrid& grid);
 
   /// Forgets everything and puts the window around `middle`.
   void reset(Vec2 middle);

@@ -39,6 +39,8 @@ struct Plan {
 /// Thread contract: one thread at a time.
 class PathPlanner {
  public:
+  explicit PathPlanner(SearchRules rules = {}) : search_(rules) {}
+
   /// Computes distances and costs again from the map.
   void look_at(const OccupancyMap& map, const Footprint& footprint, const PlanWishes& wishes);
 
@@ -49,6 +51,10 @@ class PathPlanner {
   /// Returns the cost of the part of a path from `from` [m] on, as the costs are now; kImpassable if it leads through a cell
   /// that is not passable, or if the outline would touch something on the first 3 m of it.
   [[nodiscard]] double cost_of(const OccupancyMap& map, const Path& path, double from) const;
+
+  /// Returns the costs of the cells, as look_at() has found them, for GridSearch. plan() changes those near the start, and in places where
+  /// the outline would touch something.
+  [[nodiscard]] std::span<const std::uint16_t> costs() const { return costs_; }
 
  private:
   void open_around(const OccupancyMap& map, Cell start);
