@@ -10,18 +10,11 @@
 #include "orca/base/time.hpp"
 #include "orca/geometry/twist2.hpp"
 #include "orca/navigation/occupancy_map.hpp"
+#include "orca/navigation/path_driver.hpp"
 #include "orca/navigation/path_planner.hpp"
 #include "orca/navigation/pure_pursuit.hpp"
-#include "orca/navigation/retreat.hpp"
 
 namespace orca::nav {
-
-/// The state of the robot at one instant.
-struct Moment {
-  TimePoint now;
-  Pose2 pose;    ///< in the frame of the map.
-  Twist2 twist;  ///< in the robot's frame.
-};
 
 /// The place where the robot should go.
 struct Errand {
@@ -42,8 +35,8 @@ struct NavigatorRules {
 /// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
 /// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
 ///
-/// Recovery: after `patience` without any motion it retreats (see Retreat), the farther the more often in a row, and plans again.
-/// From the second time in a row on it also forgets what it has seen farther than 1.5 m away, for that may be old.
+/// After each recovery of its PathDriver it plans again. From the second time in a row on it also forgets what it has seen farther than 1.5 m
+/// away, for that may be old.
 ///
 /// Thread contract: one thread at a time.
 class Navigator {
@@ -68,10 +61,7 @@ class Navigator {
   void drop_path();
 
   /// Names what it knows besides its rules and its map, so that another one can go on from there.
-  [[nodiscard]] auto state() {
-    return std::tie(points_, plan_, planned_for_, planned_at_, along_, begun_, news_, turning_,
-                    blocked_since_, backs_off_since_, stood_at_, moved_at_, recoveries_, retreat_);
-  }
+  [[nodiscard]] auto state() { return std::tie(driver_, plan_, planned_for_, planned_at_, begun_, news_); }
   /// Takes over the map of another one, as OccupancyMap::packed() gives it.
   /// @return whether it had the same size.
   [[nodiscard]] bool unpack_map(std::string_view text) { return map_.unpack(text); }
@@ -79,36 +69,25 @@ class Navigator {
   [[nodiscard]] const Path& path() const { return plan_.path; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   /// Returns how often it has recovered since the last drop_path().
-  [[nodiscard]] int recoveries() const { return recoveries_; }
+  [[nodiscard]] int recoveries() const { return driver_.recoveries(); }
 
  private:
   void keep_path(const Moment& moment, const Errand& errand);
   void replan(const Moment& moment, const Errand& errand);
   [[nodiscard]] bool is_known(Vec2 echo) const;
   [[nodiscard]] bool runs_beside(const Path& path) const;
-  [[nodiscard]] Scene scene(const Moment& moment) const;
-  [[nodiscard]] Steer watch(const Steer& steer, const Moment& moment);
-  void recover(const Moment& moment);
-  [[nodiscard]] Steer retreat(const Moment& moment);
+  [[nodiscard]] bool is_free(Vec2 point) const;
 
   Footprint footprint_;
   NavigatorRules rules_;
-  Retreat retreat_;
+  PathDriver driver_;
   OccupancyMap map_;
   PathPlanner planner_;
-  std::vector<Vec2> points_;  // of obstacles near the robot, map frame
   Plan plan_;
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};
-  double along_ = 0.0;    // [m] place on the path
-  bool begun_ = false;    // a scan has come
-  bool news_ = false;     // a scan has come since the last look at the path
-  bool turning_ = false;  // on the spot
-  std::optional<TimePoint> blocked_since_;
-  std::optional<TimePoint> backs_off_since_;
-  Pose2 stood_at_;        // where it last made way
-  TimePoint moved_at_{};  // when
-  int recoveries_ = 0;
+  bool begun_ = false;  // a scan has come
+  bool news_ = false;   // a scan has come since the last look at the path
 };
 
 }  // namespace orca::nav
