@@ -10,15 +10,10 @@
 namespace orca::nav {
 namespace {
 
-constexpr double kBetter = 0.92;        // A new path must cost less than that share of the old one,
 constexpr double kPlaceMoved = 0.05;    // [m] unless the errand has moved by that much.
 constexpr double kWatchedPath = 2.0;    // [m] of the path that each scan is compared with
 constexpr double kBlockedReplan = 0.2;  // [s] between two plans while blocked
 constexpr double kRemembered = 1.5;     // [m] around the robot that recovery does not forget
-constexpr double kWay = 0.1;            // [m] at which two paths are compared
-constexpr double kSameWay = 2.5;        // [m] ahead on which two paths are compared
-constexpr double kBeside = 0.25;        // [m] apart: the same way
-constexpr double kAside = 0.5;          // [m] off the path: plan again
 
 }  // namespace
 
@@ -46,15 +41,15 @@ bool Navigator::is_known(Vec2 echo) const {
 }
 
 void Navigator::drop_path() {
-  plan_ = {};
+  kept_.drop();
   planned_for_.reset();
   driver_.reset();
 }
 
 std::optional<Vec2> Navigator::ahead(const Moment& moment) const {
-  if (driver_.recovers() || plan_.path.empty()) return std::nullopt;
+  if (driver_.recovers() || path().empty()) return std::nullopt;
   const double look = look_ahead(moment.twist.forward, rules_.pursuit);
-  return plan_.path.at(std::min(driver_.along() + look, plan_.path.length()));
+  return path().at(std::min(driver_.along() + look, path().length()));
 }
 
 double Navigator::room_ahead(const Moment& moment) const {
@@ -73,53 +68,36 @@ Steer Navigator::steer(const Moment& moment, const Errand& errand) {
   driver_.note(moment.pose);
   keep_path(moment, errand);
   news_ = false;
-  const bool passes = errand.passing && plan_.complete;
-  const Steer steer = driver_.follow_path(plan_.path, moment, rules_.pursuit,
+  const bool passes = errand.passing && kept_.plan().complete;
+  const Steer steer = driver_.follow_path(path(), moment, rules_.pursuit,
                                           passes ? rules_.pursuit.max_speed : 0.0, rules_.patience);
   if (!driver_.recovers()) return steer;
-  plan_ = {};
+  kept_.drop();
   if (driver_.recoveries() % 2 == 0) map_.forget_beyond(moment.pose.position(), kRemembered);
   return steer;
 }
 
 void Navigator::keep_path(const Moment& moment, const Errand& errand) {
-  if (!planned_for_ || plan_.path.empty() || norm(*planned_for_ - errand.place) > kPlaceMoved) {
-    plan_ = {};
+  if (!planned_for_ || path().empty() || norm(*planned_for_ - errand.place) > kPlaceMoved) {
+    kept_.drop();
     return replan(moment, errand);
   }
-  driver_.find_place(plan_.path, moment.pose.position());
+  driver_.find_place(path(), moment.pose.position());
   const double along = driver_.along();
   const double age = to_seconds(moment.now - planned_at_);
   const bool due = age >= rules_.replan_every && news_;
-  const bool aside = norm(plan_.path.at(along) - moment.pose.position()) > kAside;
+  const bool aside = norm(path().at(along) - moment.pose.position()) > KeptPlan::kAside;
   const bool in_the_way =
-      news_ && touches_along(map_, footprint_, plan_.path, along + 0.25, along + kWatchedPath) >= 0.0;
+      news_ && touches_along(map_, footprint_, path(), along + 0.25, along + kWatchedPath) >= 0.0;
   if (due || ((aside || in_the_way || driver_.is_blocked()) && age >= kBlockedReplan)) replan(moment, errand);
 }
 
 void Navigator::replan(const Moment& moment, const Errand& errand) {
-  planner_.look_at(map_, footprint_, rules_.wishes);
-  Plan plan = planner_.plan(map_, moment.pose.position(), errand.place);
   planned_for_ = errand.place;
   planned_at_ = moment.now;
-  const bool keeps = !plan_.path.empty() && plan_.complete && !driver_.is_blocked() &&
-                     norm(plan_.path.at(driver_.along()) - moment.pose.position()) < kAside &&
-                     plan.cost > kBetter * planner_.cost_of(map_, plan_.path, driver_.along()) &&
-                     !runs_beside(plan.path);
-  if (keeps) return;
-  plan_ = std::move(plan);
-  driver_.begin_path();
-}
-
-// Returns whether a path from here goes the same way as the present one for some time: then it is only newer.
-bool Navigator::runs_beside(const Path& path) const {
-  for (double way = 0.0; way < kSameWay; way += kWay) {
-    const Vec2 place = path.at(way);
-    const double nearest = plan_.path.nearest(place, driver_.along(),
-                                              std::min(driver_.along() + way + 1.0, plan_.path.length()));
-    if (norm(plan_.path.at(nearest) - place) > kBeside) return false;
-  }
-  return true;
+  const KeptPlan::Facts facts{map_,         footprint_,      rules_.wishes,       moment.pose.position(),
+                              errand.place, driver_.along(), driver_.is_blocked()};
+  if (kept_.renew(facts)) driver_.begin_path();
 }
 
 }  // namespace orca::nav

@@ -60,6 +60,11 @@ void OccupancyMap::follow(Vec2 place) {
   lattice_.corner = lattice_.corner + lattice_.side * Vec2{double(shift.column), double(shift.row)};
 }
 
+void OccupancyMap::fade() {
+  for (State& cell : cells_)
+    cell.evidence -= static_cast<std::int8_t>((cell.evidence > 0) - (cell.evidence < 0));
+}
+
 std::string OccupancyMap::packed() const {
   std::string text(sizeof lattice_ + sizeof scan_ + cells_.size() * sizeof(State), '\0');
   std::memcpy(text.data(), &lattice_, sizeof lattice_);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orca/navigation/gaps.hpp"
 
@@ -161,6 +162,31 @@ double PathPlanner::cost_of(const OccupancyMap& map, const Path& path, double fr
     before = next;
   }
   return first_touch(map, path, from + kOwnPlace) < 0.0 ? sum : kImpassable;
+}
+
+bool KeptPlan::renew(const Facts& facts) {
+  constexpr double kBetter = 0.92;  // A new path must cost less than that share of the old one.
+  planner_.look_at(facts.map, facts.footprint, facts.wishes);
+  Plan plan = planner_.plan(facts.map, facts.robot, facts.place);
+  const bool keeps = !plan_.path.empty() && plan_.complete && !facts.blocked &&
+                     norm(plan_.path.at(facts.along) - facts.robot) < kAside &&
+                     plan.cost > kBetter * planner_.cost_of(facts.map, plan_.path, facts.along) &&
+                     !runs_beside(plan.path, facts.along);
+  if (!keeps) plan_ = std::move(plan);
+  return !keeps;
+}
+
+// Returns whether a path goes the same way as the present one, from a place on that, for some time: then it is only newer.
+bool KeptPlan::runs_beside(const Path& path, double along) const {
+  constexpr double kWay = 0.1;      // [m] at which they are compared
+  constexpr double kSameWay = 2.5;  // [m] ahead, as far as
+  constexpr double kBeside = 0.25;  // [m] apart: the same way
+  for (double way = 0.0; way < kSameWay; way += kWay) {
+    const Vec2 place = path.at(way);
+    const double nearest = plan_.path.nearest(place, along, std::min(along + way + 1.0, plan_.path.length()));
+    if (norm(plan_.path.at(nearest) - place) > kBeside) return false;
+  }
+  return true;
 }
 
 }  // namespace orca::nav

@@ -33,8 +33,10 @@ struct Choice {
 Vec2 carrot(const Path& path, double along, const Pose2& pose) { return seen_from(pose, path.at(along)); }
 
 Choice try_arc(Vec2 target, double look, double horizon, const Scene& scene, const Footprint& footprint,
-               double margin) {
-  const Arc arc = arc_to(target);
+               double margin, double turning_radius) {
+  Arc arc = arc_to(target);
+  if (turning_radius > 0.0)
+    arc.curvature = std::clamp(arc.curvature, -1.0 / turning_radius, 1.0 / turning_radius);
   const double length = std::max(arc.length, horizon);
   const int steps = std::max(1, static_cast<int>(std::ceil(length / kStep)));
   const Room room =
@@ -54,7 +56,8 @@ Choice choose(const Path& path, double along, const Scene& scene, const Footprin
       const double look = std::max(share * reach, kShortestLook);
       const Vec2 target = carrot(path, std::min(along + look, path.length()), scene.pose);
       if (norm(target) < 1e-3) continue;
-      const Choice choice = try_arc(target, look, stop + kStep, scene, footprint, margin);
+      const Choice choice =
+          try_arc(target, look, stop + kStep, scene, footprint, margin, pursuit.turning_radius);
       if (choice.free > best.free) best = choice;
       if (choice.free >= choice.arc.length - kAlmostThere) return choice;
     }
@@ -117,7 +120,8 @@ Steer follow(const Path& path, double along, const Scene& scene, const Footprint
   const double near = std::min(along + pursuit.min_look_ahead, path.length());
   const Vec2 ahead = carrot(path, near, scene.pose);
   const double off = norm(ahead) > 1e-3 ? portable::atan2(ahead.y, ahead.x) : 0.0;
-  if (std::fabs(off) > (scene.turning ? pursuit.turned : pursuit.turn_in_place)) {
+  const bool can_turn = pursuit.turning_radius <= 0.0;
+  if (can_turn && std::fabs(off) > (scene.turning ? pursuit.turned : pursuit.turn_in_place)) {
     const Steer steer = turn_on_the_spot(off, scene, footprint, pursuit);
     if (!steer.blocked || std::fabs(off) > pursuit.turn_in_place) return steer;
   }
@@ -126,7 +130,7 @@ Steer follow(const Path& path, double along, const Scene& scene, const Footprint
   if (speed >= kCreep || choice.free >= choice.arc.length - kAlmostThere)
     return {speed, std::clamp(speed * choice.arc.curvature, -pursuit.turn_rate, pursuit.turn_rate), false,
             false};
-  if (std::fabs(off) < 0.5 * pursuit.turned) return {.blocked = true};
+  if (!can_turn || std::fabs(off) < 0.5 * pursuit.turned) return {.blocked = true};
   return turn_on_the_spot(off, scene, footprint, pursuit);
 }
 

@@ -104,7 +104,8 @@ LAYERS = (
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "hw_player", "navigation", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
+    Layer("planning", ("src/components/planning",), ("orca/planning/",), ("navigation", "geometry_objects", "geometry", *COMPONENT)),
+    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "navigation", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
     Layer("task_tree", ("src/components/task_tree",), (), ("goals", "geometry_objects", "geometry", "text", "xml", *COMPONENT)),

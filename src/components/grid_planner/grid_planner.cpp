@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "asked_robot.hpp"
 #include "orca/base/portable_math.hpp"
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
@@ -18,6 +17,7 @@
 #include "orca/navigation/beams.hpp"
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
+#include "orca/planning/asked_robot.hpp"
 #include "outlook.hpp"
 
 namespace {
@@ -28,7 +28,7 @@ using orca::Status;
 using orca::Vec2;
 using orca::go::Step;
 using orca::go::Target;
-using orca::planner::Body;
+using orca::planning::Body;
 
 double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, most) : wish; }
 
@@ -327,7 +327,7 @@ class GridPlanner final : public orca::go::GoalFollower {
                      {.text = "Scans of lasers that stand somewhere and report their places in the world; "
                               "needs a localizer.",
                       .optional = true}};
-  orca::planner::AskedRobot robot_{*this};
+  orca::planning::AskedRobot robot_{*this};
   orca::planner::Outlook outlook_{*this};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};

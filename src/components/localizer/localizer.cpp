@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "floor.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
@@ -17,6 +16,7 @@
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/map_localizer.hpp"
+#include "orca/planning/floor.hpp"
 #include "senses.hpp"
 
 namespace {
@@ -327,7 +327,7 @@ class Localizer final : public orca::Component {
   orca::SenderWatch senders_{host()};
   orca::OdometryTrust trust_;
   orca::SenderLife base_;
-  orca::localizer::Floor floor_;
+  orca::planning::Floor floor_;
   orca::localizer::Senses senses_;
   std::optional<orca::nav::MapLocalizer> localizer_;
   std::optional<RobotPose> start_;    // as somebody has said, until the first odometry

@@ -61,12 +61,12 @@ class Navigator {
   void drop_path();
 
   /// Names what it knows besides its rules and its map, so that another one can go on from there.
-  [[nodiscard]] auto state() { return std::tie(driver_, plan_, planned_for_, planned_at_, begun_, news_); }
+  [[nodiscard]] auto state() { return std::tie(driver_, kept_, planned_for_, planned_at_, begun_, news_); }
   /// Takes over the map of another one, as OccupancyMap::packed() gives it.
   /// @return whether it had the same size.
   [[nodiscard]] bool unpack_map(std::string_view text) { return map_.unpack(text); }
 
-  [[nodiscard]] const Path& path() const { return plan_.path; }
+  [[nodiscard]] const Path& path() const { return kept_.plan().path; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
   /// Returns how often it has recovered since the last drop_path().
   [[nodiscard]] int recoveries() const { return driver_.recoveries(); }
@@ -75,15 +75,13 @@ class Navigator {
   void keep_path(const Moment& moment, const Errand& errand);
   void replan(const Moment& moment, const Errand& errand);
   [[nodiscard]] bool is_known(Vec2 echo) const;
-  [[nodiscard]] bool runs_beside(const Path& path) const;
   [[nodiscard]] bool is_free(Vec2 point) const;
 
   Footprint footprint_;
   NavigatorRules rules_;
   PathDriver driver_;
   OccupancyMap map_;
-  PathPlanner planner_;
-  Plan plan_;
+  KeptPlan kept_;
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};
   bool begun_ = false;  // a scan has come

@@ -41,6 +41,8 @@ class OccupancyMap {
   void follow(Vec2 place);
   /// Takes over one scan. Parts of beams outside the window do not count.
   void see(std::span<const Beam> scan);
+  /// Weakens what is known of each cell by a 16th of the strongest evidence: 16 times after it was seen last, nothing is known of any.
+  void fade();
   /// Makes unknown all that lies farther than `distance` [m] from `place`.
   void forget_beyond(Vec2 place, double distance);
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "orca/navigation/distance_transform.hpp"
@@ -25,6 +26,9 @@ struct Plan {
   Path path;              ///< from the robot to the goal, map frame.
   double cost = 0.0;      ///< of the path, comparable with PathPlanner::cost_of().
   bool complete = false;  ///< whether it leads to the goal, not only as near to it as possible.
+
+  /// Names what it consists of.
+  [[nodiscard]] auto state() { return std::tie(path, cost, complete); }
 };
 
 /// Returns where the outline, driven along a path, first touches an obstacle of the map, in [from, to] [m]; negative: nowhere.
@@ -70,6 +74,42 @@ class PathPlanner {
   std::vector<std::uint16_t> costs_;
   std::vector<std::uint16_t> cost_by_distance_;  // squared, in cells
   std::span<const std::int32_t> distances_;      // squared, in cells
+};
+
+/// A plan that is kept as long as no other one is clearly better.
+///
+/// Thread contract: one thread at a time.
+class KeptPlan {
+ public:
+  explicit KeptPlan(SearchRules rules = {}) : planner_(rules) {}
+
+  /// The facts by which it is planned.
+  struct Facts {
+    const OccupancyMap& map;
+    const Footprint& footprint;
+    const PlanWishes& wishes;
+    Vec2 robot;            ///< map frame, as the next.
+    Vec2 place;            ///< to plan for.
+    double along = 0.0;    ///< [m] place of the robot on the present path.
+    bool blocked = false;  ///< The present path leads nowhere.
+  };
+  /// Plans. The new plan replaces the present one if that one is not complete, leads nowhere, or lies aside of the robot, or if the new one is 8 % cheaper and
+  /// leads another way.
+  /// @return whether it did.
+  bool renew(const Facts& facts);
+
+  [[nodiscard]] const Plan& plan() const { return plan_; }
+  void drop() { plan_ = {}; }
+  /// Names what it knows.
+  [[nodiscard]] auto state() { return std::tie(plan_); }
+
+  static constexpr double kAside = 0.5;  ///< [m] off the path: it is of no use.
+
+ private:
+  [[nodiscard]] bool runs_beside(const Path& path, double along) const;
+
+  PathPlanner planner_;
+  Plan plan_;
 };
 
 }  // namespace orca::nav

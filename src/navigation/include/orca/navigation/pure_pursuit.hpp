@@ -45,6 +45,7 @@ struct Pursuit {
   double turn_in_place = 0.8;         ///< [rad] off the path at which it stops to turn on the spot.
   double turned = 0.2;                ///< [rad] off the path at which it drives on.
   double margin = 0.03;               ///< [m] kept free around the outline.
+  double turning_radius = 0.0;  ///< [m] of the smallest circle that it drives; 0: it can turn on the spot.
 };
 
 /// Returns how far ahead on its path [m] a robot looks that drives at `speed` [m/s].

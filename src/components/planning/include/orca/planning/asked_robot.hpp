@@ -9,7 +9,7 @@
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/system.hpp"
 
-namespace orca::planner {
+namespace orca::planning {
 
 /// The robot's body, as the base reports it. Zero: it does not.
 struct Body {
@@ -75,4 +75,4 @@ class AskedRobot {
   std::optional<Body> body_;
 };
 
-}  // namespace orca::planner
+}  // namespace orca::planning

@@ -9,7 +9,7 @@
 #include "orca/idl/navigation.hpp"
 #include "orca/navigation/known_map.hpp"
 
-namespace orca::localizer {
+namespace orca::planning {
 
 /// The map as it has come: a whole one, and tiles of it that have changed since.
 ///
@@ -26,6 +26,8 @@ class Floor {
   [[nodiscard]] bool has_changed() const { return changed_; }
   /// Returns the map for looking in it; null: there is none.
   [[nodiscard]] std::shared_ptr<const nav::KnownMap> map();
+  /// Returns its cells, in the frame of map(); none: there is no map.
+  [[nodiscard]] const nav::FloorGrid& grid() const { return grid_; }
   /// Returns the pose in the world of the frame in which map() is: both have the same origin, but rows of cells lie along the frame's x axis.
   [[nodiscard]] Pose2 X_WM() const { return {0.0, 0.0, yaw_}; }
 
@@ -38,4 +40,4 @@ class Floor {
   bool changed_ = false;
 };
 
-}  // namespace orca::localizer
+}  // namespace orca::planning

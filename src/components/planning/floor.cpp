@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "floor.hpp"
+#include "orca/planning/floor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
 
-namespace orca::localizer {
+namespace orca::planning {
 namespace {
 
 constexpr std::uint64_t kMostCells = 100'000'000;  // 10 cm of 1 km2
@@ -75,4 +75,4 @@ std::shared_ptr<const nav::KnownMap> Floor::map() {
   return grid_.cells.empty() ? nullptr : std::make_shared<const nav::KnownMap>(grid_);
 }
 
-}  // namespace orca::localizer
+}  // namespace orca::planning
