@@ -50,6 +50,7 @@ const std::vector<Robot> kRobots{
     {"nomad_scout", "", {"goto", "avoid"}},
     {"nomad_xr4000", "", {"goto", "avoid"}, 1.5},
     {"pioneer_planner", "", {"planner"}},
+    {"pioneer_planner_parts", "", {"pilot"}},
     {"warehouse_scanner", "", {"planner"}},
     {"pioneer_localize", "", {"planner"}},
     {"pioneer_tasks", "", {"planner"}},

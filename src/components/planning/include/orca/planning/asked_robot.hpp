@@ -31,6 +31,13 @@ class AskedRobot {
               {.text = "Base that is asked about the robot's outline and how fast it can be.",
                .optional = true}) {}
 
+  /// Returns what is wrong if nobody can be asked, for a component that cannot do without.
+  [[nodiscard]] Status check() const {
+    if (port_.connected()) return ok();
+    return fail(
+        Code::failed_precondition,
+        "it does not know the robot's outline: connect its port \"robot\" to the RobotQuery of the base");
+  }
   /// Asks, unless the port is not connected.
   /// @errors  those of the port.
   Status ask() {

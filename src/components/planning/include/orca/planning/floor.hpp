@@ -26,6 +26,7 @@ class Floor {
   [[nodiscard]] bool has_changed() const { return changed_; }
   /// Returns the map for looking in it; null: there is none.
   [[nodiscard]] std::shared_ptr<const nav::KnownMap> map();
+  [[nodiscard]] const std::string& name() const { return name_; }
   /// Returns its cells, in the frame of map(); none: there is no map.
   [[nodiscard]] const nav::FloorGrid& grid() const { return grid_; }
   /// Returns the pose in the world of the frame in which map() is: both have the same origin, but rows of cells lie along the frame's x axis.

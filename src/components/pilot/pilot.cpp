@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/goal_follower.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/navigation/path_driver.hpp"
+#include "orca/planning/asked_robot.hpp"
+#include "orca/planning/floor.hpp"
+
+namespace {
+
+using orca::Pose2;
+using orca::Status;
+using orca::Vec2;
+using orca::go::Step;
+using orca::go::Target;
+using orca::idl::OccupancyGrid;
+using orca::nav::Moment;
+using orca::nav::Steer;
+
+double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, most) : wish; }
+
+/// A part of a path that is driven in one direction.
+struct Stretch {
+  orca::nav::Path path;
+  bool backwards = false;
+};
+
+// Returns the stretches of a path: a piece is driven backwards if the robot looks away from where it leads.
+std::vector<Stretch> stretches_of(const orca::idl::Path& path) {
+  std::vector<Stretch> stretches;
+  std::vector<Vec2> points;
+  bool backwards = false;
+  const auto end_stretch = [&] {
+    if (points.size() > 1) stretches.push_back({orca::nav::Path(points), backwards});
+  };
+  for (std::size_t i = 0; i < path.poses().size(); ++i) {
+    const Pose2 pose = orca::plane_pose(path.poses()[i]);
+    if (!points.empty() && norm(pose.position() - points.back()) > 1e-6) {
+      const bool back = dot(pose.position() - points.back(), orca::direction(pose.yaw)) < 0.0;
+      if (points.size() > 1 && back != backwards) {
+        end_stretch();
+        points = {points.back()};
+      }
+      backwards = back;
+    }
+    points.push_back(pose.position());
+  }
+  end_stretch();
+  return stretches;
+}
+
+/// A behaviour that drives to goals on paths that a PathPlanner finds (thesis 11.1, Pilot). See README.md.
+class Pilot final : public orca::go::GoalFollower {
+ public:
+  explicit Pilot(orca::ComponentHost& host) : GoalFollower(host, kBlockedAfter) {}
+
+ private:
+  static constexpr double kBlockedAfter = 60.0;  // [s]
+  static constexpr double kDeafAfter = 0.6;      // [s]
+  static constexpr double kBrakes = 0.8;         // of the change of speed that the base is capable of
+  static constexpr double kSame = 0.05;          // [m]
+
+  Status configure() override {
+    const Status sound = robot_.check();
+    return sound.ok() ? GoalFollower::configure() : sound;
+  }
+
+  Status start() override {
+    if (Status begun = GoalFollower::start(); !begun.ok()) return begun;
+    driver_.reset();
+    heard_at_.reset();
+    drop_path();
+    return robot_.ask();
+  }
+
+  void stop() override {
+    robot_.leave();
+    GoalFollower::stop();
+  }
+
+  orca::Outcome work() override {
+    if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
+    if (!driver_ && robot_.body()) driver_.emplace(footprint());
+    while (world_.new_data_arrived()) take_world(*world_.get_update());
+    return GoalFollower::work();
+  }
+
+  void take_world(const OccupancyGrid& grid) {
+    if (const Status taken = floor_.take(grid); !taken.ok()) return log_warning(taken.error().message);
+    heard_at_ = now();
+  }
+
+  std::optional<Pose2> take_pose() override {
+    const auto pose = GoalFollower::take_pose();
+    if (localizer().connected()) {
+      note_motion(*localizer().latest());
+    } else {
+      note_motion(*odometry().latest());
+    }
+    return pose;
+  }
+
+  template <typename Motion>
+  void note_motion(const Motion& motion) {
+    twist_ = {motion.translational_velocity(), motion.sideways_velocity(), motion.steering_velocity()};
+  }
+
+  void drop_path() {
+    stretches_.clear();
+    at_ = 0;
+    driven_for_.reset();
+  }
+
+  void idle() override {
+    drop_path();
+    if (driver_) driver_->reset();
+  }
+
+  void drive(const Pose2& pose, const Target& target) override {
+    const bool hears = driver_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= kDeafAfter;
+    if (!hears) return stand();
+    take_path(pose, target);
+    see_obstacles(pose);
+    const Moment moment{now(), pose, twist_};
+    const bool rests = !steers() || !target.use_orientation || is_at_end();
+    if (const auto step = rests ? step_of_rest(target, pose, deceleration(), before()) : std::nullopt) {
+      if (!steers() || step->kind != Step::Kind::turn) return rest(*step, pose, target);
+    }
+    if (const auto back = driver_->recover(moment, pursuit(), [&](Vec2 point) { return is_free(point); }))
+      return command(*back);
+    driver_->note(pose);
+    if (stretches_.empty()) return stand();
+    follow(moment, target);
+  }
+
+  void stand() {
+    motion().push(orca::full_stop());
+    note_speed(0.0);
+  }
+
+  void command(const Steer& steer) {
+    motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
+    note_speed(steer.speed);
+  }
+
+  // Takes over the path for this target. One for another target, which comes late, does not count.
+  void take_path(const Pose2& pose, const Target& target) {
+    if (!driven_for_ || norm(*driven_for_ - target.place) > kSame) {
+      drop_path();
+      driven_for_ = target.place;
+      if (path_.new_data_arrived()) (void)path_.get_update();
+      driver_->begin({now(), pose, twist_});
+    }
+    if (!path_.new_data_arrived()) return;
+    stretches_ = stretches_of(*path_.get_update());
+    at_ = 0;
+    driver_->begin_path();
+  }
+
+  // Collects what is near the robot.
+  void see_obstacles(const Pose2& pose) {
+    const auto& grid = floor_.grid();
+    const double reach = footprint().outer_radius() + pursuit().max_look_ahead * 1.5 + 0.3;
+    const Vec2 robot = seen_from(floor_.X_WM(), pose.position());
+    const orca::nav::Cell low = grid.lattice.cell_at(robot - Vec2{reach, reach});
+    const orca::nav::Cell high = grid.lattice.cell_at(robot + Vec2{reach, reach});
+    driver_->points().clear();
+    for (int row = low.row; row <= high.row; ++row)
+      for (int column = low.column; column <= high.column; ++column)
+        if (grid.occupied({column, row}))
+          driver_->points().push_back(floor_.X_WM() * grid.lattice.middle_of({column, row}));
+  }
+
+  [[nodiscard]] bool is_free(Vec2 point) const {
+    const auto& grid = floor_.grid();
+    return grid.free(grid.lattice.cell_at(seen_from(floor_.X_WM(), point)));
+  }
+
+  // Follows the present stretch; at its end the robot stops and begins the next.
+  void follow(const Moment& moment, const Target& target) {
+    constexpr double kEnd = 0.06;  // [m]
+    driver_->find_place(stretches_[at_].path, moment.pose.position());
+    const bool more = at_ + 1 < stretches_.size();
+    if (more && stretches_[at_].path.length() - driver_->along() < kEnd) {
+      ++at_;
+      driver_->begin_path();
+    }
+    const Stretch& stretch = stretches_[at_];
+    const Vec2 end = stretch.path.points().back();
+    const bool passes = target.via && at_ + 1 == stretches_.size() && norm(end - target.place) < kSame;
+    Moment facing = moment;
+    if (stretch.backwards) {  // as one that looks the other way would drive
+      facing.pose.yaw = orca::wrapped(facing.pose.yaw + std::numbers::pi);
+      facing.twist = {-moment.twist.forward, -moment.twist.left, moment.twist.turn_rate};
+    }
+    Steer steer =
+        driver_->follow_path(stretch.path, facing, pursuit(), passes ? *max_speed_ : 0.0, kPatience);
+    if (stretch.backwards) steer.speed = -steer.speed;
+    command(steer);
+  }
+
+  // Returns whether the path is as good as driven.
+  [[nodiscard]] bool is_at_end() const {
+    constexpr double kEnd = 0.1;  // [m]
+    return !stretches_.empty() && at_ + 1 == stretches_.size() &&
+           stretches_[at_].path.length() - driver_->along() < kEnd;
+  }
+
+  // Comes to rest within reach of a goal, but not by driving into something.
+  void rest(Step step, const Pose2& pose, const Target& target) {
+    const double room = driver_->room_ahead(pose, pursuit().margin);
+    step.speed = std::min(step.speed, orca::nav::speed_to_stop_within(room, deceleration(), pursuit().delay));
+    if (step.kind == Step::Kind::reached) idle();
+    take(step, pose, target);
+  }
+
+  [[nodiscard]] bool steers() const { return *turning_radius_ > 0.0; }
+
+  [[nodiscard]] orca::nav::Footprint footprint() const {
+    const orca::planning::Body body = robot_.body().value_or(orca::planning::Body{});
+    return {0.5 * body.length, 0.5 * body.width, body.radius};
+  }
+
+  [[nodiscard]] double deceleration() const {
+    constexpr double kCareful = 0.5;  // [m/s2]
+    const auto& body = robot_.body();
+    return body && body->acceleration > 0.0 ? kBrakes * body->acceleration : kCareful;
+  }
+
+  [[nodiscard]] orca::nav::Pursuit pursuit() const {
+    const orca::planning::Body body = robot_.body().value_or(orca::planning::Body{});
+    orca::nav::Pursuit pursuit;
+    pursuit.max_speed = at_most(*max_speed_, body.max_speed);
+    pursuit.turn_rate = at_most(kTurnRate, body.max_rate);
+    pursuit.deceleration = deceleration();
+    pursuit.turning_radius = *turning_radius_;
+    if (steers()) {  // It must keep to arcs and to the direction at their end.
+      pursuit.look_ahead_time = 0.5;
+      pursuit.min_look_ahead = 0.15;
+    }
+    return pursuit;
+  }
+
+  static constexpr double kTurnRate = 1.5;  // [rad/s]
+  static constexpr double kPatience = 1.0;  // [s] of standing blocked before it backs off
+
+  orca::PushProxy<orca::idl::Path> path_{
+      *this, "path", {.text = "The way to what GoalPush says, as a PathPlanner finds it."}};
+  orca::PushProxy<OccupancyGrid> world_{
+      *this, "world", {.text = "What is around the robot, and parts of it that have changed."}};
+  orca::planning::AskedRobot robot_{*this};
+  orca::Param<double> max_speed_{
+      *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
+  orca::Param<double> turning_radius_{
+      *this,
+      "turning_radius",
+      0.0,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "Radius of the smallest circle that the robot drives; 0: it can turn on the spot."}};
+
+  orca::planning::Floor floor_;
+  std::optional<orca::nav::PathDriver> driver_;  // from when the outline is known
+  std::vector<Stretch> stretches_;
+  std::size_t at_ = 0;  // the stretch that it drives on
+  std::optional<Vec2> driven_for_;
+  std::optional<orca::TimePoint> heard_at_;
+  orca::Twist2 twist_;
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Pilot, "orca.Pilot")

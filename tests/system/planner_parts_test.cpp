@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The planner in its parts: WorldModel, PathPlanner and Pilot, as the graph that ships with them connects them.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "deployer.hpp"
+#include "slow_run.hpp"
+#include "temp_folder.hpp"
+
+using namespace orca::test;
+
+namespace {
+
+constexpr const char* kHall = R"(<room name="hall" from="0 0" to="10 8"/>
+  <place name="start" x="1" y="4" yaw="0"/>)";
+constexpr const char* kWall = R"(<box name="shelf" x="5" y="3.5" yaw="0" length="0.3" width="5"/>)";
+
+std::string world(const std::string& name, const std::string& content) {
+  return "<world name=\"" + name + "\" version=\"1\">\n  " + content + "\n</world>";
+}
+
+Run drive(const Words& more, const char* until = "150 s") {
+  return run_deployer(Words{source_file("graphs/pioneer_planner_parts.xml"), "--until", until} +
+                      virtual_clock() + more);
+}
+
+// Returns the values of a column of a recording.
+std::vector<double> column(const std::string& file, const std::string& name) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  std::istringstream head(line);
+  std::size_t at = 0;
+  for (std::string word; std::getline(head, word, ',') && word.find(name) == std::string::npos;) ++at;
+  std::vector<double> values;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    std::string word;
+    for (std::size_t i = 0; i <= at; ++i) std::getline(words, word, ',');
+    if (!word.empty()) values.push_back(std::stod(word));
+  }
+  return values;
+}
+
+// Returns when the last goal was reached.
+double end_of(const Run& run) {
+  REQUIRE_FALSE(run.arrivals().empty());
+  return run.arrivals().back().t;
+}
+
+}  // namespace
+
+TEST_CASE("the parts drive a Pioneer to three goals of the office by its map, and touch nothing",
+          "[system][planner][parts]") {
+  for (const char* realism : {"nominal", "harsh"})
+    for (int seed = 1; seed <= part_of(20); ++seed) {
+      const Run run = drive({"--seed", std::to_string(seed), "--set", std::string("realism=") + realism});
+      INFO(realism << ", seed " << seed << "\n" << run.out << run.err);
+      CHECK(run.exit_code() == 0);
+      CHECK(run.arrivals().size() == 3);
+      CHECK(run.contacts().empty());
+    }
+}
+
+TEST_CASE("a robot that steers reaches the goals in the directions asked for, and never turns on the spot",
+          "[system][planner][parts]") {
+  const TempFolder folder;
+  for (int seed = 1; seed <= part_of(20); ++seed) {
+    const std::string csv = folder.path() / "odometry.csv";
+    const Run run = drive({"--seed", std::to_string(seed), "--set", "turning_radius=0.5 m", "--set",
+                           "goals=kitchen: 4.2 9.8 @ 90; office_2: 9 2 @ 180; meeting: 13 10.4", "--record",
+                           csv + "=fuser.base"});
+    INFO("seed " << seed << "\n" << run.out << run.err);
+    CHECK(run.arrivals().size() == 3);
+    CHECK(run.contacts().empty());
+    const std::vector<double> speeds = column(csv, "speed");
+    const std::vector<double> rates = column(csv, "turn_rate");
+    REQUIRE(speeds.size() == rates.size());
+    REQUIRE(speeds.size() > 100);
+    int tight = 0;
+    for (std::size_t i = 0; i < speeds.size(); ++i)
+      tight += std::fabs(rates[i]) * 0.5 > std::fabs(speeds[i]) + 1e-6 ? 1 : 0;
+    CHECK(tight == 0);
+  }
+}
+
+TEST_CASE(
+    "what stands where the map knows nothing is driven around, and what the map has in vain counts no more",
+    "[system][planner][parts]") {
+  const TempFolder folder;
+  const std::string empty = folder.write("empty.xml", world("hall", kHall));
+  const std::string shelf = folder.write("shelf.xml", world("hall", std::string(kHall) + kWall));
+  for (const auto& [is, drawn] : {std::pair{shelf, empty}, std::pair{empty, shelf}}) {
+    const Run run = drive({"--set", "world=" + is, "--set", "map=" + drawn, "--set", "goals=east: 9 3"});
+    INFO(is << " drawn as " << drawn << "\n" << run.out << run.err);
+    CHECK(run.arrivals().size() == 1);
+    CHECK(run.contacts().empty());
+  }
+}
+
+TEST_CASE("without one of the parts the robot stays where it is", "[system][planner][parts][ablation]") {
+  for (const char* part : {"command", "world_model", "planner", "pilot", "fuser", "base"}) {
+    const Run run = drive({"--fail", std::string(part) + "=silent@0s"}, "40 s");
+    INFO(part << "\n" << run.out << run.err);
+    CHECK(run.arrivals().empty());
+  }
+}
+
+TEST_CASE("without the map the robot drives into a dead end, and sonars alone do not see far",
+          "[system][planner][parts][ablation]") {
+  const TempFolder folder;
+  const std::string lane = folder.write("lane.xml", world("lane", R"(<room name="hall" from="0 0" to="20 8"/>
+  <place name="start" x="2" y="4" yaw="0"/>
+  <box name="south" x="10" y="3" yaw="0" length="12" width="0.1"/>
+  <box name="north" x="10" y="5" yaw="0" length="12" width="0.1"/>
+  <box name="end" x="16" y="4" yaw="0" length="0.1" width="2"/>)"));
+  const Words behind{"--set", "world=" + lane, "--set", "goals=behind: 18 4"};
+  const Run whole = drive(behind);
+  const Run without_map = drive(behind + Words{"--fail", "map=silent@0s"}, "80 s");
+  INFO(whole.out << without_map.out << without_map.err);
+  CHECK(end_of(whole) < 40.0);
+  CHECK(without_map.arrivals().empty());
+
+  const Run office = drive({});
+  const Run without_laser = drive({"--fail", "laser=throw@0s"});
+  INFO(office.out << without_laser.out);
+  CHECK(end_of(without_laser) > 1.2 * end_of(office));
+}
