@@ -116,14 +116,15 @@ Plan PathPlanner::plan(const OccupancyMap& map, Vec2 start, Vec2 goal) {
   }
 }
 
-// The robot may stand nearer to something than its inner circle allows. It must find a way from there.
+// The robot may stand nearer to something than its inner circle allows. It must find a way from there, on which it gets no nearer.
 void PathPlanner::open_around(const OccupancyMap& map, Cell start) {
   const Lattice& lattice = map.lattice();
   const int reach = static_cast<int>(std::ceil(footprint_.inner_radius() / lattice.side));
   for (int row = start.row - reach; row <= start.row + reach; ++row)
     for (int column = start.column - reach; column <= start.column + reach; ++column) {
       const Cell cell{column, row};
-      if (lattice.holds(cell) && costs_[lattice.index(cell)] == 0 && !map.occupied(cell))
+      if (!lattice.holds(cell) || costs_[lattice.index(cell)] != 0 || map.occupied(cell)) continue;
+      if (distances_[lattice.index(cell)] >= distances_[lattice.index(start)])
         costs_[lattice.index(cell)] = kEscapeCost;
     }
 }

@@ -39,6 +39,15 @@ OccupancyMap random_posts(orca::RandomStream& random) {
   return map_with(scan);
 }
 
+constexpr double kCellError = 0.05;  // [m] by which the middle of a cell misleads
+
+// Returns how far the nearest echo of a map is from a place.
+double room_at(const OccupancyMap& map, Vec2 place) {
+  double least = 1.0;
+  map.for_points_near(place, 1.0, [&](Vec2 point) { least = std::min(least, norm(point - place)); });
+  return least;
+}
+
 }  // namespace
 
 TEST_CASE("in the open the path is the straight line to the goal", "[navigation]") {
@@ -115,4 +124,29 @@ TEST_CASE("a robot that stands too near to a wall finds a way from it", "[naviga
   PathPlanner planner;
   planner.look_at(map, kJackal, {});
   CHECK(planner.plan(map, {}, {-3.0, 0.0}).complete);
+}
+
+TEST_CASE("from a place that is too near to something the path leads away, and never nearer to anything",
+          "[navigation]") {
+  orca::RandomStream random(8, "test", "places");
+  PathPlanner planner;
+  int left = 0;
+  OccupancyMap map = random_posts(random);
+  for (int i = 0; i < 3000; ++i) {
+    if (i % 50 == 0) map = random_posts(random);
+    const Vec2 start{random.uniform(-4.0, 4.0), random.uniform(-4.0, 4.0)};
+    const double room = room_at(map, start);
+    if (room > kJackal.inner_radius() - 0.06 || room < 0.08) continue;
+    planner.look_at(map, kJackal, {});
+    const Plan plan = planner.plan(map, start, {random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0)});
+    CAPTURE(i, start.x, start.y, room);
+    double most = room;
+    for (double along = 0.0; along < plan.path.length() && most < kJackal.inner_radius(); along += 0.02) {
+      const double now = room_at(map, plan.path.at(along));
+      CHECK(now > most - kCellError);
+      most = std::max(most, now);
+    }
+    left += most >= kJackal.inner_radius() ? 1 : 0;
+  }
+  CHECK(left > 30);
 }
