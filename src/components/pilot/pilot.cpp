@@ -204,6 +204,9 @@ class Pilot final : public orca::go::GoalFollower {
         driver_->follow_path(stretch.path, facing, pursuit(), passes ? *max_speed_ : 0.0, kPatience);
     if (stretch.backwards) steer.speed = -steer.speed;
     command(steer);
+    double left = -driver_->along();
+    for (std::size_t i = at_; i < stretches_.size(); ++i) left += stretches_[i].path.length();
+    note_plan(left);
   }
 
   // Returns whether the path is as good as driven.

@@ -55,7 +55,7 @@ class Navigator {
   [[nodiscard]] double room_ahead(const Moment& moment) const;
   /// Returns what is left of the path [m]; nothing while there is none.
   [[nodiscard]] std::optional<double> way_left() const {
-    return plan_.path.empty() ? std::nullopt : std::optional(plan_.path.length() - along_);
+    return path().empty() ? std::nullopt : std::optional(path().length() - driver_.along());
   }
   /// Forgets the path: the robot does something else now.
   void drop_path();
