@@ -190,7 +190,7 @@ LAYERS = (
           "supervisor_starting", "supervisor_hosted", "supervisor_members", "supervisor_agreed", "supervisor_processes",
           "supervisor_channel", "host_part", "host", "graph", "base"), module=SUPERVISOR),
     Layer("batch_statistics", (f"{BATCH}/statistics",), ("orca/batch/statistics/",), ("base",)),
-    Layer("batch_measures", (f"{BATCH}/measures",), ("orca/batch/measures.hpp", "orca/batch/referee.hpp"), ("batch_statistics",
+    Layer("batch_measures", (f"{BATCH}/measures",), ("orca/batch/localization.hpp", "orca/batch/measures.hpp", "orca/batch/referee.hpp"), ("batch_statistics",
           "hw_api", "geometry", "xml", "base"), module=BATCH),
     Layer("batch_results", (f"{BATCH}/results",), ("orca/batch/record.hpp", "orca/batch/store.hpp",
           "orca/batch/lap_times.hpp"), ("batch_measures", "xml", "base"), ("sqlite",), module=BATCH),

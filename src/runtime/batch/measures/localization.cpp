@@ -20,7 +20,7 @@ using Says = PoseClaim::Says;
 constexpr double kRight = 0.1;                               // [m]
 constexpr double kRightTurn = 5.0 * std::numbers::pi / 180;  // [rad]
 constexpr double kWrong = 0.5;                               // [m]
-// What a localizer has after a kidnapping: as long or as far as that, whichever is more.
+// The limits for a localizer after a kidnapping: as long or as far as that, whichever is more.
 struct Patience {
   Duration time;
   double way;  // [m]

@@ -15,8 +15,7 @@ namespace orca::host {
 namespace {
 
 constexpr Duration kTroubleInterval = 10s;
-constexpr Duration kBetweenLocalizations = 100ms;  // as true poses are kept
-constexpr double kFarOff = 0.2;                    // [m] what a robot drives meanwhile is less
+constexpr double kFarOff = 0.2;  // [m] what a robot drives meanwhile is less
 
 // Returns the component of "component.port".
 std::string component_of(std::string_view path) { return std::string(path.substr(0, path.rfind('.'))); }
@@ -56,8 +55,9 @@ void Reporter::pushed(std::string_view component, std::string_view port, const O
   if (&object.type() == &object_type<idl::Arrived>()) hear(*static_cast<const idl::Arrived*>(object.get()));
   if (&object.type() == &object_type<idl::GoalFailed>())
     hear(*static_cast<const idl::GoalFailed*>(object.get()));
-  if (keeps_localizations_ && &object.type() == &object_type<idl::Localization>())
-    hear(*static_cast<const idl::Localization*>(object.get()));
+  if (&object.type() != &object_type<idl::Localization>()) return;
+  const std::lock_guard lock(mutex_);
+  add_to(localizations_, *static_cast<const idl::Localization*>(object.get()));
 }
 
 bool Reporter::is_looked_at(std::string_view component, std::string_view port) {
@@ -121,15 +121,6 @@ void Reporter::hear(const idl::GoalFailed& failed) {
   if (is_passed_on(failures_, failed)) return;
   failures_.push_back(failed);
   listener_.goal_failed(failed);
-}
-
-void Reporter::hear(const idl::Localization& belief) {
-  const std::lock_guard lock(mutex_);
-  const TimePoint stamp = to_time_point(belief.stamp());
-  const auto [last, is_first] = localized_at_.try_emplace(belief.origin(), stamp);
-  if (!is_first && stamp - last->second < kBetweenLocalizations) return;
-  last->second = stamp;
-  localizations_.push_back(belief);
 }
 
 void Reporter::trouble(LinkTrouble kind, std::string_view from, std::string_view to, std::string_view text) {
@@ -226,7 +217,7 @@ void Reporter::fill(RunResult& result) const {
   result.failures = failures_;
   result.contacts = contacts_;
   result.alarms = alarms_;
-  result.localizations = localizations_;
+  result.localizations = localizations_.all;
   result.robots = robots_;
 }
 

@@ -12,6 +12,7 @@
 
 #include "alarm_news.hpp"
 #include "line_limit.hpp"
+#include "localization_log.hpp"
 #include "orca/host/port_taps.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/hw/scene.hpp"
@@ -40,7 +41,7 @@ class Reporter final : public LinkObserver {
   void record(Recorder& recorder) { recorder_ = &recorder; }
   /// Keeps what localizers say for the result.
   /// @pre  nothing runs yet.
-  void keep_localizations() { keeps_localizations_ = true; }
+  void keep_localizations() { localizations_.keeps = true; }
   /// Passes what travels on to `taps` as well.
   /// @pre  nothing runs yet.
   void tap(PortTaps& taps) { taps_ = &taps; }
@@ -101,7 +102,6 @@ class Reporter final : public LinkObserver {
 
   void hear(const idl::Arrived& arrived);
   void hear(const idl::GoalFailed& failed);
-  void hear(const idl::Localization& belief);
   [[nodiscard]] std::string doubt(const idl::Arrived& arrived) const;
   void follow_mission(std::string_view component, std::string_view port, const ObjectRef& object);
 
@@ -119,9 +119,7 @@ class Reporter final : public LinkObserver {
   std::vector<idl::GoalFailed> failures_;
   std::vector<idl::Contact> contacts_;
   std::vector<idl::Alarm> alarms_;
-  bool keeps_localizations_ = false;
-  std::vector<idl::Localization> localizations_;
-  std::map<std::string, TimePoint, std::less<>> localized_at_;  // the last one's stamp, by component
+  LocalizationLog localizations_;
   RobotNames robots_;
   std::map<std::string, Truth, std::less<>> truths_;  // by robot
   LineLimit trouble_lines_;

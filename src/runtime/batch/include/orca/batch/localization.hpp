@@ -28,7 +28,7 @@ struct PoseClaim {
   Pose2 X_WR{};  ///< The place, in the world frame; read only if it says `place`.
 };
 
-/// What localizers of a run were worth. Unknown shares are missing. A plain value.
+/// The worth of the localizers of a run. Unknown shares are missing. A plain value.
 struct LocalizationShares {
   /// Share of the kidnappings after which the localizer claimed no wrong place any more, within 3 s or 1 m of way. Missing if no robot
   /// was carried off.

@@ -89,10 +89,10 @@ struct RunResult {
   std::vector<idl::Contact> contacts;       ///< In the order in which they were reported.
   /// Of each localizer at most ten a second, in the order in which they were pushed; only if RunOptions::keeps_motion.
   std::vector<idl::Localization> localizations;
-  std::vector<idl::Alarm> alarms;           ///< In the order in which they were raised.
-  std::vector<Way> ways;                    ///< Only if RunOptions::looks_on.
-  std::optional<Scene> scene;               ///< Only if RunOptions::keeps_motion, and all strands have ended.
-  RobotNames robots;                        ///< None if the system could not be built.
+  std::vector<idl::Alarm> alarms;  ///< In the order in which they were raised.
+  std::vector<Way> ways;           ///< Only if RunOptions::looks_on.
+  std::optional<Scene> scene;      ///< Only if RunOptions::keeps_motion, and all strands have ended.
+  RobotNames robots;               ///< None if the system could not be built.
   RunCounters counters;
   /// By component, only if RunOptions::measures_laps, and all strands have ended.
   std::map<std::string, LapTimes> lap_times;
