@@ -255,7 +255,7 @@ void MapLocalizer::see(const RobotScan& seen) {
   }
   compare(fits);
   believe();
-  if (!search_ && (places_.empty() || places_.front().is_doubtful(options_))) begin_search(scan);
+  if (options_.searches && !search_) begin_search(scan);
 }
 
 void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
@@ -317,7 +317,12 @@ void MapLocalizer::believe() {
   was_known_ |= known(now_) == Known::localized;
 }
 
+// As long as no place is believed the right one need not be among them: along a bare corridor there are more than are kept.
 void MapLocalizer::begin_search(const RobotScan& scan) {
+  constexpr double kOtherPlace = 1.0;  // [m]
+  const bool doubts = places_.empty() || places_.front().is_doubtful(options_);
+  const bool seeks = !doubts && !places_.front().belief.believed && way_ - searched_way_ >= kOtherPlace;
+  if (!doubts && !seeks) return;
   constexpr double kAnew = 0.5;      // [m]
   constexpr double kAnewTime = 1.0;  // [s]
   const bool is_time =

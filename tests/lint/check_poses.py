@@ -3,8 +3,8 @@
 import re
 import xml.etree.ElementTree as ElementTree
 
-OWN_POSE = {"odometry", "slam"}  # profiles whose pose is the robot's own
-OWN_GRAPHS = ("pioneer_localize.xml", "pioneer_tasks.xml")  # graphs with a pose of their own in every profile
+OWN_POSE = {"odometry", "slam", "localized"}  # profiles whose pose is the robot's own
+OWN_GRAPHS = ("pioneer_tasks.xml",)  # graphs with a pose of their own in every profile
 
 
 def variants_of(text):
@@ -29,7 +29,7 @@ def find(tree):
         for name, profiles in variants_of(tree.text(path)):
             is_own, says_truth = bool(profiles & OWN_POSE), "_truth" in name
             if not is_own and not says_truth:
-                findings.append(f"{path}: variant {name} has the simulator's pose: add the profile odometry or slam, or \"_truth\" to the name")
+                findings.append(f"{path}: variant {name} has the simulator's pose: add the profile odometry, slam or localized, or \"_truth\" to the name")
             if is_own and says_truth:
                 findings.append(f"{path}: variant {name} says \"_truth\", but has a pose of its own")
     return findings

@@ -52,7 +52,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_planner", "", {"planner"}},
     {"pioneer_planner_parts", "", {"pilot"}},
     {"warehouse_scanner", "", {"planner"}},
-    {"pioneer_localize", "", {"planner"}},
+    {"pioneer_localize", "", {"planner", "look_around"}},
     {"pioneer_tasks", "", {"planner"}},
     {"scout_localize", "", {"goto", "avoid"}},
     {"pioneer_slam", "", {"walk", "avoid"}},

@@ -154,18 +154,23 @@ TEST_CASE("a robot with sonars alone keeps where it is once that is said", "[sys
     }
 }
 
-TEST_CASE("a robot in another building than its map's stands and says that it does not know where it is",
+TEST_CASE("a robot in another building than its map's looks around for some time, and then stands",
           "[system][localizer]") {
   const Drives drives;
   for (const char* const map : {"warehouse", "hall", "gallery"}) {
     const auto [run, csv] = drives.drive(
-        "pioneer_localize", {"--until", "60 s", "--set",
+        "pioneer_localize", {"--until", "140 s", "--set",
                              std::string("map=") + source_file(std::string("sim/worlds/") + map + ".xml")});
     INFO(map << '\n' << run.err);
     CHECK(run.arrivals().empty());
-    CHECK(errors_of(csv).place.empty());
+    CHECK(run.contacts().empty());
+    // A view that happens to fit is believed for some seconds.
+    const Errors errors = errors_of(csv);
+    CHECK(errors.place.size() <= errors.unknown / 9);
+    CHECK(run.says("look_around: the robot has looked around for 90 s and does not know where it is"));
     const auto truth = poses_of(csv, "truth.RobotPosePush");
-    CHECK(std::hypot(truth.back().x - truth.front().x, truth.back().y - truth.front().y) < 0.01);
+    const Stamped& late = truth[truth.size() * 9 / 10];
+    CHECK(std::hypot(truth.back().x - late.x, truth.back().y - late.y) < 0.01);
   }
 }
 

@@ -216,6 +216,10 @@ void Avoider::advise() {
   }
   const Advice advised = advice(memory_, here, limits());
   last_direction_ = advised.direction;
+  if (advised.forgets) {
+    memory_.clear();
+    floor_.clear();
+  }
   const double weight = *weight_ * insistence(advised.urgency, manner_.yields);
   if (!advised.needed) {
     motion_.push(dont_care());
@@ -294,6 +298,8 @@ Situation Avoider::situation() {
   situation.last_direction = last_direction_;
   situation.turning = twist_.turn_rate * *reaction_time_;
   situation.heading = pose_.yaw;
+  situation.place = pose_.position();
+  situation.is_heeded = motion_.subscriber_count() > 0;
   situation.speed = twist_.forward;
   situation.turn_rate = twist_.turn_rate;
   add_goal(situation);

@@ -150,7 +150,8 @@ bool LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& r
   if (remembers_.hidden || remembers_.shapes) kept.no_news = kErrorOfReading;
   const auto corners = remembers_.shapes ? body() : std::nullopt;
   const double near = corners ? norm({corners->half_length, corners->half_width}) + kBesideBody : 0.0;
-  see(scan, {.sector = kSector, .range = farthest(), .near = near, .fine = kFineSector}, kept, memory);
+  const double range = std::max(farthest(), remembers_.range);
+  see(scan, {.sector = kSector, .range = range, .near = near, .fine = kFineSector}, kept, memory);
   return true;
 }
 

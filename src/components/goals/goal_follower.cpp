@@ -53,6 +53,12 @@ GoalFollower::GoalFollower(ComponentHost& host, double blocked_after)
            .min = 0.0,
            .text =
                "Time without coming nearer to a point after which its goal is given up; 0: it never is."}),
+      lost_wait_(
+          *this, "lost_wait", 0.0,
+          {.unit = "s",
+           .min = 0.0,
+           .text = "Time for which a goal waits, and leaves the robot to other behaviours, while it is not "
+                   "known where the robot is; 0: it ends at once, or after 20 s if that was never known."}),
       height_(*this, "height", 0.0,
               {.unit = "m", .text = "Height (z) of the robot in the frame of the goals."}),
       door_run_up_(
@@ -144,14 +150,16 @@ void GoalFollower::follow_route(const Pose2& pose) {
   push_path(pose);
 }
 
-// Returns whether it is not known where the robot is. The route that it is on then ends: it would lead anywhere. If it was never known, the route
-// waits for some time: a localizer may have to find the robot first.
+// Returns whether it is not known where the robot is. The route that it is on would lead anywhere, so it ends, unless a localizer may find the
+// robot: at first, or if somebody looks around.
 bool GoalFollower::is_lost() {
   constexpr Duration kFound = 20s;
   if (!lost_) lost_at_.reset();
   if (!lost_) was_known_ = true;
   if (lost_ && !lost_at_) lost_at_ = now();
-  if (lost_ && !route_.empty() && (was_known_ || now() - *lost_at_ >= kFound))
+  const Duration unless_set = was_known_ ? Duration{0} : kFound;
+  const Duration wait = *lost_wait_ > 0.0 ? from_seconds(*lost_wait_) : unless_set;
+  if (lost_ && !route_.empty() && now() - *lost_at_ >= wait)
     end_route(idl::GOAL_UNANSWERED, "lost: it is not known any more where the robot is");
   return lost_;
 }
@@ -163,10 +171,11 @@ void GoalFollower::note_odometry(const idl::Odometry& odometry) {
   lost_ = lost_ || !localizer_.connected();
 }
 
-// Stands while nobody says where it is.
+// Stands while nobody says where it is, or lets others look around.
 void GoalFollower::wait_for_pose() {
   before_ = {};
-  motion_.push(route_.empty() ? dont_care() : full_stop());
+  const bool leaves_it = lost_ && *lost_wait_ > 0.0;
+  motion_.push(route_.empty() || leaves_it ? dont_care() : full_stop());
 }
 
 // Shows the way that is left, if it has changed or somebody has come who has not seen it.
@@ -288,6 +297,7 @@ void GoalFollower::note_pose(const idl::TimeValue& stamp, const std::array<doubl
   deviation_ = position_deviation(covariance);
   if (localizer_.connected() && lost_ != is_anywhere(covariance)) {
     lost_ = !lost_;
+    patience_.begin();
     forget_places();
   }
   const TimePoint time = to_time_point(stamp);

@@ -120,7 +120,9 @@ class Localizer final : public orca::Component {
     if (laser_.sources().empty() && sonar_.sources().empty())
       return orca::fail(orca::Code::failed_precondition,
                         "it senses nothing: connect its port \"laser\" or \"sonar\"");
-    localizer_.emplace(nullptr, random("particles"));
+    orca::nav::LocalizerOptions options;
+    options.searches = *searches_;
+    localizer_.emplace(nullptr, random("particles"), options);
     return start_place_->empty() ? orca::ok() : find_start();
   }
 
@@ -370,6 +372,13 @@ class Localizer final : public orca::Component {
                                         {.fixed = true,
                                          .text = "Place at which the robot starts, by its name; empty: it is "
                                                  "found, which needs a laser, or said."}};
+  orca::Param<bool> searches_{
+      *this,
+      "searches",
+      true,
+      {.fixed = true,
+       .text = "Whether it searches the whole map while it does not know where the robot is; otherwise "
+               "somebody must say it."}};
   orca::Param<double> range_{
       *this,
       "map_range",

@@ -163,6 +163,40 @@ TEST_CASE("Goto keeps a goal until it is known for the first time where the robo
   CHECK(drove);
 }
 
+TEST_CASE(
+    "Goto with lost_wait leaves a lost robot to others, drives on when it is found, and waits no longer",
+    "[testing][goto]") {
+  const auto be_lost = [](GotoPorts& test, int laps) {
+    for (int i = 0; i < laps; ++i) {
+      auto pose = test.pose.loan();
+      pose->covariance(anywhere());
+      test.pose.push(std::move(pose));
+      test.sleep(50ms);
+    }
+  };
+  std::vector<idl::MotionKind> kinds;
+  bool failed_early = true;
+  std::string reason;
+  try_component<GotoPorts>({.type = "orca.Goto", .params = {{"lost_wait", "5 s"}}}, [&](GotoPorts& test) {
+    send_goal(test, 2.0);
+    push_pose(test, 0.0);
+    test.sleep(50ms);
+    kinds.push_back(test.motion.latest()->kind());
+    be_lost(test, 80);
+    kinds.push_back(test.motion.latest()->kind());
+    push_pose(test, 0.0);
+    test.sleep(50ms);
+    kinds.push_back(test.motion.latest()->kind());
+    be_lost(test, 80);
+    failed_early = test.failed.new_data_arrived();
+    be_lost(test, 30);
+    reason = test.failed.get_update_wait()->reason();
+  });
+  CHECK(kinds == std::vector{idl::NORMAL, idl::DONTCARE, idl::NORMAL});
+  CHECK_FALSE(failed_early);
+  CHECK(reason == "lost: it is not known any more where the robot is");
+}
+
 TEST_CASE("Goto ends a goal as lost if it is not known within 20 s where the robot is", "[testing][goto]") {
   std::string reason;
   int until = 0;  // [0.1 s]

@@ -62,6 +62,7 @@ struct LocalizerOptions {
   double apart = 0.02;       ///< [1] shares that differ by less say nothing.
   double evidence =
       80.0;  ///< [1/1] logarithm of the odds by each share that a place explains more of a scan than another.
+  bool searches = true;         ///< Whether it searches the whole map for other places when it doubts.
   std::size_t looks = 4000000;  ///< values of the map that are looked up for a search, with each scan.
   MatchOptions match{.error = 0.03, .together = 10.0};
   ParticleOptions particles;

@@ -55,6 +55,8 @@ struct Situation {
   double goal_distance = std::numeric_limits<double>::infinity();  ///< [m] to the goal, if known.
   double goal_reach = 0.0;   ///< [m] from the goal at which it counts as reached, if known.
   bool passes_goal = false;  ///< Whether the goal is a point on the way, where the robot does not stop.
+  Vec2 place = {};           ///< [m] Of the robot, in the frame of `heading`; the origin if it does not know.
+  bool is_heeded = true;     ///< Whether anybody takes the advice.
 };
 
 /// The advice to a robot: nothing, or to drive in a direction or along an arc.
@@ -65,6 +67,8 @@ struct Advice {
   double urgency = 0.0;    ///< [0, 1] 0 at safe_distance, 1 at stop_distance.
   /// [rad/s] if given, the robot turns at this rate; the direction gives the side only.
   std::optional<double> turn_rate = {};
+  /// Whether the echoes are to be forgotten: the robot may be elsewhere now.
+  bool forgets = false;
 };
 
 /// Returns how far [m] the robot can go straight in a direction before its body, with margin, touches an

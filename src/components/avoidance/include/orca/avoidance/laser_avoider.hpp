@@ -24,6 +24,8 @@ class LaserAvoider : public Avoider {
         false;  ///< The shape of what is near, not only its nearest points: a body turns its corners past it.
     double time =
         4.0;  ///< [s] The default for how long. A laser invents no echoes: one that it saw once counts for as long as others.
+    double range =
+        0.0;  ///< [m] from the robot's centre; echoes nearer than this are kept even if they change no advice.
   };
   explicit LaserAvoider(ComponentHost& host) : LaserAvoider(host, Memory()) {}
   LaserAvoider(ComponentHost& host, Memory memory);

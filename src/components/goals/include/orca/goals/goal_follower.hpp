@@ -128,6 +128,7 @@ class GoalFollower : public Component {
   PushProxy<idl::RobotPose> localizer_;
 
   Param<double> blocked_after_;
+  Param<double> lost_wait_;
   Param<double> height_;
   Param<double> door_run_up_;
   Param<double> door_room_;
