@@ -329,6 +329,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
   for (const auto& [name, size] : {std::pair{"avoid_office", "13 variants, 4 worlds, 10 seeds: 520 runs"},
                                    std::pair{"dead_ends", "8 variants, 40 worlds, 1 seed: 320 runs"},
                                    std::pair{"posts_and_offices", "6 variants, 80 worlds, 1 seed: 480 runs"},
+                                   std::pair{"lost", "3 variants, 21 worlds, 10 seeds: 630 runs"},
                                    std::pair{"meeting", "4 variants, 2 worlds, 20 seeds: 160 runs"},
                                    std::pair{"people", "6 variants, 3 worlds, 12 seeds: 216 runs"},
                                    std::pair{"radio", "4 variants, 1 world, 10 seeds: 40 runs"},
