@@ -378,3 +378,24 @@ TEST_CASE("low and overhanging things that one of two lasers sees stop a robot b
     CHECK_FALSE(drive(folder, element, courier + Words{"--profile", "none"}).contacts().empty());
   }
 }
+
+TEST_CASE("a gate without the robot's file, or with nothing to see with, is refused before anything starts",
+          "[system][gate]") {
+  const TempFolder folder;
+  const auto errors_without = [&](const std::string& element) {
+    std::string text = text_in(system_graph("sudden.xml"));
+    const std::size_t at = text.find(element, text.find("<profile name=\"gate\">"));
+    REQUIRE(at != std::string::npos);
+    text.erase(at, element.size());
+    const Run run = run_deployer(Words{folder.write("graph.xml", text), "--check", "--set",
+                                       "robot=" + source_file("sim/robots/pioneer_2dx.urdf"), "--set",
+                                       "world=" + folder.write("world.xml", hall(""))});
+    CHECK(run.exit_code() == 2);
+    return run.err;
+  };
+  const std::string file = errors_without("<param name=\"robot\" value=\"${robot}\"/>");
+  CHECK(file.find("parameter \"robot\": it knows no body without the robot's file") != std::string::npos);
+  const std::string laser =
+      errors_without("<connect from=\"laser.LaserRangeReadingsPush\" to=\"gate.lasers\"/>");
+  CHECK(laser.find("connect its port lasers or its port sonars") != std::string::npos);
+}

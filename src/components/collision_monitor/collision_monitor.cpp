@@ -60,6 +60,8 @@ class CollisionMonitor final : public orca::Component {
   };
 
   Status configure() override {
+    if (robot_->empty())
+      return robot_.refuse("it knows no body without the robot's file; give the one that the hardware has");
     auto machine = orca::gate::Machine::read(*robot_);
     if (!machine) return robot_.refuse(machine.error());
     machine_ = std::move(*machine);
