@@ -69,8 +69,8 @@ GridSearch::GridSearch(SearchRules rules)
     : rules_(rules), shift_(std::bit_width(rules.straight * kPlainCost) - 1) {}
 
 CellWay GridSearch::operator()(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell start,
-                               Cell goal) {
-  const Task task{lattice, costs, goal};
+                               Cell goal, std::span<const std::uint8_t> forbidden) {
+  const Task task{lattice, costs, goal, forbidden};
   begin(costs.size());
   turn_ = least_cost(start, goal) >> shift_;
   open(task, start, 0, kStart);
@@ -96,7 +96,7 @@ CellWay GridSearch::operator()(const Lattice& lattice, std::span<const std::uint
 
 void GridSearch::flood(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell goal, Cell start,
                        std::uint32_t beyond) {
-  const Task task{lattice, costs, start, true};
+  const Task task{lattice, costs, start, {}, true};
   begin(costs.size());
   turn_ = 0;
   open(task, goal, 0, kStart);
@@ -162,7 +162,8 @@ void GridSearch::expand(const Task& task, Cell cell, std::size_t index) {
   const std::array<std::uint16_t, 8> around = costs_around(task.lattice, task.costs, cell);
   const std::uint32_t here = std::max(task.costs[index], kPlainCost);
   const std::uint32_t so_far = nodes_[index].cost;
-  const bool level = !rules_.ordered && std::ranges::all_of(around, [&](auto cost) { return cost == here; });
+  const bool level = !rules_.ordered && task.forbidden.empty() &&
+                     std::ranges::all_of(around, [&](auto cost) { return cost == here; });
   const std::uint32_t ways = level ? natural_directions(nodes_[index].mark & kDirectionBits) : 0xFF;
   for (std::size_t i = 0; i < kDirections.size(); ++i) {
     if (around[i] == 0 || (ways >> i & 1U) == 0) continue;
@@ -170,8 +171,11 @@ void GridSearch::expand(const Task& task, Cell cell, std::size_t index) {
     // A diagonal lies between the direction of its own number and the next one.
     if (diagonal && (around[i - kDiagonals] == 0 || around[(i + 1) % kDiagonals] == 0)) continue;
     const std::uint32_t length = diagonal ? rules_.diagonal : rules_.straight;
-    open(task, {cell.column + kDirections[i].column, cell.row + kDirections[i].row},
-         so_far + length * (here + around[i]) / 2, static_cast<std::uint32_t>(i));
+    const Cell next{cell.column + kDirections[i].column, cell.row + kDirections[i].row};
+    if (!task.forbidden.empty() &&
+        ((task.forbidden[index] | task.forbidden[task.lattice.index(next)]) >> i & 1U) != 0)
+      continue;
+    open(task, next, so_far + length * (here + around[i]) / 2, static_cast<std::uint32_t>(i));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
+#include "orca/navigation/floor_rules.hpp"
 
 namespace orca::nav {
 namespace {
@@ -47,9 +48,11 @@ void append(std::vector<WayPiece>& way, const WayPiece& piece) {
 }  // namespace
 
 void HybridPlanner::look_at(const OccupancyMap& map, const Footprint& footprint,
-                            std::span<const std::uint16_t> costs, double radius, double margin) {
+                            std::span<const std::uint16_t> costs, std::span<const std::uint8_t> forbidden,
+                            double radius, double margin) {
   outline_.look_at(map, footprint, margin);
   costs_.assign(costs.begin(), costs.end());
+  forbidden_.assign(forbidden.begin(), forbidden.end());
   radius_ = radius;
   // Each leads out of its cell, and turns by whole headings.
   const double one = radius * kHeadingStep;
@@ -140,8 +143,34 @@ bool HybridPlanner::drive(Node& node, const Primitive& primitive, Vec2 axis) con
     if (now > node.touched) return false;
     node.touched = now;
   }
+  if (!obeys(node.pose, primitive.piece.length, node.touched)) return false;
   node.pose.yaw = wrapped(node.pose.yaw);
-  return outline_.lattice().holds(outline_.lattice().cell_at(node.pose.position()));
+  return true;
+}
+
+// Returns whether a robot whose outline touches nothing may be there, and go that way. Closed cells are those of a rule: where the outline's
+// own circle closes them it touches something.
+bool HybridPlanner::obeys(const Pose2& pose, double way, int touched) const {
+  const Lattice& lattice = outline_.lattice();
+  const Cell cell = lattice.cell_at(pose.position());
+  if (!lattice.holds(cell)) return false;
+  const std::size_t index = lattice.index(cell);
+  if (costs_[index] == 0 && touched == 0) return false;
+  return forbidden_.empty() || forbidden_[index] == 0 ||
+         (forbidden_[index] & direction_bit((way < 0.0 ? -1.0 : 1.0) * direction(pose.yaw))) == 0;
+}
+
+// Returns whether a way that begins at a pose is free and obeys the rules.
+bool HybridPlanner::may_drive(Pose2 pose, std::span<const WayPiece> way) const {
+  if (!outline_.may_drive(pose, way, kTryEvery)) return false;
+  for (const WayPiece& piece : way) {
+    const int parts = std::max(1, static_cast<int>(std::fabs(piece.length) / outline_.lattice().side));
+    for (int i = 0; i < parts; ++i) {
+      pose = driven(pose, piece, piece.length / parts);
+      if (!obeys(pose, piece.length, outline_.touched(pose))) return false;
+    }
+  }
+  return true;
 }
 
 // Returns the cost of a piece that ends there, or begins.
@@ -206,7 +235,7 @@ void HybridPlanner::try_end(std::uint32_t number) {
     last = piece.length;
   }
   if (best_ && best_->cost <= cost) return;
-  if (outline_.touched(pose) > 0 || !outline_.may_drive(node.pose, end, kTryEvery)) return;
+  if (outline_.touched(pose) > 0 || !may_drive(node.pose, end)) return;
   best_ = Candidate{number, end, cost};
 }
 
@@ -234,7 +263,7 @@ std::vector<WayPiece> HybridPlanner::shortened(const Pose2& start, const std::ve
       const std::size_t end = std::min(i + step, way.size());
       std::vector<WayPiece> direct = shortest_way(poses[i], poses[end], radius_);
       const bool shorter = length_of(direct) < so_far[end] - so_far[i] - kSaves;
-      if (shorter && outline_.may_drive(poses[i], direct, kTryEvery)) {
+      if (shorter && may_drive(poses[i], direct)) {
         taken = std::move(direct);
         next = end;
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/navigation/floor_rules.hpp"
 
 namespace orca::nav {
 namespace {
@@ -80,11 +81,14 @@ double Path::nearest(Vec2 point, double from, double to) const {
   return best;
 }
 
-double cost_of_line(const Lattice& lattice, std::span<const std::uint16_t> costs, Vec2 from, Vec2 to) {
+double cost_of_line(const Lattice& lattice, std::span<const std::uint16_t> costs, Vec2 from, Vec2 to,
+                    std::span<const std::uint8_t> forbidden) {
+  const std::uint8_t bit = forbidden.empty() ? std::uint8_t{0} : direction_bit(to - from);
   double sum = 0.0;
   int count = 0;
   const bool passable = walk_line(lattice, from, to, [&](Cell cell) {
     if (!lattice.holds(cell) || costs[lattice.index(cell)] == 0) return false;
+    if (!forbidden.empty() && (forbidden[lattice.index(cell)] & bit) != 0) return false;
     sum += costs[lattice.index(cell)];
     ++count;
     return true;
@@ -93,13 +97,13 @@ double cost_of_line(const Lattice& lattice, std::span<const std::uint16_t> costs
 }
 
 std::vector<Vec2> straightened(const Lattice& lattice, std::span<const std::uint16_t> costs,
-                               const CellWay& way) {
+                               const CellWay& way, std::span<const std::uint8_t> forbidden) {
   const std::vector<double> so_far = costs_so_far(lattice, costs, way);
   std::vector<Vec2> line{lattice.middle_of(way.cells.front())};
   for (std::size_t i = 0; i + 1 < way.cells.size();) {
     std::size_t end = i + 1;
     while (end + 1 < way.cells.size() &&
-           cost_of_line(lattice, costs, line.back(), lattice.middle_of(way.cells[end + 1])) <=
+           cost_of_line(lattice, costs, line.back(), lattice.middle_of(way.cells[end + 1]), forbidden) <=
                so_far[end + 1] - so_far[i])
       ++end;
     line.push_back(lattice.middle_of(way.cells[end]));
@@ -109,7 +113,7 @@ std::vector<Vec2> straightened(const Lattice& lattice, std::span<const std::uint
 }
 
 Path rounded(const Lattice& lattice, std::span<const std::uint16_t> costs, std::span<const Vec2> line,
-             double spacing, int rounds) {
+             double spacing, int rounds, std::span<const std::uint8_t> forbidden) {
   std::vector<Vec2> points = cut(line, spacing);
   const auto cost_at = [&](Vec2 point) {
     const Cell cell = lattice.cell_at(point);
@@ -119,7 +123,10 @@ Path rounded(const Lattice& lattice, std::span<const std::uint16_t> costs, std::
     for (std::size_t i = 1; i + 1 < points.size(); ++i) {
       const Vec2 moved = 0.5 * points[i] + 0.25 * (points[i - 1] + points[i + 1]);
       const std::uint16_t cost = cost_at(moved);
-      if (cost != 0 && cost <= std::max(cost_at(points[i]), kPlainCost)) points[i] = moved;
+      if (cost == 0 || cost > std::max(cost_at(points[i]), kPlainCost)) continue;
+      if (forbidden.empty() || (cost_of_line(lattice, costs, points[i - 1], moved, forbidden) < kImpassable &&
+                                cost_of_line(lattice, costs, moved, points[i + 1], forbidden) < kImpassable))
+        points[i] = moved;
     }
   return Path(points);
 }

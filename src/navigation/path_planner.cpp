@@ -82,11 +82,17 @@ void PathPlanner::look_at(const OccupancyMap& map, const Footprint& footprint, c
     if (distance < inner - kSlack * lattice.side) cost_by_distance_[i] = 0;
   }
   costs_.resize(lattice.size());
+  forbidden_.clear();
   const std::uint16_t unknown = as_cost(wishes.unknown_cost) - kPlainCost;
   for (std::size_t i = 0; i < costs_.size(); ++i) {
     const std::uint16_t cost = cost_at(distances_[i]);
     costs_[i] = cost == 0 || map.known(i) ? cost : static_cast<std::uint16_t>(cost + unknown);
   }
+}
+
+void PathPlanner::obey(const Lattice& lattice, const FloorRules& rules, Vec2 robot) {
+  rules.apply(lattice, robot, costs_);
+  forbidden_ = rules.forbidden(lattice);
 }
 
 std::uint16_t PathPlanner::cost_at(std::int32_t squared_distance) const {
@@ -100,12 +106,13 @@ Plan PathPlanner::plan(const OccupancyMap& map, Vec2 start, Vec2 goal) {
   const Cell to = goal_within(lattice, start, goal);
   open_around(map, from);
   for (int attempt = 1;; ++attempt) {
-    const CellWay way = search_(lattice, costs_, from, to);
-    std::vector<Vec2> line = straightened(lattice, costs_, way);
+    const CellWay way = search_(lattice, costs_, from, to, forbidden_);
+    std::vector<Vec2> line = straightened(lattice, costs_, way, forbidden_);
     line.front() = start;
     const bool complete = way.complete && to == lattice.cell_at(goal);
     if (complete) line.back() = goal;
-    Plan plan{lined_up(map, footprint_, rounded(lattice, costs_, line, kSpacing, kRounds)), 0.0, complete};
+    Plan plan{lined_up(map, footprint_, rounded(lattice, costs_, line, kSpacing, kRounds, forbidden_)), 0.0,
+              complete};
     const double touch = first_touch(map, plan.path, kOwnPlace);
     if (touch < 0.0 || attempt == kTries) {
       plan.complete = plan.complete && touch < 0.0;
@@ -124,7 +131,10 @@ void PathPlanner::open_around(const OccupancyMap& map, Cell start) {
     for (int column = start.column - reach; column <= start.column + reach; ++column) {
       const Cell cell{column, row};
       if (!lattice.holds(cell) || costs_[lattice.index(cell)] != 0 || map.occupied(cell)) continue;
-      if (distances_[lattice.index(cell)] >= distances_[lattice.index(start)])
+      const bool is_near =
+          distances_[lattice.index(cell)] <
+          footprint_.inner_radius() * footprint_.inner_radius() / (lattice.side * lattice.side);
+      if (is_near && distances_[lattice.index(cell)] >= distances_[lattice.index(start)])
         costs_[lattice.index(cell)] = kEscapeCost;
     }
 }
@@ -168,6 +178,7 @@ double PathPlanner::cost_of(const OccupancyMap& map, const Path& path, double fr
 bool KeptPlan::renew(const Facts& facts) {
   constexpr double kBetter = 0.92;  // A new path must cost less than that share of the old one.
   planner_.look_at(facts.map, facts.footprint, facts.wishes);
+  if (facts.rules != nullptr) planner_.obey(facts.map.lattice(), *facts.rules, facts.robot);
   Plan plan = planner_.plan(facts.map, facts.robot, facts.place);
   const bool keeps = !plan_.path.empty() && plan_.complete && !facts.blocked &&
                      norm(plan_.path.at(facts.along) - facts.robot) < kAside &&

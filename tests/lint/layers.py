@@ -104,7 +104,7 @@ LAYERS = (
     Layer("avoidance", ("src/components/avoidance",), ("orca/avoidance/",),
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
-    Layer("planning", ("src/components/planning",), ("orca/planning/",), ("navigation", "geometry_objects", "geometry", *COMPONENT)),
+    Layer("planning", ("src/components/planning",), ("orca/planning/",), ("navigation", "xml", "geometry_objects", "geometry", *COMPONENT)),
     Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "navigation", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The planner in its parts: WorldModel, PathPlanner and Pilot, as the graph that ships with them connects them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -100,6 +101,28 @@ TEST_CASE(
     CHECK(run.arrivals().size() == 1);
     CHECK(run.contacts().empty());
   }
+}
+
+TEST_CASE("a layer makes robots drive slowly before the kitchen, and they still arrive",
+          "[system][planner][parts]") {
+  const TempFolder folder;
+  const std::string csv = folder.path() / "pose.csv";
+  const auto fastest_before_kitchen = [&](const Words& more) {
+    const Run run = drive(more + Words{"--record", csv + "=localizer.RobotPosePush"});
+    INFO(run.out << run.err);
+    CHECK(run.arrivals().size() == 3);
+    CHECK(run.contacts().empty());
+    const std::vector<double> x = column(csv, "x"), y = column(csv, "y");
+    const std::vector<double> speed = column(csv, "translational_velocity");
+    double most = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (x[i] > 2.7 && x[i] < 4.5 && y[i] > 5.2 && y[i] < 6.8) most = std::max(most, speed[i]);
+    return most;
+  };
+  CHECK(fastest_before_kitchen({}) > 0.4);
+  CHECK(fastest_before_kitchen({"--set", "layer=" + source_file("sim/layers/office.xml")}) < 0.35);
+  CHECK(fastest_before_kitchen({"--set", "layer=" + source_file("sim/layers/office.xml"), "--set",
+                                "turning_radius=0.5 m"}) < 0.35);
 }
 
 TEST_CASE("without one of the parts the robot stays where it is", "[system][planner][parts][ablation]") {

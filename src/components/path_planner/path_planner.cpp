@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "orca/navigation/path_planner.hpp"
 #include "orca/planning/asked_robot.hpp"
 #include "orca/planning/floor.hpp"
+#include "orca/planning/layer_file.hpp"
 
 namespace {
 
@@ -36,6 +38,11 @@ class PathPlanner final : public orca::Component {
  private:
   orca::Status configure() override {
     lap_on("localizer");
+    if (!layer_->empty()) {
+      orca::Result<orca::nav::FloorRules> rules = orca::planning::read_layer(*layer_);
+      if (!rules) return layer_.refuse(rules.error().message);
+      rules_ = std::move(*rules);
+    }
     return robot_.check();
   }
 
@@ -107,14 +114,17 @@ class PathPlanner final : public orca::Component {
     if (!map.lattice().holds(map.lattice().cell_at(robot))) return false;
     const orca::nav::Path& path = kept_.plan().path;
     const double along = path.empty() ? 0.0 : path.nearest(robot, 0.0, path.length());
-    return kept_.renew({map, footprint(), wishes_, robot, to.place, along, false});
+    const orca::nav::FloorRules rules = rules_.in(inverse(floor_.X_WM()));
+    return kept_.renew({map, footprint(), wishes_, robot, to.place, along, false, &rules});
   }
 
   // A way of a robot that steers is kept as long as it is free and the robot is on it.
   bool renew_steered(const orca::nav::OccupancyMap& map, const SteeredGoal& to, bool other) {
     const Pose2 robot = robot_in_map();
     costs_.look_at(map, footprint(), wishes_);
-    hybrid_.look_at(map, footprint(), costs_.costs(), kEasier * *turning_radius_, kMargin);
+    costs_.obey(map.lattice(), rules_.in(inverse(floor_.X_WM())), robot.position());
+    hybrid_.look_at(map, footprint(), costs_.costs(), costs_.forbidden(), kEasier * *turning_radius_,
+                    kMargin);
     if (!other && is_still_free(robot)) return false;
     steered_ = hybrid_.plan(robot, to);
     steered_from_ = robot;
@@ -220,8 +230,16 @@ class PathPlanner final : public orca::Component {
       "replan_every",
       0.5,
       {.unit = "s", .min = 0.05, .text = "Time after which it looks for a better path."}};
+  orca::Param<std::string> layer_{
+      *this,
+      "layer",
+      "",
+      {.file = true,
+       .fixed = true,
+       .text = "File of zones to keep out of, slow zones and lanes; empty: there are none."}};
 
   orca::planning::Floor floor_;
+  orca::nav::FloorRules rules_;  // in the frame of the goals
   orca::nav::PlanWishes wishes_;
   orca::nav::KeptPlan kept_{orca::nav::kShortest};
   orca::nav::PathPlanner costs_{orca::nav::kShortest};

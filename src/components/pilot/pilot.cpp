@@ -12,6 +12,7 @@
 #include "orca/navigation/path_driver.hpp"
 #include "orca/planning/asked_robot.hpp"
 #include "orca/planning/floor.hpp"
+#include "orca/planning/layer_file.hpp"
 
 namespace {
 
@@ -68,6 +69,11 @@ class Pilot final : public orca::go::GoalFollower {
   static constexpr double kSame = 0.05;          // [m]
 
   Status configure() override {
+    if (!layer_->empty()) {
+      orca::Result<orca::nav::FloorRules> rules = orca::planning::read_layer(*layer_);
+      if (!rules) return layer_.refuse(rules.error().message);
+      rules_ = std::move(*rules);
+    }
     const Status sound = robot_.check();
     return sound.ok() ? GoalFollower::configure() : sound;
   }
@@ -195,18 +201,35 @@ class Pilot final : public orca::go::GoalFollower {
     const Stretch& stretch = stretches_[at_];
     const Vec2 end = stretch.path.points().back();
     const bool passes = target.via && at_ + 1 == stretches_.size() && norm(end - target.place) < kSame;
+    const double limit = speed_limit(stretch.path, moment.pose);
+    orca::nav::Pursuit manner = pursuit();
+    manner.max_speed = std::min(manner.max_speed, limit);
     Moment facing = moment;
     if (stretch.backwards) {  // as one that looks the other way would drive
       facing.pose.yaw = orca::wrapped(facing.pose.yaw + std::numbers::pi);
       facing.twist = {-moment.twist.forward, -moment.twist.left, moment.twist.turn_rate};
     }
     Steer steer =
-        driver_->follow_path(stretch.path, facing, pursuit(), passes ? *max_speed_ : 0.0, kPatience);
+        driver_->follow_path(stretch.path, facing, manner, passes ? manner.max_speed : 0.0, kPatience);
     if (stretch.backwards) steer.speed = -steer.speed;
     command(steer);
     double left = -driver_->along();
     for (std::size_t i = at_; i < stretches_.size(); ++i) left += stretches_[i].path.length();
     note_plan(left);
+  }
+
+  // Returns the speed from which the robot can be as slow as each slow zone ahead demands when it gets there [m/s].
+  [[nodiscard]] double speed_limit(const orca::nav::Path& path, const Pose2& pose) const {
+    constexpr double kStep = 0.1;  // [m]
+    double limit = rules_.speed_at(pose.position()).value_or(*max_speed_);
+    const double brakes = deceleration();
+    const double reach = 0.5 * limit * limit / brakes + 2.0 * kStep + *max_speed_ * pursuit().delay;
+    for (double way = 0.0; way < reach; way += kStep) {
+      const auto there = rules_.speed_at(path.at(driver_->along() + way));
+      const double free = std::max(0.0, way - kStep - *max_speed_ * pursuit().delay);
+      if (there) limit = std::min(limit, std::sqrt(*there * *there + 2.0 * brakes * free));
+    }
+    return limit;
   }
 
   // Returns whether the path is as good as driven.
@@ -268,8 +291,16 @@ class Pilot final : public orca::go::GoalFollower {
       {.unit = "m",
        .min = 0.0,
        .text = "Radius of the smallest circle that the robot drives; 0: it can turn on the spot."}};
+  orca::Param<std::string> layer_{
+      *this,
+      "layer",
+      "",
+      {.file = true,
+       .fixed = true,
+       .text = "File of slow zones, the same as PathPlanner has; empty: there are none."}};
 
   orca::planning::Floor floor_;
+  orca::nav::FloorRules rules_;                  // in the frame of the goals
   std::optional<orca::nav::PathDriver> driver_;  // from when the outline is known
   std::vector<Stretch> stretches_;
   std::size_t at_ = 0;  // the stretch that it drives on

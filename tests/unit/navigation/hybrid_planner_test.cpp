@@ -24,7 +24,7 @@ constexpr double kMargin = 0.015;
 struct Trial {
   explicit Trial(FloorGrid floor) : grid(std::move(floor)), map(grid), paths(kShortest) {
     paths.look_at(map, kCar, {});
-    planner.look_at(map, kCar, paths.costs(), kRadius, kMargin);
+    planner.look_at(map, kCar, paths.costs(), {}, kRadius, kMargin);
   }
   FloorGrid grid;
   OccupancyMap map;

@@ -58,7 +58,7 @@ class Trial {
  public:
   explicit Trial(FloorGrid floor) : grid_(std::move(floor)), map_(grid_) {
     paths_.look_at(map_, kPioneer, {});
-    planner_.look_at(map_, kPioneer, paths_.costs(), kRadius, kMargin);
+    planner_.look_at(map_, kPioneer, paths_.costs(), {}, kRadius, kMargin);
   }
 
   // Returns a start and a goal between which A* finds a way. Their directions are random, or those of that way.

@@ -50,8 +50,9 @@ class GridSearch {
   /// the goal is least, and of these, if ordered, to the cheapest.
   /// @param costs  of each cell, at least kPlainCost; 0: not passable. The start may be impassable.
   /// @pre  the lattice holds start and goal; costs.size() = lattice.size() < 2^24; costs at most 2000; the way costs less than 2^32.
+  /// @param forbidden  of each cell the directions in which no step leads from or to it, as bits, see FloorRules; none: all may.
   [[nodiscard]] CellWay operator()(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell start,
-                                   Cell goal);
+                                   Cell goal, std::span<const std::uint8_t> forbidden = {});
 
   /// Finds what the cheapest way from each cell to `goal` costs, in the order of these costs, until it knows that of `start` and of all whose
   /// way costs at most `beyond` more.
@@ -77,6 +78,7 @@ class GridSearch {
     const Lattice& lattice;
     std::span<const std::uint16_t> costs;
     Cell goal;
+    std::span<const std::uint8_t> forbidden{};
     bool floods = false;  // to everywhere
   };
 

@@ -41,10 +41,11 @@ class HybridPlanner {
  public:
   /// Takes over a map.
   /// @param costs   of the cells, for GridSearch; see PathPlanner::costs().
+  /// @param forbidden  directions in which nobody may drive, for GridSearch; none: all are allowed.
   /// @param radius [m]  of the smallest circle that the robot drives.  @param margin [m]  kept free around the outline; from 1.5 cm on the
   ///                outline is free on all of the way, not only where it is tried.
   void look_at(const OccupancyMap& map, const Footprint& footprint, std::span<const std::uint16_t> costs,
-               double radius, double margin);
+               std::span<const std::uint8_t> forbidden, double radius, double margin);
 
   /// Plans a way. A robot whose outline touches something may leave that place, but never touch more.
   [[nodiscard]] SteeredPlan plan(const Pose2& start, const SteeredGoal& goal);
@@ -80,6 +81,8 @@ class HybridPlanner {
   void add(Node node, double left);
   [[nodiscard]] std::optional<double> left_from(const Node& node) const;
   [[nodiscard]] bool drive(Node& node, const Primitive& primitive, Vec2 axis) const;
+  [[nodiscard]] bool obeys(const Pose2& pose, double way, int touched) const;
+  [[nodiscard]] bool may_drive(Pose2 pose, std::span<const WayPiece> way) const;
   void try_end(std::uint32_t number);
   [[nodiscard]] std::vector<WayPiece> end_from(const Pose2& pose) const;
   [[nodiscard]] double cost_of(const Pose2& from, const WayPiece& piece) const;
@@ -90,6 +93,7 @@ class HybridPlanner {
   OutlineGrid outline_;
   GridSearch search_{kShortest};
   std::vector<std::uint16_t> costs_;
+  std::vector<std::uint8_t> forbidden_;
   double radius_ = 1.0;
   std::vector<Primitive> primitives_;
 

@@ -44,20 +44,24 @@ class Path {
 };
 
 /// Replaces parts of a way by straight lines through the cells, as far as these are not dearer than the way.
-/// @param costs  as for GridSearch.
+/// @param costs, forbidden  as for GridSearch.
 /// @return the ends of the lines: the middles of cells of the way.
 [[nodiscard]] std::vector<Vec2> straightened(const Lattice& lattice, std::span<const std::uint16_t> costs,
-                                             const CellWay& way);
+                                             const CellWay& way,
+                                             std::span<const std::uint8_t> forbidden = {});
 
 /// Rounds the bends of a line: it is cut into pieces of about `spacing` [m], and their inner ends move towards the middle of their
-/// neighbours, never into a cell that is dearer than the one before.
+/// neighbours, never into a cell that is dearer than the one before, nor so that a piece leads in a
+/// forbidden direction.
 /// @pre  `line` has a point; spacing > 0.
 [[nodiscard]] Path rounded(const Lattice& lattice, std::span<const std::uint16_t> costs,
-                           std::span<const Vec2> line, double spacing, int rounds);
+                           std::span<const Vec2> line, double spacing, int rounds,
+                           std::span<const std::uint8_t> forbidden = {});
 
-/// Returns the cost of a straight line through the cells, as GridSearch counts it; `kImpassable` if a cell is not passable.
+/// Returns the cost of a straight line through the cells, as GridSearch counts it; `kImpassable` if a cell is not passable, or not in this
+/// direction.
 [[nodiscard]] double cost_of_line(const Lattice& lattice, std::span<const std::uint16_t> costs, Vec2 from,
-                                  Vec2 to);
+                                  Vec2 to, std::span<const std::uint8_t> forbidden = {});
 inline constexpr double kImpassable = 1e300;
 
 }  // namespace orca::nav

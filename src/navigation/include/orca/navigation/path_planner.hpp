@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/navigation/distance_transform.hpp"
+#include "orca/navigation/floor_rules.hpp"
 #include "orca/navigation/footprint.hpp"
 #include "orca/navigation/grid_search.hpp"
 #include "orca/navigation/occupancy_map.hpp"
@@ -48,6 +49,10 @@ class PathPlanner {
   /// Computes distances and costs again from the map.
   void look_at(const OccupancyMap& map, const Footprint& footprint, const PlanWishes& wishes);
 
+  /// Takes account of rules that no sensor sees, until the next look_at().
+  /// @param robot  map frame, as the rules.
+  void obey(const Lattice& lattice, const FloorRules& rules, Vec2 robot);
+
   /// Plans a way. A goal outside of the map counts as the place of the map on the straight line to it.
   /// @pre  look_at() has been called with this map since it changed; the map holds `start`.
   [[nodiscard]] Plan plan(const OccupancyMap& map, Vec2 start, Vec2 goal);
@@ -59,6 +64,8 @@ class PathPlanner {
   /// Returns the costs of the cells, as look_at() has found them, for GridSearch. plan() changes those near the start, and in places where
   /// the outline would touch something.
   [[nodiscard]] std::span<const std::uint16_t> costs() const { return costs_; }
+  /// Returns the directions in which no step may lead, for GridSearch.
+  [[nodiscard]] std::span<const std::uint8_t> forbidden() const { return forbidden_; }
 
  private:
   void open_around(const OccupancyMap& map, Cell start);
@@ -72,6 +79,7 @@ class PathPlanner {
   Footprint footprint_;
   std::vector<std::uint8_t> obstacles_;
   std::vector<std::uint16_t> costs_;
+  std::vector<std::uint8_t> forbidden_;
   std::vector<std::uint16_t> cost_by_distance_;  // squared, in cells
   std::span<const std::int32_t> distances_;      // squared, in cells
 };
@@ -88,10 +96,11 @@ class KeptPlan {
     const OccupancyMap& map;
     const Footprint& footprint;
     const PlanWishes& wishes;
-    Vec2 robot;            ///< map frame, as the next.
-    Vec2 place;            ///< to plan for.
-    double along = 0.0;    ///< [m] place of the robot on the present path.
-    bool blocked = false;  ///< The present path leads nowhere.
+    Vec2 robot;                         ///< map frame, as the next.
+    Vec2 place;                         ///< to plan for.
+    double along = 0.0;                 ///< [m] place of the robot on the present path.
+    bool blocked = false;               ///< The present path leads nowhere.
+    const FloorRules* rules = nullptr;  ///< null: there are none.
   };
   /// Plans. The new plan replaces the present one if that one is not complete, leads nowhere, or lies aside of the robot, or if the new one is 8 % cheaper and
   /// leads another way.
