@@ -14,10 +14,11 @@ namespace {
 constexpr int kTop = ScanSearch::kLevels - 1;
 constexpr double kSide = ScanSearch::kSide;
 
-// Returns into how many directions the circle is divided, so that a point 12 m away, or the farthest one if that is nearer, moves by a cell
+// Returns into how many directions the circle is divided, so that a point 30 m away, or the farthest one if that is nearer, moves by a cell
 // and a half from one to the next. More of them take more time, and a score forgives some cells.
 int turns_of(std::span<const SurfacePoint> scan) {
-  constexpr double kFar = 12.0;  // [m]
+  constexpr double kFar =
+      30.0;  // [m] With 12 m a robot in a long corridor of the ACES building is found later.
   double farthest = 1.0;
   for (const SurfacePoint& point : scan) farthest = std::max(farthest, norm(point.at));
   farthest = std::min(farthest, kFar);
