@@ -53,7 +53,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_planner_parts", "", {"pilot"}},
     {"warehouse_scanner", "", {"planner"}},
     {"pioneer_localize", "", {"planner", "look_around"}},
-    {"pioneer_tasks", "", {"planner"}},
+    {"pioneer_tasks", "", {"pilot"}},
     {"scout_localize", "", {"goto", "avoid"}},
     {"pioneer_slam", "", {"walk", "avoid"}},
     {"calibrate", "", {"goto", "avoid"}},

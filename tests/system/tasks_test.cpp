@@ -67,6 +67,15 @@ TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]
   CHECK(run.contacts().empty());
 }
 
+TEST_CASE("a room with another door is reached by that", "[system][tasks]") {
+  const Run run =
+      Office{.events = shut(9.0, 5.0)}.run_task(R"(<Drive to="office_2_hall > office_2" within="120 s"/>)");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"office_2"});
+  CHECK(run.contacts().empty());
+}
+
 TEST_CASE("a task that nothing can save fails with its cause and its mission", "[system][tasks]") {
   const Run run = Office{.events = shut(3.6, 7.0)}.run_task(
       R"(<Drive to="library"/><Drive to="kitchen" within="20 s"/>)");
@@ -92,8 +101,8 @@ TEST_CASE("a robot that is carried off goes on when it has found itself, if the 
 }
 
 TEST_CASE("a robot that patrols goes to charge in time, and on from where it was", "[system][tasks]") {
-  const Office office{.events = R"(<drain robot="Pioneer" at="20 s" to="15 %"/>)"};
-  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "1500 s"};
+  const Office office{.events = R"(<drain robot="Pioneer" at="20 s" to="24 %"/>)"};
+  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "900 s"};
   const Run run = office.run(patrol);
   INFO(run.err);
   const Words reached = names(run);
@@ -109,21 +118,30 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const auto begin = text.find("<On when=\"battery");
   text.erase(begin, text.find("</On>", begin) + 5 - begin);
   const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="1 %"/>)"}.run(
-      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "1500 s"});
-  CHECK(bare.arrivals().back().t < 800.0);
+      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "500 s"});
+  CHECK(bare.arrivals().back().t < 350.0);
 }
 
-TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an operator",
-          "[system][tasks]") {
-  const TempFolder folder;
-  Subprocess program(
-      deployer(Words{source_file("graphs/pioneer_tasks.xml"), "--pace", "0"} + virtual_clock()));
-  for (int tries = 0; run_orcactl({"pace"}).exit_code() != 0; ++tries) {
-    REQUIRE(tries < 200);
-    std::this_thread::sleep_for(50ms);
+namespace {
+
+/// A run of a task that an operator steps through.
+struct Operated {
+  explicit Operated(const std::string& task)
+      : program(deployer(Words{source_file("graphs/pioneer_tasks.xml"), "--pace", "0", "--set",
+                               "task=" + source_file("graphs/tasks/" + task)} +
+                         virtual_clock())) {
+    for (int tries = 0; run_orcactl({"pace"}).exit_code() != 0; ++tries) {
+      REQUIRE(tries < 200);
+      std::this_thread::sleep_for(50ms);
+    }
   }
-  const auto now = [](const Words& order) {  // carried out while time passes
-    Subprocess asked(orcactl(order));
+
+  void step(const std::string& time) const {
+    REQUIRE(run_orcactl({"step", time}, Seconds(60)).exit_code() == 0);
+  }
+  // Gives an order, which is carried out while time passes.
+  Run order(const Words& words) const {
+    Subprocess asked(orcactl(words));
     std::this_thread::sleep_for(100ms);
     REQUIRE(run_orcactl({"pace", "4"}).exit_code() == 0);
     const Run done = finish(asked, Seconds(20));
@@ -131,17 +149,64 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
     CHECK(done.exit_code() == 0);
     REQUIRE(run_orcactl({"pause"}).exit_code() == 0);
     return done;
-  };
-  REQUIRE(run_orcactl({"step", "30s"}).exit_code() == 0);  // on the way to the library
-  CHECK_THAT(now({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out, Contains("orca.TaskTree/1"));
-  REQUIRE(run_orcactl({"step", "40s"}).exit_code() == 0);  // on the way to the office
-  now({"send", "task.TaskOrderSend", "<TaskOrder kind=\"TASK_ORDER_SKIP\"/>"});
-  REQUIRE(run_orcactl({"pace", "fast"}).exit_code() == 0);
-  const Run run = finish(program, Seconds(60));
+  }
+  Run to_the_end() {
+    REQUIRE(run_orcactl({"pace", "fast"}).exit_code() == 0);
+    return finish(program, Seconds(60));
+  }
+
+  Subprocess program;
+};
+
+}  // namespace
+
+TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an operator",
+          "[system][tasks]") {
+  Operated robot("tour.xml");
+  robot.step("30s");  // on the way to the library
+  CHECK_THAT(robot.order({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out,
+             Contains("orca.TaskTree/1"));
+  const std::string tree = robot.order({"tasks"}).out;
+  CHECK_THAT(tree, Contains("task: tour, on the way"));
+  CHECK_THAT(tree, Contains("done            Drive to=kitchen_hall > kitchen"));
+  CHECK_THAT(tree, Contains("now             Drive to=library_hall > library"));
+  robot.step("40s");  // on the way to the office
+  robot.order({"tasks", "skip"});
+  robot.order({"tasks", "pause"});
+  robot.step("60s");
+  CHECK_THAT(robot.order({"tasks"}).out, Contains("task: tour, paused"));
+  robot.order({"tasks", "resume"});
+  const Run run = robot.to_the_end();
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(names(run) == Words{"kitchen", "library", "start"});
+  CHECK(run.arrivals().back().t > 130.0);
   CHECK(run.says("skipped: Drive to=office_2_hall > office_2"));
+}
+
+TEST_CASE("a robot delivers a letter when people say that it is there and taken", "[system][tasks]") {
+  Operated robot("deliver.xml");
+  robot.step("40s");
+  CHECK_THAT(run_orcactl({"alarms"}).out, Contains("Please put the letter on me. Is it there?"));
+  robot.order({"tasks", "yes"});
+  robot.step("60s");
+  CHECK_THAT(run_orcactl({"alarms"}).out, Contains("Have you taken it?"));
+  robot.order({"tasks", "yes"});
+  const Run run = robot.to_the_end();
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"office_2", "kitchen", "start"});
+  CHECK(run.says("The letter is delivered."));
+}
+
+TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes back and says so",
+          "[system][tasks]") {
+  const Run run = Office{}.run({"--set", "task=" + source_file("graphs/tasks/deliver.xml")});
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(names(run) == Words{"office_2", "start"});
+  CHECK(run.says("Nobody answers. I ask again in a minute."));
+  CHECK(run.says("unanswered: \"Please put the letter on me. Is it there?\""));
 }
 
 TEST_CASE("all faults of a task file are reported with their places before the robot starts",

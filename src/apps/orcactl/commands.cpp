@@ -229,6 +229,15 @@ std::vector<Command> history_commands() {
        .text = "the alarms that nobody has acknowledged",
        .details = "An alarm stays until it is acknowledged, even if its source has been started again: "
                   "alarms ack N takes out the one with that number, alarms ack all takes out all."},
+      {.name = "tasks",
+       .arguments = {{"pause|resume|skip|end|begin|yes|no", Names::none, true},
+                     {"COMPONENT", Names::component, true}},
+       .options = {kTimeout},
+       .text = "the tasks with their steps, or an order to one",
+       .details = "pause lets the robot stand, and resume begins the step on the way again. skip takes that "
+                  "step for done, end "
+                  "takes the task for failed, begin begins it again. yes and no answer the question that a "
+                  "task asks."},
       {.name = "missions",
        .arguments = {{"MISSION", Names::none, true}},
        .text = "what happened in each mission, in order"},

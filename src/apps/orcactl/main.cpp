@@ -18,6 +18,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "recording.hpp"
 #include "tapping/tapping.hpp"
+#include "tasks.hpp"
 
 namespace {
 
@@ -26,11 +27,12 @@ namespace apps = orca::apps;
 
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
-  static const std::map<std::string_view, Way> ways{{"echo", tap},       {"hz", tap},
-                                                    {"latency", tap},    {"send", offer},
-                                                    {"query", offer},    {"names", print_names},
-                                                    {"record", record},  {"bag", handle_bag},
-                                                    {"map", handle_map}, {"calibrate", calibrate}};
+  static const std::map<std::string_view, Way> ways{{"echo", tap},          {"hz", tap},
+                                                    {"latency", tap},       {"send", offer},
+                                                    {"query", offer},       {"names", print_names},
+                                                    {"record", record},     {"bag", handle_bag},
+                                                    {"map", handle_map},    {"calibrate", calibrate},
+                                                    {"tasks", handle_tasks}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

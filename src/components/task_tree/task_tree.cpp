@@ -121,9 +121,7 @@ class TaskTree final : public orca::Component, private Actor {
     if (step.kind == Kind::ask) {
       asked_at_ = now();
       answer_.reset();
-      raise_alarm(kQuestion, orca::idl::ALARM_NOTICE,
-                  step.words + "; answer with: orcactl send " + name() +
-                      ".TaskOrderSend '<TaskOrder kind=\"TASK_ORDER_YES\"/>'");
+      raise_alarm(kQuestion, orca::idl::ALARM_NOTICE, step.words + "; answer with: orcactl tasks yes, or no");
       return std::nullopt;
     }
     return ending_of(mission_.begin(step.trip, step.time > 0.0 ? step.time : *goal_timeout_));
@@ -218,6 +216,13 @@ class TaskTree final : public orca::Component, private Actor {
     return orca::ok();
   }
 
+  orca::Result<orca::Loan<orca::idl::TaskState>> on_ask(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    auto state = orca::make_object<orca::idl::TaskState>();
+    fill(*state);
+    state->stamp(orca::to_time_value(now()));
+    return state;
+  }
+
   // Pushes the task if something of it has changed, or somebody has come who has not seen it.
   void show() {
     const bool is_new = state_.take_new_subscribers();
@@ -287,6 +292,8 @@ class TaskTree final : public orca::Component, private Actor {
       *this,
       "TaskStatePush",
       {.text = "The task, whenever something of it changes, and for a new subscriber."}};
+  orca::QueryServer<orca::idl::Ask, orca::idl::TaskState> shown_now_{
+      *this, "TaskStateQuery", &TaskTree::on_ask, {.text = "The task as it is now."}};
   orca::PushProxy<orca::idl::Battery> battery_{
       *this, "battery", {.text = "For conditions: the battery.", .optional = true}};
   orca::PushProxy<orca::idl::GripperState> gripper_{

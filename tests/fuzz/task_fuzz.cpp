@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any bytes give a task or errors. A task runs, whatever comes of its steps, and goes on from what is remembered of it.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
+#include "task.hpp"
+#include "task_run.hpp"
+
+namespace {
+
+using namespace orca::tasks;
+
+/// Whatever happens follows from numbers that depend on the text only.
+class Chance final : public Actor {
+ public:
+  explicit Chance(std::uint64_t seed) : state_(seed | 1U) {}
+
+  std::optional<Ending> begin(const Step& /*step*/) override {
+    if (active_) std::abort();  // there is one robot, and one question at a time is enough
+    active_ = true;
+    return ending();
+  }
+  std::optional<Ending> go_on(const Step& /*step*/) override {
+    if (!active_) std::abort();
+    return ending();
+  }
+  void halt(const Step& /*step*/) override {
+    if (!active_) std::abort();
+    active_ = false;
+  }
+  void say(const std::string& /*text*/) override {}
+  bool holds(const Condition& /*condition*/) override { return next() % 4 == 0; }
+
+ private:
+  std::uint64_t next() {
+    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
+    return state_ >> 33U;
+  }
+  std::optional<Ending> ending() {
+    const std::uint64_t chance = next() % 4;
+    if (chance < 2) return std::nullopt;
+    active_ = false;
+    return chance == 2 ? Ending{true, {}} : Ending{false, next() % 2 == 0 ? "blocked: x" : "lost: y"};
+  }
+
+  std::uint64_t state_;
+  bool active_ = false;
+};
+
+bool asks_beside_a_drive(const Task& task) {
+  for (const Step& step : task.steps)
+    if (step.kind == Kind::parallel) return true;
+  return false;
+}
+
+void run(const Task& task, std::uint64_t seed) {
+  if (task.steps.size() > 200 || asks_beside_a_drive(task)) return;
+  Chance actor(seed);
+  TaskRun first(task);
+  double time = 0.0;
+  for (int tick = 0;
+       tick < 100 && first.state() != TaskRun::State::done && first.state() != TaskRun::State::failed; ++tick)
+    first.tick(actor, time += 0.1);
+  if (first.memories().size() != task.steps.size()) std::abort();
+  if (first.state() == TaskRun::State::failed && first.memories()[0].reason.empty()) std::abort();
+  Chance other(seed);
+  TaskRun second(task);
+  second.go_on_from(first.memories(), first.last_failure());
+  for (int tick = 0; tick < 100 && second.state() == TaskRun::State::running; ++tick)
+    second.tick(other, time += 0.1);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<Sight> sights{{"battery", {"charge", "charging"}},
+                                         {"localization", {"state", "share"}}};
+  orca::xml::Diagnostics diagnostics;
+  const auto task =
+      read_task_text({reinterpret_cast<const char*>(data), size}, "fuzz.xml", sights, diagnostics);
+  if (task.has_value() == diagnostics.has_errors()) std::abort();
+  if (task) run(*task, size);
+  return 0;
+}
