@@ -18,18 +18,18 @@ class Chance final : public Actor {
  public:
   explicit Chance(std::uint64_t seed) : state_(seed | 1U) {}
 
-  std::optional<Ending> begin(const Step& /*step*/) override {
-    if (active_) std::abort();  // there is one robot, and one question at a time is enough
-    active_ = true;
-    return ending();
+  std::optional<Ending> begin(const Step& step) override {
+    if (on(step)) std::abort();  // there is one robot, and one question at a time
+    on(step) = true;
+    return ending(step);
   }
-  std::optional<Ending> go_on(const Step& /*step*/) override {
-    if (!active_) std::abort();
-    return ending();
+  std::optional<Ending> go_on(const Step& step) override {
+    if (!on(step)) std::abort();
+    return ending(step);
   }
-  void halt(const Step& /*step*/) override {
-    if (!active_) std::abort();
-    active_ = false;
+  void halt(const Step& step) override {
+    if (!on(step)) std::abort();
+    on(step) = false;
   }
   void say(const std::string& /*text*/) override {}
   bool holds(const Condition& /*condition*/) override { return next() % 4 == 0; }
@@ -39,25 +39,21 @@ class Chance final : public Actor {
     state_ = state_ * 6364136223846793005U + 1442695040888963407U;
     return state_ >> 33U;
   }
-  std::optional<Ending> ending() {
+  bool& on(const Step& step) { return step.kind == Kind::drive ? drives_ : asks_; }
+  std::optional<Ending> ending(const Step& step) {
     const std::uint64_t chance = next() % 4;
     if (chance < 2) return std::nullopt;
-    active_ = false;
+    on(step) = false;
     return chance == 2 ? Ending{true, {}} : Ending{false, next() % 2 == 0 ? "blocked: x" : "lost: y"};
   }
 
   std::uint64_t state_;
-  bool active_ = false;
+  bool drives_ = false;
+  bool asks_ = false;
 };
 
-bool asks_beside_a_drive(const Task& task) {
-  for (const Step& step : task.steps)
-    if (step.kind == Kind::parallel) return true;
-  return false;
-}
-
 void run(const Task& task, std::uint64_t seed) {
-  if (task.steps.size() > 200 || asks_beside_a_drive(task)) return;
+  if (task.steps.size() > 200) return;
   Chance actor(seed);
   TaskRun first(task);
   double time = 0.0;

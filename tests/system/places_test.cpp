@@ -93,11 +93,11 @@ TEST_CASE("a robot that says it has arrived where it is not is contradicted, in 
 
 TEST_CASE("a start that is no place of the world is refused", "[system][places]") {
   const Run run = run_deployer(Words{source_file("graphs/pioneer_laser_goto.xml"), "--profile", "sim",
-                                     "--profile", "odometry", "--set", "localizer.start_place=dock"} +
+                                     "--profile", "odometry", "--set", "localizer.start_place=harbour"} +
                                virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == kRefusedByComponent);
-  CHECK(run.says("\"dock\""));
+  CHECK(run.says("\"harbour\""));
   CHECK(run.says("start_place"));
 }
 

@@ -119,7 +119,10 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   text.erase(begin, text.find("</On>", begin) + 5 - begin);
   const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="1 %"/>)"}.run(
       {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "500 s"});
+  INFO(bare.err);
+  REQUIRE_FALSE(bare.arrivals().empty());
   CHECK(bare.arrivals().back().t < 350.0);
+  CHECK(bare.says("the time limit has ended the run"));
 }
 
 namespace {
@@ -206,7 +209,7 @@ TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes
   CHECK(run.exit_code() == 1);
   CHECK(names(run) == Words{"office_2", "start"});
   CHECK(run.says("Nobody answers. I ask again in a minute."));
-  CHECK(run.says("unanswered: \"Please put the letter on me. Is it there?\""));
+  CHECK(run.says("no answer: \"Please put the letter on me. Is it there?\""));
 }
 
 TEST_CASE("all faults of a task file are reported with their places before the robot starts",

@@ -127,7 +127,8 @@ std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double
   arrived_.subscribe();
   failed_.subscribe();
   if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
-  if (const Status found = find_places(drive_->trip); !found.ok())
+  if (const Status found = find_places(drive_->trip);
+      !found.ok() && found.error().code == Code::invalid_argument)
     return end(give_up(idl::GOAL_REFUSED, "refused: " + found.error().text()));
   const Status sent = send_due(time_limit);
   if (sent.ok() || may_come_back()) return std::nullopt;
@@ -195,6 +196,7 @@ TimePoint MissionProxy::last_moment() const {
 // Sends what Goto and the fuser need and do not have.
 // @param time_limit  [s] for Goto to reach the goal.
 Status MissionProxy::send_due(double time_limit) {
+  if (Status found = find_places(drive_->trip); !found.ok()) return found;
   const Trip& trip = drive_->trip;
   Outbox& outbox = drive_->outbox;
   outbox.note_restarts(goto_.server_restarts(), clients_.server_restarts());

@@ -87,7 +87,12 @@ class TaskReader {
   // There is one robot.
   void check_parallel(const Attributes& element, const std::vector<std::size_t>& branches) {
     const auto drivers =
-        std::ranges::count_if(branches, [this](std::size_t branch) { return drives(branch); });
+        std::ranges::count_if(branches, [this](std::size_t branch) { return holds(branch, Kind::drive); });
+    const auto asking =
+        std::ranges::count_if(branches, [this](std::size_t branch) { return holds(branch, Kind::ask); });
+    if (asking > 1)
+      element.error(codes::kTwoDrivers,
+                    "two branches of <Parallel> ask at the same time; an answer would be to both");
     if (drivers > 1)
       element.error(codes::kTwoDrivers, "two branches of <Parallel> drive the one robot at the same time");
     if (const auto need = element.integer("need"); need && *need > static_cast<std::int64_t>(branches.size()))
@@ -95,10 +100,10 @@ class TaskReader {
                        "there are " + std::to_string(branches.size()) + " branches only");
   }
 
-  [[nodiscard]] bool drives(std::size_t step) const {
+  [[nodiscard]] bool holds(std::size_t step, Kind kind) const {
     const Step& s = task_.steps[step];
-    return s.kind == Kind::drive ||
-           std::ranges::any_of(s.children, [this](std::size_t child) { return drives(child); });
+    return s.kind == kind ||
+           std::ranges::any_of(s.children, [&](std::size_t child) { return holds(child, kind); });
   }
 
   [[nodiscard]] bool takes_time(std::size_t step) const {

@@ -18,8 +18,9 @@ constexpr ValueRule kTime{
 constexpr ValueRule kTimes{.form = ValueRule::Form::integer, .min = 1, .max = 1e6};
 constexpr ValueRule kVersion{.form = ValueRule::Form::integer, .min = 1, .max = 1};
 constexpr std::array<std::string_view, 4> kWaysOn{"resume", "again", "done", "fail"};
-constexpr std::array<std::string_view, 8> kReasons{"any",  "blocked",   "refused", "timed_out",
-                                                   "lost", "cancelled", "undone",  "unanswered"};
+constexpr std::array<std::string_view, 12> kReasons{"any",      "blocked",   "refused", "timed_out",
+                                                    "lost",     "cancelled", "undone",  "unanswered",
+                                                    "answered", "no_answer", "unmet",   "interrupted"};
 constexpr ValueRule kThen{.choices = kWaysOn};
 constexpr ValueRule kReason{.choices = kReasons};
 

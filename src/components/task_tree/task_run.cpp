@@ -19,6 +19,22 @@ std::string seconds(double time) {
 // Returns what kind of failure a reason is: "blocked: no nearer ..." is "blocked".
 std::string kind_of_failure(const std::string& reason) { return reason.substr(0, reason.find(':')); }
 
+// Adds the leaves at which a step is. Those of what a handler has interrupted are not among them; an action that waits for the end
+// of a pause is.
+void collect(const Task& task, const std::vector<TaskRun::Memory>& memories, std::size_t step,
+             std::vector<std::size_t>& steps) {
+  const TaskRun::Memory& memory = memories[step];
+  const Step& s = task.steps[step];
+  const bool runs = memory.state == TaskRun::State::running;
+  if (s.children.empty()) {
+    if (runs || (is_action(s.kind) && memory.state == TaskRun::State::idle)) steps.push_back(step);
+  } else if (runs && s.kind == Kind::parallel) {
+    for (const std::size_t child : s.children) collect(task, memories, child, steps);
+  } else if (runs && memory.at < s.children.size()) {
+    collect(task, memories, s.children[memory.at], steps);
+  }
+}
+
 }  // namespace
 
 void TaskRun::tick(Actor& actor, double time) {
@@ -49,9 +65,12 @@ void TaskRun::end(Actor& actor, const std::string& reason) {
 
 std::vector<std::size_t> TaskRun::active() const {
   std::vector<std::size_t> steps;
-  for (std::size_t i = 0; i < memory_.size(); ++i)
-    if (memory_[i].state == State::running && task_.steps[i].children.empty()) steps.push_back(i);
+  collect(task_, memory_, 0, steps);
   return steps;
+}
+
+void TaskRun::delay(double time) {
+  for (Memory& memory : memory_) memory.since += time;
 }
 
 void TaskRun::go_on_from(std::vector<Memory> memories, std::string last_failure) {
@@ -159,7 +178,9 @@ TaskRun::State TaskRun::run_attempt(std::size_t step) {
   const auto& children = step_of(step).children;
   if (const std::size_t handler = watch(step); handler != 0) {
     pause(children[memory_[step].at]);
-    if (memory_[step].at != 0) memory_[children[memory_[step].at]].known = false;  // it is seen again
+    Memory& interrupted = memory_[children[memory_[step].at]];
+    if (memory_[step].at != 0) interrupted.known = false;                               // it is seen again,
+    if (step_of(children[memory_[step].at]).kind == Kind::caught) --interrupted.count;  // or caught again
     memory_[step].at = static_cast<std::uint32_t>(handler);
     reset(children[handler]);
     memory_[children[handler]].known = true;
@@ -208,7 +229,9 @@ TaskRun::State TaskRun::handled(std::size_t attempt, std::size_t handler) {
   const std::size_t tried = step_of(attempt).children[0];
   memory_[attempt].at = 0;
   switch (step.then) {
-    case Then::resume: revive(tried); return State::running;
+    case Then::resume:
+      if (step.kind == Kind::caught) revive(tried);  // what else has failed is caught again
+      return State::running;
     case Then::again: reset(tried); return State::running;
     case Then::done: return State::done;
     case Then::fail: break;
@@ -238,15 +261,12 @@ TaskRun::State TaskRun::run_leaf(std::size_t step) {
 }
 
 TaskRun::State TaskRun::run_action(std::size_t step) {
-  if (memory_[step].state == State::running) return conclude(step, actor_->go_on(step_of(step)));
-  memory_[step] = {.state = State::running, .since = time_};
-  return conclude(step, actor_->begin(step_of(step)));
-}
-
-TaskRun::State TaskRun::conclude(std::size_t step, const std::optional<Actor::Ending>& ending) {
+  const bool is_new = memory_[step].state != State::running;
+  if (is_new) memory_[step] = {.state = State::running, .since = time_};
+  const std::optional<Actor::Ending> ending =
+      is_new ? actor_->begin(step_of(step)) : actor_->go_on(step_of(step));
   if (!ending) return State::running;
-  if (!ending->done) return fail(step, ending->reason);
-  return memory_[step].state = State::done;
+  return ending->done ? memory_[step].state = State::done : fail(step, ending->reason);
 }
 
 TaskRun::State TaskRun::fail(std::size_t step, std::string reason) {

@@ -65,6 +65,8 @@ class TaskRun {
   /// Takes the step that is on the way for done.
   /// @return the step; nothing if none is.
   std::optional<std::size_t> skip(Actor& actor);
+  /// Takes note that nothing could go on for some time [s]: it counts for no step.
+  void delay(double time);
   /// Ends the task with a failure.
   void end(Actor& actor, const std::string& reason);
 
@@ -97,7 +99,6 @@ class TaskRun {
   State handled(std::size_t attempt, std::size_t handler);
   std::size_t catcher(std::size_t attempt, const std::string& reason) const;
 
-  State conclude(std::size_t step, const std::optional<Actor::Ending>& ending);
   State fail(std::size_t step, std::string reason);
   void pause(std::size_t step);
   void reset(std::size_t step);

@@ -135,7 +135,7 @@ class TaskTree final : public orca::Component, private Actor {
     }
     if (orca::to_seconds(now() - asked_at_) < step.time) return std::nullopt;
     clear_alarm(kQuestion, "nobody has answered");
-    return Ending{false, "unanswered: \"" + step.words + "\""};
+    return Ending{false, "no answer: \"" + step.words + "\""};
   }
 
   void halt(const Step& step) override {
@@ -175,9 +175,10 @@ class TaskTree final : public orca::Component, private Actor {
   }
 
   orca::Status on_order(const orca::ObjectPtr<orca::idl::TaskOrder>& order) {
+    if (!is_on()) return orca::fail(orca::Code::failed_precondition, "the task has ended");
     switch (order->kind()) {
       case orca::idl::TASK_ORDER_PAUSE: return pause();
-      case orca::idl::TASK_ORDER_RESUME: paused_ = false; break;
+      case orca::idl::TASK_ORDER_RESUME: resume_task(); break;
       case orca::idl::TASK_ORDER_SKIP: return skip();
       case orca::idl::TASK_ORDER_END: run_->end(*this, "ended: by \"" + order->origin() + "\""); break;
       case orca::idl::TASK_ORDER_BEGIN: return begin_anew();
@@ -188,9 +189,16 @@ class TaskTree final : public orca::Component, private Actor {
   }
 
   orca::Status pause() {
+    if (!paused_) paused_at_ = now();
     paused_ = true;
     run_->halt(*this);
     return orca::ok();
+  }
+
+  // The time of the pause counts for no step.
+  void resume_task() {
+    if (paused_) run_->delay(orca::to_seconds(now() - paused_at_));
+    paused_ = false;
   }
 
   orca::Status skip() {
@@ -211,7 +219,7 @@ class TaskTree final : public orca::Component, private Actor {
     const auto active = run_->active();
     const bool asks =
         std::ranges::any_of(active, [this](std::size_t step) { return task_.steps[step].kind == Kind::ask; });
-    if (!asks) return orca::fail(orca::Code::failed_precondition, "the task asks nothing now");
+    if (!asks || paused_) return orca::fail(orca::Code::failed_precondition, "the task asks nothing now");
     answer_ = yes;
     return orca::ok();
   }
@@ -259,7 +267,7 @@ class TaskTree final : public orca::Component, private Actor {
   void stop() override { mission_.stop(); }
 
   void save_state(orca::StateWriter& state) const override {
-    state.write(step_texts(), run_->memories(), run_->last_failure(), paused_);
+    state.write(step_texts(), run_->memories(), run_->last_failure(), paused_, paused_at_);
   }
 
   orca::Status load_state(orca::StateReader& state) override {
@@ -267,19 +275,22 @@ class TaskTree final : public orca::Component, private Actor {
     std::vector<TaskRun::Memory> memories;
     std::string last_failure;
     bool paused = false;
-    if (orca::Status read = state.read(texts, memories, last_failure, paused); !read.ok()) return read;
-    if (texts != step_texts()) {
+    orca::TimePoint paused_at{};
+    if (orca::Status read = state.read(texts, memories, last_failure, paused, paused_at); !read.ok())
+      return read;
+    if (texts != step_texts() || memories.size() != texts.size()) {
       log_warning("the task is another one than before, so it begins anew");
       return orca::ok();
     }
     run_->go_on_from(std::move(memories), std::move(last_failure));
     paused_ = paused;
+    paused_at_ = paused_at;
     return orca::ok();
   }
 
   [[nodiscard]] std::vector<std::string> step_texts() const {
     std::vector<std::string> texts;
-    for (const Step& step : task_.steps) texts.push_back(step.text);
+    for (const Step& step : task_.steps) texts.push_back(std::to_string(step.depth) + " " + step.text);
     return texts;
   }
 
@@ -316,6 +327,7 @@ class TaskTree final : public orca::Component, private Actor {
   std::vector<Watched> watched_;
   std::vector<orca::idl::Alarm> alarms_;  // of this lap
   bool paused_ = false;
+  orca::TimePoint paused_at_{};
   orca::TimePoint asked_at_{};
   std::optional<bool> answer_;
   std::string shown_;  // what has been pushed

@@ -115,6 +115,8 @@ const std::array kCases{
     Case{R"(<Drive to="a > door 1 2"/>)", "2:12: error K010", "door"},
     Case{R"(<Parallel><Drive to="a"/><Sequence><Drive to="b"/></Sequence></Parallel>)", "2:1: error K011",
          "one robot"},
+    Case{R"(<Parallel><Ask text="a" within="1 s"/><Ask text="b" within="1 s"/></Parallel>)",
+         "2:1: error K011", "both"},
     Case{R"(<Try><Wait for="1 s"/></Try>)", "2:1: error K012", "no <On>"},
     Case{R"(<Repeat times="2" for="1 s"><Wait for="1 s"/></Repeat>)", "2:24: error K012", "not both"},
     Case{R"(<Repeat><Say text="a"/></Repeat>)", "2:1: error K013", "no time"},

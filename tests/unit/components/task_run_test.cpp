@@ -240,6 +240,47 @@ TEST_CASE("of two handlers the first may interrupt the second, which is then don
                                  "begin a", "at a"});
 }
 
+TEST_CASE("a watching handler interrupts one that has caught a failure, which then is caught again",
+          "[components][tasks]") {
+  Run run(R"(<Try><Drive to="a"/>
+    <On when="alarm LOST" then="resume"><Say text="wait"/></On>
+    <Catch reason="any" then="done"><Drive to="home"/></Catch></Try>)");
+  run.actor.failures["a"] = {"blocked: x"};
+  run.actor.endless = {"home"};
+  run.tick(4);
+  run.actor.alarms = {"LOST"};
+  run.tick(3);
+  run.actor.endless.clear();
+  CHECK(run.to_the_end() == State::done);
+  CHECK(run.actor.log == Strings{"begin a", "begin home", "halt home", "say wait", "begin home", "at home"});
+}
+
+TEST_CASE("the step on the way is that of the handler, also to skip it", "[components][tasks]") {
+  Run run(
+      R"(<Try><Wait for="1 h"/><On when="alarm X" then="done"><Check when="alarm Y" within="1 h"/></On></Try>)");
+  run.actor.alarms = {"X"};
+  run.tick(2);
+  REQUIRE(run.run.active().size() == 1);
+  CHECK(run.task.steps[run.run.active()[0]].kind == Kind::check);
+  CHECK(run.run.skip(run.actor));
+  CHECK(run.to_the_end() == State::done);
+}
+
+TEST_CASE("a pause counts for no step, and its drive can be skipped", "[components][tasks]") {
+  Run run(R"(<Timeout after="10 s"><Drive to="a"/><Drive to="b"/></Timeout>)");
+  run.actor.endless = {"a", "b"};
+  run.tick(50);
+  run.run.halt(run.actor);
+  run.ticks += 600;
+  run.run.delay(60.0);
+  CHECK(run.task.steps[run.run.skip(run.actor).value()].trip.name == "a");
+  run.tick(40);
+  CHECK(run.run.state() == State::running);
+  CHECK(run.actor.log.back() == "begin b");
+  run.tick(20);
+  CHECK(reason_of(run) == "timed out: not done within 10 s");
+}
+
 TEST_CASE("a handler around another task part interrupts its handlers, too", "[components][tasks]") {
   Run run(R"(<Try><Try><Drive to="a"/><On when="alarm IN" then="resume"><Drive to="b"/></On></Try>
     <On when="alarm OUT" then="fail"><Say text="out"/></On></Try>)");

@@ -37,7 +37,7 @@ class Patience {
   /// Returns the smallest distance so far [m], to within 0.1 m; infinite if there is none.
   [[nodiscard]] double nearest() const { return nearest_; }
 
-  /// Returns all of it, to be passed on to another version of Goto.
+  /// Returns what is passed on to another version of Goto: how near the robot has come, and when.
   auto state() { return std::tie(nearest_, since_); }
 
  private:
