@@ -118,7 +118,7 @@ ExitCode handle_tasks(const apps::Call& call) {
   Client& client = std::get<Client>(connected);
   const std::vector<std::string> components = components_with(client, kShows);
   if (components.empty())
-    return report({fail(Code::not_found, "no component of the system has a task; orca.TaskTree does one")});
+    return report({fail(Code::not_found, "no component here has a task; orca.TaskTree does one")});
   const Status done = call.words.empty() ? show(client, components, call) : order(client, components, call);
   return done.ok() ? ExitCode::done : report({done.error()});
 }

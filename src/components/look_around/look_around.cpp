@@ -63,7 +63,7 @@ class LookAround final : public orca::avoid::LaserAvoider {
 
   // In a building of which the map is of another one, a localizer may believe for some seconds in a place that is none.
   void note_known() {
-    constexpr orca::Duration kBelieved = std::chrono::seconds(10);
+    constexpr orca::Duration kBelieved = std::chrono::seconds(30);
     if (lost_since_) {
       looked_ += now() - *lost_since_;
       known_since_ = now();
