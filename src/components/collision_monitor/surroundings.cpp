@@ -15,7 +15,7 @@ constexpr double kBehind = 0.02;     // [m] A place that much behind a reading i
 constexpr double kPast = 0.1;        // [m] A laser that sees that far behind a place sees past it.
 constexpr double kSamePlace = 0.15;  // [m] Echoes of sonars nearer to each other are of one thing.
 constexpr double kSpacing = 0.04;    // [m] of the posts on the arc of a sonar's cone
-constexpr std::size_t kMost = 2000;  // echoes of a source
+constexpr std::size_t kMost = 2000;  // echoes of a laser, or two scans if they are more
 
 // The sight that a scan has of a place.
 enum class Sight {
@@ -82,8 +82,9 @@ void Surroundings::see(const std::string& name, Sweep sweep) {
     const double angle = sweep.angle_start + sweep.angle_increment * static_cast<double>(i);
     laser.echoes.push_back({sweep.X_OS * (sweep.ranges[i] * direction(angle))});
   }
-  if (laser.echoes.size() > kMost)
-    laser.echoes.erase(laser.echoes.begin(), laser.echoes.end() - static_cast<std::ptrdiff_t>(kMost));
+  const std::size_t most = std::max(kMost, 2 * sweep.ranges.size());
+  if (laser.echoes.size() > most)
+    laser.echoes.erase(laser.echoes.begin(), laser.echoes.end() - static_cast<std::ptrdiff_t>(most));
   laser.sweep = std::move(sweep);
 }
 

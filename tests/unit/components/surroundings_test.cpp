@@ -71,6 +71,17 @@ TEST_CASE("a beam that has read nothing says nothing", "[gate]") {
   CHECK(seen.posts({}).size() == 1);
 }
 
+TEST_CASE("a scan of more beams than are kept at least counts as a whole", "[gate]") {
+  Sweep fine = scan(1.5);
+  fine.ranges.assign(3601, 1.5);
+  fine.angle_increment = 0.05 * kDegree;
+  Surroundings seen;
+  seen.see("laser", fine);
+  CHECK(seen.posts({}).size() == 3601);
+  seen.see("laser", fine);
+  CHECK(seen.posts({}).size() == 3601);
+}
+
 TEST_CASE("what is out of sight is forgotten after a while of driving", "[gate]") {
   Surroundings seen;
   seen.see("laser", scan_with(8.0, 90, 1.5));
