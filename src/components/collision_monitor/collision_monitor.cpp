@@ -90,6 +90,8 @@ class CollisionMonitor final : public orca::Component {
     lasers_.unsubscribe_all();
     sonars_.unsubscribe_all();
     blind_since_.reset();
+    clear_alarm("SENSOR_SILENT", "the robot is not driven any more");
+    clear_alarm("COLLISION_AHEAD", "the robot is not driven any more");
     tally_.has_acted() ? log_info(tally_.text()) : log_debug(tally_.text());
   }
 
