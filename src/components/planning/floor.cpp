@@ -10,20 +10,19 @@
 namespace orca::planning {
 namespace {
 
-constexpr std::uint64_t kMostCells = 100'000'000;  // 10 cm of 1 km2
-
 Error wrong(const std::string& text) {
   return fail(Code::invalid_argument, "the map says nothing valid: " + text);
 }
 
-Status check(const idl::OccupancyGrid& grid) {
+Status check(const idl::OccupancyGrid& grid, std::uint64_t most) {
   if (!std::isfinite(grid.resolution()) || grid.resolution() < 0.001 || grid.resolution() > 1.0)
     return wrong("its resolution is " + std::to_string(grid.resolution()) + " m; expected 0.001 m to 1 m");
   const std::uint64_t cells = static_cast<std::uint64_t>(grid.columns()) * grid.rows();
-  if (cells == 0 || cells > kMostCells || cells != grid.cells().size())
+  if (cells == 0 || cells > most || cells != grid.cells().size())
     return wrong("it has " + std::to_string(grid.cells().size()) + " cells in " +
                  std::to_string(grid.columns()) + " columns and " + std::to_string(grid.rows()) +
-                 " rows; expected columns times rows, at most " + std::to_string(kMostCells));
+                 " rows; expected columns times rows, at most " + std::to_string(most) +
+                 (cells == grid.cells().size() ? "; give a map of larger cells" : ""));
   const std::uint64_t along = std::max(grid.columns(), grid.rows());
   if (along > nav::KnownMap::kMostAlong ||
       static_cast<double>(along) * grid.resolution() > nav::KnownMap::kMostExtent)
@@ -39,7 +38,7 @@ Status check(const idl::OccupancyGrid& grid) {
 }  // namespace
 
 Status Floor::take(const idl::OccupancyGrid& grid) {
-  if (Status sound = check(grid); !sound.ok()) return sound;
+  if (Status sound = check(grid, most_cells_); !sound.ok()) return sound;
   changed_ = true;
   if (take_tile(grid)) return ok();
   name_ = grid.name();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -52,6 +53,7 @@ class WorldModel final : public orca::Component {
  private:
   static constexpr double kCell = 0.05;  // [m] without a map
   static constexpr int kFadings = 16;    // until nothing is known any more
+  static constexpr orca::Duration kWholeEvery = std::chrono::seconds(2);
 
   orca::Status configure() override {
     lap_on("localizer");
@@ -61,8 +63,11 @@ class WorldModel final : public orca::Component {
     return orca::ok();
   }
 
+  // An object that takes the place of another one finds the map as it came to that: MapServer does not push it again.
   orca::Status start() override {
     begin(kCell);
+    if (map_.connected())
+      if (const auto map = map_.latest()) take_map(*map);
     lasers_.clear();
     rings_.clear();
     for (const auto& source : laser_.sources()) source.subscribe(), lasers_.push_back({source, {}});
@@ -87,10 +92,22 @@ class WorldModel final : public orca::Component {
     robot_ = history_.at(history_.newest())->position();
     const bool heard = hear_lasers() | hear_sonars();
     fade();
-    const bool is_new = maps_.take_new_subscribers();
-    if (is_new) maps_.push(whole());
-    if (heard && !is_new) maps_.push(part());
+    push(heard);
     return orca::again();
+  }
+
+  // Nothing goes out by itself while no sensor is heard: who drives by it stops then.
+  void push(bool heard) {
+    const bool is_new = maps_.take_new_subscribers();
+    if (!is_new && !heard) return;
+    const bool has_moved = seen_->lattice().corner != pushed_corner_;
+    if (!is_new && !has_moved && whole_at_ && now() - *whole_at_ < kWholeEvery) {
+      maps_.push(part());
+      return;
+    }
+    maps_.push(whole());
+    whole_at_ = now();
+    pushed_corner_ = seen_->lattice().corner;
   }
 
   // Forgets all, and begins a grid of cells of that side.
@@ -98,6 +115,7 @@ class WorldModel final : public orca::Component {
     seen_.emplace(cell, *map_size_);
     history_.clear();
     begun_ = false;
+    whole_at_.reset();
     faded_at_ = now();
   }
 
@@ -265,10 +283,11 @@ class WorldModel final : public orca::Component {
       "OccupancyGridQuery",
       &WorldModel::on_ask,
       {.text = "The whole map, with what was seen of late."}};
-  orca::PushServer<OccupancyGrid> maps_{*this,
-                                        "OccupancyGridPush",
-                                        {.text = "The whole map for a new subscriber, and with it for all; "
-                                                 "after each scan or round the part around the robot."}};
+  orca::PushServer<OccupancyGrid> maps_{
+      *this,
+      "OccupancyGridPush",
+      {.text = "After each scan or round the part around the robot; the whole map "
+               "for a new subscriber, when that part has moved, and every 2 s."}};
   orca::Param<double> map_size_{*this,
                                 "map_size",
                                 16.0,
@@ -295,7 +314,7 @@ class WorldModel final : public orca::Component {
        .min = 0.0,
        .text = "Time after which nothing is left of what was seen, and only the map counts; 0: it is kept."}};
 
-  orca::planning::Floor floor_;
+  orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
   Pose2 X_WG_;                                   // the grid's frame in the world
   std::optional<orca::nav::OccupancyMap> seen_;  // in the grid's frame, as all below
   orca::nav::PoseHistory history_;
@@ -303,7 +322,9 @@ class WorldModel final : public orca::Component {
   std::vector<Heard<SonarRangeReadings>> rings_;
   std::vector<Beam> beams_;
   Vec2 robot_;
-  bool begun_ = false;  // something was seen
+  bool begun_ = false;                       // something was seen
+  std::optional<orca::TimePoint> whole_at_;  // when the whole map went out; none: not since all was forgotten
+  Vec2 pushed_corner_;                       // of the window, then
   orca::TimePoint faded_at_{};
   orca::SenderWatch senders_{host()};
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,13 @@ namespace orca::planning {
 /// Thread contract: one strand.
 class Floor {
  public:
+  static constexpr std::uint64_t kMostCells = 100'000'000;  ///< 10 cm of 1 km2
+  static constexpr std::uint64_t kMostToPlan =
+      (1U << 24U) - 1U;  ///< that GridSearch can search: 5 cm of 0.04 km2
+
+  /// @param most_cells  that it takes, at most kMostCells.
+  explicit Floor(std::uint64_t most_cells = kMostCells) : most_cells_(most_cells) {}
+
   /// Takes over a map, or a tile of the one that is there: it has the same name and resolution and lies within it.
   /// @errors  invalid_argument with what is wrong with it. Then all stays as it was.
   Status take(const idl::OccupancyGrid& grid);
@@ -35,6 +43,7 @@ class Floor {
  private:
   bool take_tile(const idl::OccupancyGrid& grid);
 
+  std::uint64_t most_cells_;
   std::string name_;
   double yaw_ = 0.0;
   nav::FloorGrid grid_;
