@@ -63,7 +63,8 @@ class PathPlanner final : public orca::Component {
         std::fabs(pose->translational_velocity()) < kSlow && std::fabs(pose->steering_velocity()) < kSlow;
     const auto goal = goal_.latest();
     const bool drives = goal && orca::to_seconds(now() - orca::to_time_point(goal->creation_time())) < kStale;
-    if (!drives) drop_plan();
+    const bool has_new_subscribers = paths_.take_new_subscribers();
+    if (!drives || has_new_subscribers) drop_plan();  // who comes later gets a path from here
     if (drives && !floor_.grid().cells.empty() && robot_.body()) keep_plan(*goal);
     return orca::again();
   }
@@ -118,13 +119,18 @@ class PathPlanner final : public orca::Component {
     return kept_.renew({map, footprint(), wishes_, robot, to.place, along, false, &rules});
   }
 
+  void look_at(const orca::nav::OccupancyMap& map, Vec2 robot) {
+    costs_.look_at(map, footprint(), wishes_);
+    costs_.obey(map.lattice(), rules_.in(inverse(floor_.X_WM())), robot);
+    if (steers())
+      hybrid_.look_at(map, footprint(), costs_.costs(), costs_.forbidden(), kEasier * *turning_radius_,
+                      kMargin);
+  }
+
   // A way of a robot that steers is kept as long as it is free and the robot is on it.
   bool renew_steered(const orca::nav::OccupancyMap& map, const SteeredGoal& to, bool other) {
     const Pose2 robot = robot_in_map();
-    costs_.look_at(map, footprint(), wishes_);
-    costs_.obey(map.lattice(), rules_.in(inverse(floor_.X_WM())), robot.position());
-    hybrid_.look_at(map, footprint(), costs_.costs(), costs_.forbidden(), kEasier * *turning_radius_,
-                    kMargin);
+    look_at(map, robot.position());
     if (!other && is_still_free(robot)) return false;
     steered_ = hybrid_.plan(robot, to);
     steered_from_ = robot;
@@ -160,9 +166,7 @@ class PathPlanner final : public orca::Component {
     return poses;
   }
 
-  [[nodiscard]] std::vector<Pose2> planned_poses() const {
-    if (steers()) return poses_of(steered_from_, steered_);
-    const orca::nav::Path& path = kept_.plan().path;
+  [[nodiscard]] static std::vector<Pose2> poses_of(const orca::nav::Path& path) {
     std::vector<Pose2> poses;
     for (const Vec2 point : path.points()) poses.push_back({point.x, point.y, 0.0});
     for (std::size_t i = 0; i < poses.size(); ++i)
@@ -178,24 +182,34 @@ class PathPlanner final : public orca::Component {
 
   void push(const GoalPoint& goal) {
     auto path = paths_.loan();
-    fill(planned_poses(), goal, *path);
+    fill(steers() ? poses_of(steered_from_, steered_) : poses_of(kept_.plan().path), goal, *path);
     paths_.push(std::move(path));
+  }
+
+  // Returns the poses on a way from the robot, whatever the plan for the Pilot is; nothing: no way leads there.
+  std::optional<std::vector<Pose2>> whole_way(const SteeredGoal& to) {
+    const orca::nav::OccupancyMap map(floor_.grid());
+    const Pose2 robot = robot_in_map();
+    if (!map.lattice().holds(map.lattice().cell_at(robot.position()))) return std::nullopt;
+    look_at(map, robot.position());
+    if (steers()) {
+      const orca::nav::SteeredPlan plan = hybrid_.plan(robot, to);
+      return plan.complete ? std::optional(poses_of(robot, plan)) : std::nullopt;
+    }
+    const orca::nav::Plan plan = costs_.plan(map, robot.position(), to.place);
+    return plan.complete ? std::optional(poses_of(plan.path)) : std::nullopt;
   }
 
   orca::Result<orca::Loan<Path>> on_question(const ObjectPtr<GoalPoint>& goal) {
     if (floor_.grid().cells.empty() || !robot_.body() || !localizer_.latest())
       return orca::fail(orca::Code::unavailable,
                         "it does not know the world, the robot or its pose yet; ask again later");
-    const orca::nav::OccupancyMap map(floor_.grid());
-    drop_plan();
-    (void)(steers() ? renew_steered(map, in_map(*goal), true) : renew(map, in_map(*goal)));
-    auto path = orca::make_object<Path>();
-    fill(planned_poses(), *goal, *path);
-    const bool complete = steers() ? steered_.complete : kept_.plan().complete;
-    drop_plan();
-    if (!complete)
+    const auto poses = whole_way(in_map(*goal));
+    if (!poses)
       return orca::fail(orca::Code::not_found,
                         "no way leads to \"" + goal->name() + "\" as the world is known now");
+    auto path = orca::make_object<Path>();
+    fill(*poses, *goal, *path);
     return path;
   }
 
@@ -238,7 +252,7 @@ class PathPlanner final : public orca::Component {
        .fixed = true,
        .text = "File of zones to keep out of, slow zones and lanes; empty: there are none."}};
 
-  orca::planning::Floor floor_;
+  orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
   orca::nav::FloorRules rules_;  // in the frame of the goals
   orca::nav::PlanWishes wishes_;
   orca::nav::KeptPlan kept_{orca::nav::kShortest};
