@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "deployer.hpp"
+#include "hosted_system.hpp"
 #include "slow_run.hpp"
 #include "temp_folder.hpp"
 
@@ -123,6 +126,38 @@ TEST_CASE("a layer makes robots drive slowly before the kitchen, and they still 
   CHECK(fastest_before_kitchen({"--set", "layer=" + source_file("sim/layers/office.xml")}) < 0.35);
   CHECK(fastest_before_kitchen({"--set", "layer=" + source_file("sim/layers/office.xml"), "--set",
                                 "turning_radius=0.5 m"}) < 0.35);
+}
+
+TEST_CASE("each part is exchanged while the robot drives, and it drives on by the whole map",
+          "[system][planner][parts][quiet]") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder.file("next"));
+  const std::string csv = folder.file("odometry.csv");
+  const std::string hall = folder.write("long.xml", world("long", R"(<room name="hall" from="0 0" to="30 6"/>
+  <place name="start" x="1" y="3" yaw="0"/>)"));
+  Subprocess program(
+      deployer({source_file("graphs/pioneer_planner_parts.xml"), "--until", "18 s", "--set", "world=" + hall,
+                "--set", "goals=east: 28 3", "--record", csv + "=fuser.base"}));
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  for (const auto& [name, plugin] :
+       {std::pair{"world_model", "world_model.so"}, std::pair{"planner", "path_planner.so"},
+        std::pair{"pilot", "pilot.so"}}) {
+    copy_plugin(std::string(ORCA_BINARY_DIR "/plugins/") + plugin, folder.file("next"));
+    const Run swapped = run_orcactl({"swap", name, folder.file("next") + "/" + plugin, "--untried"});
+    INFO(swapped.out << swapped.err);
+    CHECK(swapped.exit_code() == 0);
+  }
+  const Run saved = run_orcactl({"map", "save", folder.file("seen"), "world_model.OccupancyGridQuery"});
+  INFO(saved.out << saved.err);
+  CHECK_THAT(saved.err, Catch::Contains("602 x 122 cells"));
+  const Run run = finish(program, Seconds(30));
+  INFO(run.out << run.err);
+  const std::vector<double> speeds = column(csv, "speed");
+  REQUIRE(speeds.size() > 100);
+  const auto moving = std::ranges::find_if(speeds, [](double speed) { return speed > 0.4; });
+  CHECK(speeds.end() - moving > 80);
+  // At the end of the run it stops.
+  CHECK(std::all_of(moving, speeds.end() - 1, [](double speed) { return speed > 0.1; }));
 }
 
 TEST_CASE("without one of the parts the robot stays where it is", "[system][planner][parts][ablation]") {

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "orca/geometry/objects/plane.hpp"
@@ -31,6 +32,8 @@ double at_most(double wish, double most) { return most > 0.0 ? std::min(wish, mo
 struct Stretch {
   orca::nav::Path path;
   bool backwards = false;
+
+  [[nodiscard]] auto state() { return std::tie(path, backwards); }
 };
 
 // Returns the stretches of a path: a piece is driven backwards if the robot looks away from where it leads.
@@ -90,6 +93,27 @@ class Pilot final : public orca::go::GoalFollower {
     robot_.leave();
     GoalFollower::stop();
   }
+
+  // A successor that has this drives on where this object would have driven. Around it is what came last at `world`.
+  void save_state(orca::StateWriter& state) const override {
+    GoalFollower::save_state(state);
+    state.write(robot_.body(), stretches_, at_, driven_for_, heard_at_, driver_.has_value());
+    if (driver_) state.write(*driver_);
+  }
+
+  Status load_state(orca::StateReader& state) override {
+    if (Status read = GoalFollower::load_state(state); !read.ok()) return read;
+    auto [body] = robot_.state();
+    bool has_driver = false;
+    Status read = state.read(body, stretches_, at_, driven_for_, heard_at_, has_driver);
+    if (!read.ok()) return read;
+    if (const auto around = world_.latest(); !around || !floor_.take(*around).ok()) heard_at_.reset();
+    if (!has_driver) return read;
+    driver_.emplace(footprint());
+    return std::apply([&](auto&... part) { return state.read(part...); }, driver_->state());
+  }
+
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
@@ -299,7 +323,7 @@ class Pilot final : public orca::go::GoalFollower {
        .fixed = true,
        .text = "File of slow zones, the same as PathPlanner has; empty: there are none."}};
 
-  orca::planning::Floor floor_;
+  orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
   orca::nav::FloorRules rules_;                  // in the frame of the goals
   std::optional<orca::nav::PathDriver> driver_;  // from when the outline is known
   std::vector<Stretch> stretches_;
