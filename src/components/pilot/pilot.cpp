@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -145,6 +146,7 @@ class Pilot final : public orca::go::GoalFollower {
   void drop_path() {
     stretches_.clear();
     at_ = 0;
+    if (driven_for_) dropped_for_ = driven_for_;
     driven_for_.reset();
   }
 
@@ -185,13 +187,24 @@ class Pilot final : public orca::go::GoalFollower {
     if (!driven_for_ || norm(*driven_for_ - target.place) > kSame) {
       drop_path();
       driven_for_ = target.place;
+      begun_at_ = now();
       if (path_.new_data_arrived()) (void)path_.get_update();
       driver_->begin({now(), pose, twist_});
     }
     if (!path_.new_data_arrived()) return;
-    stretches_ = stretches_of(*path_.get_update());
+    const auto path = path_.get_update();
+    if (is_late(*path, target)) return;
+    stretches_ = stretches_of(*path);
     at_ = 0;
     driver_->begin_path();
+  }
+
+  // Returns whether a path leads to the target before, as the planner had not heard yet of this one.
+  [[nodiscard]] bool is_late(const orca::idl::Path& path, const Target& target) const {
+    constexpr orca::Duration kHeard = std::chrono::milliseconds(300);  // within a few of its laps
+    if (!dropped_for_ || norm(*dropped_for_ - target.place) < kSame) return false;
+    return now() - begun_at_ < kHeard && !path.poses().empty() &&
+           norm(orca::plane_pose(path.poses().back()).position() - *dropped_for_) < kSame;
   }
 
   // Collects what is near the robot.
@@ -329,6 +342,8 @@ class Pilot final : public orca::go::GoalFollower {
   std::vector<Stretch> stretches_;
   std::size_t at_ = 0;  // the stretch that it drives on
   std::optional<Vec2> driven_for_;
+  orca::TimePoint begun_at_{};       // to drive for that
+  std::optional<Vec2> dropped_for_;  // the one before
   std::optional<orca::TimePoint> heard_at_;
   orca::Twist2 twist_;
 };
