@@ -13,6 +13,7 @@
 #include "orca/idl/generated/navigation.reflection.hpp"
 #include "orca/idl/generated/sensing.reflection.hpp"
 #include "orca/idl/generated/system.reflection.hpp"
+#include "orca/idl/generated/tasks.reflection.hpp"
 #include "orca/idl/generated/world.reflection.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/graph.hpp"
@@ -22,6 +23,7 @@
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/idl/tasks.hpp"
 #include "orca/idl/world.hpp"
 
 namespace orca::test {
@@ -41,8 +43,8 @@ using HeadedObjects =
                idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor, idl::Localization,
                idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry,
                idl::Path, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
-               idl::SonarRangeReadings, idl::SonarRing, idl::TurretAngle, idl::TurretCommand,
-               idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
+               idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TurretAngle,
+               idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);
