@@ -150,6 +150,11 @@ TEST_CASE("each part is exchanged while the robot drives, and it drives on by th
   const Run saved = run_orcactl({"map", "save", folder.file("seen"), "world_model.OccupancyGridQuery"});
   INFO(saved.out << saved.err);
   CHECK_THAT(saved.err, Catch::Contains("602 x 122 cells"));
+  // Farther away than the part around the robot reaches.
+  const Run far = run_orcactl({"query", "planner.PathQuery",
+                               "<GoalPoint name=\"corner\"><coordinate x=\"29\" y=\"1\"/></GoalPoint>"});
+  INFO(far.out << far.err);
+  CHECK(far.exit_code() == 0);
   const Run run = finish(program, Seconds(30));
   INFO(run.out << run.err);
   const std::vector<double> speeds = column(csv, "speed");
