@@ -101,7 +101,7 @@ Status GoalFollower::on_goal(const ObjectPtr<idl::GoalPoint>& goal) {
   if (const auto door = goal.as<idl::Door>(); door && fault == nullptr)
     fault = fault_of_door(*door, *door_room_);
   if (fault != nullptr) return refuse(*goal, fault);
-  if (route_.empty()) lost_at_.reset();  // each goal waits for a pose again
+  if (route_.empty() && *lost_wait_ > 0.0) lost_at_.reset();  // each goal waits for a pose again
   route_.add(goal, now());
   doubts_ = false;
   before_.near = false;
