@@ -79,7 +79,7 @@ TEST_CASE("LookAround gives up in time, and begins again after the robot was fou
     for (int i = 0; i < 18; ++i) (void)test.hear(idl::LOCALIZATION_LOCALIZED);
     for (int i = 0; i < 5; ++i) (void)test.hear(idl::LOCALIZATION_AMBIGUOUS);
     CHECK(test.motion.latest()->kind() == idl::MotionKind::DONTCARE);
-    for (int i = 0; i < 22; ++i) (void)test.hear(idl::LOCALIZATION_LOCALIZED);
+    for (int i = 0; i < 62; ++i) (void)test.hear(idl::LOCALIZATION_LOCALIZED);
     for (int i = 0; i < 5; ++i) (void)test.hear(idl::LOCALIZATION_AMBIGUOUS);
     CHECK(test.motion.latest()->kind() == idl::MotionKind::NORMAL);
   });
