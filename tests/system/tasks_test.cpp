@@ -125,6 +125,20 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   CHECK(bare.says("the time limit has ended the run"));
 }
 
+TEST_CASE("a robot that patrols reports the room in which something has changed, and no other",
+          "[system][tasks]") {
+  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "60 s"};
+  const std::string crates =
+      R"(<box name="crate" x="2.6" y="10.4" length="1.2" width="0.8" height="1 m" comes="1 s"/>
+    <box name="crate_2" x="5.3" y="9.2" length="0.6" width="0.9" height="1 m" comes="1 s"/>)";
+  const Run changed = Office{.events = crates}.run(patrol);
+  INFO(changed.err);
+  CHECK(names(changed) == Words{"kitchen", "library"});
+  CHECK(changed.says("kitchen: something has changed"));
+  CHECK_FALSE(changed.says("library: something has changed"));
+  CHECK_FALSE(Office{}.run(patrol).says("something has changed"));
+}
+
 namespace {
 
 /// A run of a task that an operator steps through.
