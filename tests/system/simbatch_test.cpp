@@ -304,6 +304,36 @@ TEST_CASE("everything that is wrong with an experiment and its graphs is said be
   CHECK(run_simbatch({folder.file("none.xml")}).exit_code() == 2);
 }
 
+TEST_CASE("a component that fails on purpose fails at the time of its seed, and its name is checked",
+          "[system][batch]") {
+  const TempFolder folder;
+  const auto experiment = [&](const std::string& component) {
+    return folder.write(component + ".xml",
+                        R"(<experiment name="e" seeds="1-2" until="5 s" graph=")" +
+                            source_file("graphs/pioneer_laser_goto.xml") +
+                            R"("><variant name="a"/><world name="w"><fail component=")" + component +
+                            R"(" how="throw" at="1 s" latest="3 s"/></world></experiment>)");
+  };
+  const Run wrong = run_simbatch({experiment("avoit"), "--check"});
+  INFO(wrong.err);
+  CHECK(wrong.exit_code() == 2);
+  CHECK(wrong.says("E016: <fail>: the graph has no component \"avoit\""));
+
+  const std::string table = batch(experiment("avoid"), folder.file("out"));
+  const std::map<std::string, std::string> ending = endings(table);
+  CHECK(ending.at("a") == "failed");
+  const std::string page = text_in(folder.file("out") + "/report.md");
+  const std::size_t begin = page.find("deployer ");
+  REQUIRE(begin != std::string::npos);
+  const std::string command = page.substr(begin, page.find('\n', begin) - begin);
+  CHECK_THAT(command, Contains("--fail avoid=throw@"));
+  Subprocess program(
+      Words{"/bin/sh", "-c", "cd " + folder.path().string() + "; " ORCA_BINARY_DIR "/bin/" + command});
+  const std::string hash = split_lines(finish(program, Seconds(60 * kSlowdown)).out).back();
+  REQUIRE(hash.starts_with("trace-hash "));
+  CHECK_THAT(table, Contains(hash.substr(11)));
+}
+
 TEST_CASE("an experiment without a world, or with a setting without a value, is checked as far as it goes",
           "[system][batch]") {
   const TempFolder folder;

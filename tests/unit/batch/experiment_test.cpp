@@ -310,3 +310,39 @@ TEST_CASE("results are known by what may change them", "[batch]") {
   faster.settings[0].value = "0.6 m/s";
   CHECK(identity_of(faster) != identity);
 }
+
+TEST_CASE("a component fails at one time in all runs of a world, or at one that each seed draws", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(
+      with(kEnough,
+           "<variant name=\"a\"/><world name=\"w\"><fail component=\"pilot\" how=\"throw\" at=\"10 s\"/>"
+           "<fail component=\"laser\" how=\"silent\" at=\"10 s\" latest=\"20 s\"/></world>"),
+      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  REQUIRE(experiment->worlds[0].failing.size() == 2);
+  const Failing& fixed = experiment->worlds[0].failing[0];
+  CHECK(fixed.text() == "pilot=throw@10s");
+  CHECK(fixed.time(1) == 10s);
+  CHECK(fixed.time(2) == 10s);
+  const Failing& drawn = experiment->worlds[0].failing[1];
+  CHECK(drawn.text() == "laser=silent@10s..20s");
+  std::set<Duration> times;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) times.insert(drawn.time(seed));
+  CHECK(times.size() > 90);
+  CHECK(*times.begin() < 12s);
+  CHECK(*times.begin() >= 10s);
+  CHECK(*times.rbegin() > 18s);
+  CHECK(*times.rbegin() <= 20s);
+  CHECK(drawn.time(7) == drawn.time(7));
+}
+
+TEST_CASE("what is wrong with failures on purpose is reported, each at its place", "[batch]") {
+  const std::string faults = faults_of(with(kEnough,
+                                            "<variant name=\"a\"/><world name=\"w\"><fail component=\"p\" "
+                                            "how=\"throw\" at=\"10 s\" latest=\"9 s\"/>"
+                                            "<fail component=\"p\" how=\"explode\" at=\"1 s\"/></world>"));
+  CHECK_THAT(faults, Contains("E016: it must be after the time in at"));
+  CHECK_THAT(faults, Contains("E016: \"p\" fails already"));
+  CHECK_THAT(faults, Contains("E005: how: \"explode\""));
+}

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/text.hpp"
 #include "orca/batch/inputs.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr const char* kArgumentWithoutValue = "G012";  // of graphs
 constexpr const char* kChange = "G074";
+constexpr const char* kFailingNobody = "E016";
 
 // A run of a batch has one graph from its start to its end.
 void refuse_changes(const std::vector<graph::PlannedChange>& changes, xml::Diagnostics& diagnostics) {
@@ -20,6 +22,13 @@ void refuse_changes(const std::vector<graph::PlannedChange>& changes, xml::Diagn
         kChange, change.position,
         "<change>: simbatch does not carry out changes; run this graph with deployer, or leave its profile "
         "out");
+}
+
+void refuse_unknown_failures(const World& world, const graph::Graph& graph, xml::Diagnostics& diagnostics) {
+  for (const Failing& one : world.failing)
+    if (graph.find_component(one.component) == nullptr)
+      diagnostics.error(kFailingNobody, one.position,
+                        "<fail>: the graph has no component " + in_quotes(one.component));
 }
 
 }  // namespace
@@ -42,7 +51,8 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       std::vector<graph::PlannedChange> changes;
       load.changes = &changes;
       xml::Diagnostics found;
-      (void)graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
+      const auto graph = graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
+      if (graph) refuse_unknown_failures(experiment.worlds[world], *graph, found);
       refuse_changes(changes, found);
       for (const xml::Diagnostic& one : found.sorted()) {
         const bool follows = !is_whole && one.code == kArgumentWithoutValue;

@@ -36,6 +36,7 @@ std::string hash_of(const World& world, const fs::path& folder) {
   Fnv1a hash;
   for (const Setting& setting : world.settings) hash.add_text(setting.text_from(folder.string()));
   for (const Goal& goal : world.goals) hash.add_text(goal_text(goal));
+  for (const Failing& one : world.failing) hash.add_text(one.text());
   if (world.reference) hash.add_text(xml::number_text(*world.reference));
   return std::to_string(hash.value());
 }

@@ -103,7 +103,7 @@ class ExperimentReader {
     World world{element.name("name").value_or(""), {}, element.element().position()};
     if (element.has("reference")) world.reference = element.number("reference");
     world.family = element.has("family") ? element.name("family").value_or("") : world.name;
-    parts(element, world.settings, world.goals);
+    parts(element, world);
     remember(element, "world", world.name);
     experiment_.worlds.push_back(std::move(world));
   }
@@ -112,16 +112,14 @@ class ExperimentReader {
     const std::string name = element.name("name").value_or("");
     const std::string arg = element.text("arg").value_or("");
     const std::string file = path(element.text("file").value_or(""));
-    std::vector<Setting> more;
-    std::vector<Goal> goals;
-    parts(element, more, goals);
-    const std::map<std::uint64_t, double> lengths = references(element);
     const xml::Position& position = element.element().position();
+    World all;
+    all.position = position;
+    parts(element, all);
+    const std::map<std::uint64_t, double> lengths = references(element);
     for (const std::uint64_t number : numbers_of_worlds(element, lengths)) {
-      World world{.name = name + "_" + std::to_string(number),
-                  .settings = more,
-                  .position = position,
-                  .goals = goals};
+      World world = all;
+      world.name = name + "_" + std::to_string(number);
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
       world.family = name;
@@ -156,12 +154,26 @@ class ExperimentReader {
   }
 
   // Reads what stands in a world.
-  void parts(const Attributes& element, std::vector<Setting>& settings, std::vector<Goal>& goals) {
+  void parts(const Attributes& element, World& world) {
     for (const auto& [child, rule] : element.children()) {
       const Attributes part = element.of_child(*child, *rule);
-      if (rule == &kSetRule) set(part, settings);
-      if (rule == &kGoalRule) goal(part, goals);
+      if (rule == &kSetRule) set(part, world.settings);
+      if (rule == &kGoalRule) goal(part, world.goals);
+      if (rule == &kFailRule) failing(part, world.failing);
     }
+  }
+
+  static void failing(const Attributes& element, std::vector<Failing>& to) {
+    Failing one{.component = element.name("component").value_or(""),
+                .how = element.choice("how").value_or(""),
+                .at = element.duration_or("at", Duration{0}).value_or(Duration{0}),
+                .position = element.element().position()};
+    if (element.has("latest")) one.latest = element.duration_or("latest", Duration{0}).value_or(Duration{0});
+    if (one.latest && *one.latest <= one.at)
+      element.error_at("latest", codes::kFail, "it must be after the time in at");
+    if (std::ranges::find(to, one.component, &Failing::component) != to.end())
+      element.error_at("component", codes::kFail, in_quotes(one.component) + " fails already");
+    to.push_back(std::move(one));
   }
 
   void goal(const Attributes& element, std::vector<Goal>& to) {
@@ -387,37 +399,6 @@ std::optional<Experiment> read(const std::optional<xml::Document>& document, con
 }
 
 }  // namespace
-
-Run Experiment::run(std::size_t number) const {
-  const std::size_t variant = number % variants.size();
-  const std::size_t place = number / variants.size();
-  return {variant, place / seeds.size(), seeds[place % seeds.size()]};
-}
-
-std::optional<std::size_t> Experiment::number_of(const std::string& variant, const std::string& world,
-                                                 std::uint64_t seed) const {
-  const auto its_variant = std::ranges::find(variants, variant, &Variant::name);
-  const auto its_world = std::ranges::find(worlds, world, &World::name);
-  const auto its_seed = std::ranges::find(seeds, seed);
-  if (its_variant == variants.end() || its_world == worlds.end() || its_seed == seeds.end())
-    return std::nullopt;
-  const auto place = static_cast<std::size_t>(its_world - worlds.begin()) * seeds.size() +
-                     static_cast<std::size_t>(its_seed - seeds.begin());
-  return place * variants.size() + static_cast<std::size_t>(its_variant - variants.begin());
-}
-
-std::vector<std::string> Experiment::settings_of(const Run& run) const {
-  std::vector<std::string> texts;
-  for (const std::vector<Setting>* some :
-       {&settings, &worlds[run.world].settings, &variants[run.variant].settings})
-    for (const Setting& setting : *some) texts.push_back(setting.text());
-  return texts;
-}
-
-const std::vector<Goal>& Experiment::goals_of(const Run& run) const {
-  const std::vector<Goal>& of_world = worlds[run.world].goals;
-  return of_world.empty() ? goals : of_world;
-}
 
 std::optional<Experiment> read_experiment(const std::string& file, xml::Diagnostics& diagnostics) {
   return read(xml::read_file(file, diagnostics), file, diagnostics);

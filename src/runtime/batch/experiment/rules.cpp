@@ -62,6 +62,13 @@ constexpr std::array kGoal{
     AttributeRule{"heading", false, "Direction that the robot faces there; any if not given.", kAngle},
     AttributeRule{"heading_tolerance", false, "Largest difference from it; 20 deg if not given.", kTolerance},
     AttributeRule{"hold", false, "Time that it has to stay there; 0 if not given.", kHold}};
+constexpr std::array<std::string_view, 4> kWaysToFail{"silent", "throw", "hang", "slow"};
+constexpr std::array kFailing{
+    AttributeRule{"component", true, "Component of the graph that fails.", kName},
+    AttributeRule{"how", true, "As with deployer --fail.", {.choices = kWaysToFail}},
+    AttributeRule{"at", true, "Time of the run at which it begins.", kHold},
+    AttributeRule{"latest", false, "If given, the time is drawn by the run's seed, from `at` up to this one.",
+                  kSeconds}};
 constexpr std::array kVariant{
     AttributeRule{"name", true, "Name of the variant.", kName},
     AttributeRule{"graph", false, "Its graph, if it is not that of all."},
@@ -119,6 +126,9 @@ constexpr ElementRule kGoalRule{.name = "goal",
                                 .attributes = kGoal,
                                 .text = "Where a robot has to be, by its true pose, for the run to succeed."};
 
+constexpr ElementRule kFailRule{
+    .name = "fail", .attributes = kFailing, .text = "A failure of a component, on purpose."};
+
 constexpr ElementRule kTuneRule{
     .name = "tune", .attributes = kTune, .text = "A setting that simbatch tune may choose from a range."};
 
@@ -126,7 +136,7 @@ namespace {
 
 constexpr std::array kSettings{&kSetRule};
 constexpr std::array kInVariant{&kSetRule, &kTuneRule};
-constexpr std::array kInWorld{&kSetRule, &kGoalRule};
+constexpr std::array kInWorld{&kSetRule, &kGoalRule, &kFailRule};
 
 }  // namespace
 
@@ -175,9 +185,9 @@ constexpr ElementRule kExperimentRule{.name = "experiment",
 
 namespace {
 
-constexpr std::array kElements{&kExperimentRule, &kSetRule,         &kGoalRule,     &kVariantRule,
-                               &kWorldRule,      &kWorldsRule,      &kContrastRule, &kTuneRule,
-                               &kTuningRule,     &kSettingsFileRule};
+constexpr std::array kElements{&kExperimentRule, &kSetRule,    &kGoalRule,        &kFailRule,
+                               &kVariantRule,    &kWorldRule,  &kWorldsRule,      &kContrastRule,
+                               &kTuneRule,       &kTuningRule, &kSettingsFileRule};
 
 }  // namespace
 

@@ -21,6 +21,7 @@ inline constexpr const char* kReferences = "E012";
 inline constexpr const char* kGoalPlace = "E013";
 inline constexpr const char* kContrast = "E014";
 inline constexpr const char* kTuning = "E015";
+inline constexpr const char* kFail = "E016";
 
 }  // namespace orca::batch::codes
 
@@ -29,6 +30,7 @@ namespace orca::batch {
 extern const xml::ElementRule kContrastRule;
 extern const xml::ElementRule kExperimentRule;
 extern const xml::ElementRule kSetRule;
+extern const xml::ElementRule kFailRule;
 extern const xml::ElementRule kGoalRule;
 extern const xml::ElementRule kSettingsFileRule;
 extern const xml::ElementRule kTuneRule;

@@ -264,6 +264,9 @@ host::RunOptions run_options(const Experiment& experiment, const Run& run, const
   wanted.computing = experiment.variants[run.variant].computing;
   wanted.measures_laps = true;
   wanted.keeps_motion = true;
+  for (const Failing& one : experiment.worlds[run.world].failing)
+    if (const auto failure = host::failure_from(one.how))
+      wanted.planned_failures.push_back({one.component, *failure, one.time(run.seed)});
   if (plan.trace >= 0) wanted.trace_file = "/proc/self/fd/" + std::to_string(plan.trace);
   wanted.trace_values = true;
   return wanted;

@@ -108,6 +108,11 @@ void write_worlds(const Experiment& experiment, JsonWriter& json) {
     json.member("name", world.name);
     json.member("family", world.family);
     json.member("settings", texts_of(experiment, world.settings));
+    if (!world.failing.empty()) {
+      json.key("failing").begin_array();
+      for (const Failing& one : world.failing) json.value(one.text());
+      json.end();
+    }
     json.end();
   }
   json.end();

@@ -50,6 +50,22 @@ struct Variant {
   std::vector<SettingRange> ranges{};  ///< Settings that a tuner may choose.
 };
 
+/// A component that fails on purpose in the runs of a world. A plain value.
+struct Failing {
+  std::string component;
+  std::string how;                   ///< A name of deployer --fail.
+  Duration at{0};                    ///< [s of the run's clock] since the components began to work.
+  std::optional<Duration> latest{};  ///< If given, each seed draws its time from `at` up to this one.
+  xml::Position position{};
+
+  /// Returns when it fails in the runs with a seed.
+  [[nodiscard]] Duration time(std::uint64_t seed) const;
+  /// Returns what deployer --fail takes, "pilot=throw@12.345s".
+  [[nodiscard]] std::string order(std::uint64_t seed) const;
+  /// Returns the same with the range of the time, "pilot=throw@10s..60s".
+  [[nodiscard]] std::string text() const;
+};
+
 /// One of the places in which each variant is tried.
 struct World {
   std::string name;
@@ -58,6 +74,7 @@ struct World {
   std::optional<double> reference{};  ///< [m] Length of the way that a run in it is compared with.
   std::vector<Goal> goals{};          ///< Instead of those of the experiment; empty: those.
   std::string family{};               ///< Worlds of one kind; its own name if it is the only one.
+  std::vector<Failing> failing{};     ///< Components that fail in it, each once at most.
 };
 
 /// The budget of a tuner, the same for each variant, and the worlds that it may see. A plain value.
