@@ -134,6 +134,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "calibrate",
                                        "pioneer_localize",
                                        "pioneer_tasks",
+                                       "pioneer_fetch_task",
                                        "pioneer_planner_parts",
                                        "pioneer_slam",
                                        "scout_localize"};

@@ -84,17 +84,24 @@ TEST_CASE("a task that nothing can save fails with its cause and its mission", "
   CHECK(run.says("timed out: not reached within 20 s (mission 2)"));
 }
 
-TEST_CASE("a robot that is carried off goes on when it has found itself, if the task says so",
+TEST_CASE("a robot that is carried off looks around and goes on; if it may not wait, the task can",
           "[system][tasks]") {
   const Office office{.events = R"(<kidnap robot="Pioneer" at="8 s" x="14" y="6"/>)"};
   const std::string drives = R"(<Drive to="kitchen"/><Drive to="library"/>)";
-  const Run run = office.run_task("<Try>" + drives + R"(<Catch reason="lost" then="resume" times="3">
-    <Check when="localization.state is LOCALIZATION_LOCALIZED" within="30 s"/></Catch></Try>)");
+  const Run run = office.run_task(drives);
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(names(run) == Words{"kitchen", "library"});
 
-  const Run without = office.run_task(drives);
+  const Words impatient{"--set", "pilot.lost_wait=0 s"};
+  const Run waits = office.run_task("<Try>" + drives + R"(<Catch reason="lost" then="resume" times="3">
+    <Check when="localization.state is LOCALIZATION_LOCALIZED" within="30 s"/></Catch></Try>)",
+                                    impatient);
+  INFO(waits.err);
+  CHECK(waits.exit_code() == 0);
+  CHECK(names(waits) == Words{"kitchen", "library"});
+
+  const Run without = office.run_task(drives, impatient);
   INFO(without.err);
   CHECK(without.exit_code() == 1);
   CHECK(without.says("lost: it is not known any more where the robot is (mission 1)"));
@@ -224,6 +231,52 @@ TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes
   CHECK(names(run) == Words{"office_2", "start"});
   CHECK(run.says("Nobody answers. I ask again in a minute."));
   CHECK(run.says("no answer: \"Please put the letter on me. Is it there?\""));
+}
+
+TEST_CASE("a robot looks for a can at three places, and brings it to the table", "[system][tasks]") {
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_fetch_task.xml")} + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"library_can", "meeting_table", "start"});
+  CHECK(run.says("Pioneer has taken 'can'"));
+  CHECK(run.says("Pioneer has put down 'can' at (13."));
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a robot that finds no can anywhere comes back and says so", "[system][tasks]") {
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_fetch_task.xml"), "--set",
+                                     "world=" + source_file("sim/worlds/office.xml")} +
+                               virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(names(run) == Words{"start"});
+  CHECK(run.says("I have not brought the can. I come back."));
+  CHECK(
+      run.says("task: work() failed: undone: nothing came between the paddles where the thing should stand "
+               "(mission 3)"));
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a robot that stands where it is to fetch something tries at once", "[system][tasks]") {
+  const TempFolder folder;
+  const std::string task = folder.write("task.xml",
+                                        "<task name=\"test\" version=\"1\"><Retry attempts=\"2\">"
+                                        "<Drive to=\"kitchen_can\" within=\"100 s\"/></Retry></task>");
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_fetch_task.xml"), "--set", "task=" + task} +
+                               virtual_clock());
+  INFO(run.err);
+  CHECK(run.says("where the thing should stand (mission 1)"));
+  CHECK(run.says("where the thing should stand (mission 2)"));
+}
+
+TEST_CASE("a task whose pilot has failed stands, asks for help, and has failed if nobody comes",
+          "[system][tasks]") {
+  const Run run = Office{}.run({"--fail", "pilot=throw@25s"});
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(names(run) == Words{"kitchen"});
+  CHECK(run.says("alarm QUESTION: My pilot has failed, and I stand."));
+  CHECK(run.says("task: work() failed: no answer: \"My pilot has failed"));
 }
 
 TEST_CASE("all faults of a task file are reported with their places before the robot starts",

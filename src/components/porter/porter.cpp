@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -44,6 +45,7 @@ class Porter final : public orca::Component {
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     errand_.reset();
+    if (goal->via()) led_ = goal->mission();
     goal_ = goal;
     if (!kind_of(*goal)) return goto_.send(copy_value(goal));
     auto near = orca::make_object(*goal);
@@ -101,13 +103,18 @@ class Porter final : public orca::Component {
   // Goto has done its part when the robot is as near as it was to bring it, with all via points behind it.
   void begin_errand_near(const orca::Pose2& pose) {
     const auto kind = goal_ ? kind_of(*goal_) : std::nullopt;
-    const auto towards = towards_.latest();
-    if (!kind || !towards || towards->mission() != goal_->mission()) return;
+    if (!kind || !is_behind_via_points()) return;
     const orca::Vec2 place = place_of(*goal_);
-    if (place_of(*towards) != place) return;
     if (orca::portable::hypot(place.x - pose.x, place.y - pose.y) > *standoff_) return;
     errand_.emplace(*kind, place);
     heard_ = now();
+  }
+
+  // A robot that is there already drives to nothing.
+  [[nodiscard]] bool is_behind_via_points() const {
+    if (led_ != goal_->mission()) return true;
+    const auto towards = towards_.latest();
+    return towards && towards->mission() == goal_->mission() && place_of(*towards) == place_of(*goal_);
   }
 
   [[nodiscard]] static orca::Vec2 place_of(const orca::idl::GoalPoint& goal) {
@@ -171,8 +178,10 @@ class Porter final : public orca::Component {
     return {*reach_, *approach_speed_, *turn_rate_, *back_off_, *patience_};
   }
 
-  void save_state(orca::StateWriter& state) const override { state.write(goal_, errand_, heard_); }
-  orca::Status load_state(orca::StateReader& state) override { return state.read(goal_, errand_, heard_); }
+  void save_state(orca::StateWriter& state) const override { state.write(goal_, led_, errand_, heard_); }
+  orca::Status load_state(orca::StateReader& state) override {
+    return state.read(goal_, led_, errand_, heard_);
+  }
 
   orca::SendServer<orca::idl::GoalPoint> goals_{
       *this, "GotoCoordinateSend", &Porter::on_goal, {.text = "Via points and goals, as Goto takes them."}};
@@ -243,6 +252,7 @@ class Porter final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::ObjectPtr<orca::idl::GoalPoint> goal_;  // the last point that came, until its result
+  std::optional<std::uint64_t> led_;            // the last mission that had via points
   orca::SenderWatch senders_{host()};
   std::optional<Errand> errand_;  // from when the robot is there
   orca::TimePoint heard_{};       // when the gripper has said something, in an errand

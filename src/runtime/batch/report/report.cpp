@@ -410,8 +410,7 @@ std::string command_of(const Experiment& experiment, const Run& run, const std::
           in_shell_quotes(xml::number_text(to_seconds(experiment.until)) + " s");
   for (const std::string& setting : experiment.settings_of(run))
     text += " --set " + setting_word(experiment, setting);
-  for (const Failing& one : experiment.worlds[run.world].failing)
-    text += " --fail " + one.order(run.seed);
+  for (const Failing& one : experiment.worlds[run.world].failing) text += " --fail " + one.order(run.seed);
   return text;
 }
 
