@@ -137,6 +137,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "pioneer_fetch_task",
                                        "pioneer_planner_parts",
                                        "pioneer_slam",
+                                       "pioneer_map",
                                        "scout_localize"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.

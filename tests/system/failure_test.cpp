@@ -57,6 +57,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_fetch_task", "", {"pilot", "porter", "look_around"}},
     {"scout_localize", "", {"goto", "avoid"}},
     {"pioneer_slam", "", {"walk", "avoid"}},
+    {"pioneer_map", "", {"planner"}},
     {"calibrate", "", {"goto", "avoid"}},
     {"random_walk", "", {"walk", "avoid"}},
     {"two_robots", "dewey/", {"goto", "avoid"}},
@@ -127,12 +128,14 @@ std::optional<double> last_time(const Run& run, const std::string& text) {
 }
 
 // Checks that the robot moved until the behaviour failed, that it rests soon afterwards, for good, and that it is
-// said why. A failure begins with the first lap that fails.
+// said why: by the fuser, or before it by a task that has heard of the failure. A failure begins with the first lap that fails.
 void check_stops(const Run& run, const Failure& failure, double at, double slowdown = 1.0) {
   const auto& [robot, behaviour, how] = failure;
   const auto fails = last_time(run, " " + robot.context + behaviour + ": fails from now on");
-  const auto stopped = last_time(
+  auto stopped = last_time(
       run, robot.context + "fuser: stops the robot: nothing is heard of the behaviour \"" + behaviour + "\"");
+  if (!stopped)
+    stopped = last_time(run, " task: alarm QUESTION: My " + behaviour + " has failed, and I stand.");
   const auto rests = last_time(run, " " + robot.context + "watch: rests after");
   REQUIRE(fails);
   REQUIRE(stopped);

@@ -269,6 +269,31 @@ TEST_CASE("a robot that stands where it is to fetch something tries at once", "[
   CHECK(run.says("where the thing should stand (mission 2)"));
 }
 
+TEST_CASE("a robot sees all of a building that it can reach, comes back, and waits for the map to be saved",
+          "[system][tasks]") {
+  const Words store{source_file("graphs/pioneer_map.xml"), "--set",
+                    "world=" + source_file("sim/worlds/store.xml")};
+  const auto floor_known = [](const Run& run) {
+    const std::size_t at = run.err.find(" m2 are known to be free");
+    REQUIRE(at != std::string::npos);
+    return std::stoi(run.err.substr(run.err.rfind(' ', at - 1) + 1));
+  };
+  const Run run = run_deployer(store + virtual_clock(), Seconds(120));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.contacts().empty());
+  REQUIRE_FALSE(run.arrivals().empty());
+  CHECK(run.arrivals().back().name == "explore");
+  CHECK(run.arrivals().back().x == Approx(0.9).margin(0.25));
+  CHECK(run.arrivals().back().y == Approx(3.6).margin(0.25));
+  CHECK(run.says("Please save the map"));
+  CHECK(floor_known(run) >= 41);  // of 48 m2 with walls and furniture
+
+  const Run stays = run_deployer(store + Words{"--set", "explorer.least_width=100 m"} + virtual_clock());
+  INFO(stays.err);
+  CHECK(floor_known(stays) < 30);
+}
+
 TEST_CASE("a task whose pilot has failed stands, asks for help, and has failed if nobody comes",
           "[system][tasks]") {
   const Run run = Office{}.run({"--fail", "pilot=throw@25s"});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "orca/base/text.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -60,12 +61,34 @@ bool Floor::take_tile(const idl::OccupancyGrid& grid) {
                        first.row + static_cast<int>(grid.rows()) - 1};
   const bool is_straight = std::fabs(X_MT.yaw) < 1e-6 && std::fabs(off.x - first.column) < 0.01 &&
                            std::fabs(off.y - first.row) < 0.01;
-  const bool is_part = grid.cells().size() < grid_.cells.size();
-  if (!is_straight || !is_part || !grid_.lattice.holds(first) || !grid_.lattice.holds(last)) return false;
+  const bool is_within =
+      grid.cells().size() < grid_.cells.size() && grid_.lattice.holds(first) && grid_.lattice.holds(last);
+  if (!is_straight || (edge_ == Edge::fixed ? !is_within : !grow_to(first, last))) return false;
+  const nav::Cell begin{std::max(first.column, 0), std::max(first.row, 0)};  // where it is after growing
   for (int row = 0; row < static_cast<int>(grid.rows()); ++row)
     std::copy_n(grid.cells().begin() + static_cast<std::ptrdiff_t>(row) * grid.columns(), grid.columns(),
                 grid_.cells.begin() +
-                    static_cast<std::ptrdiff_t>(grid_.lattice.index({first.column, first.row + row})));
+                    static_cast<std::ptrdiff_t>(grid_.lattice.index({begin.column, begin.row + row})));
+  return true;
+}
+
+// Makes room for cells beyond the edge: a map that is still being made grows.
+// @return whether it can be as large.
+bool Floor::grow_to(nav::Cell first, nav::Cell last) {
+  const nav::Lattice old = grid_.lattice;
+  const nav::Cell low{std::min(first.column, 0), std::min(first.row, 0)};
+  const nav::Cell high{std::max(last.column, old.columns - 1), std::max(last.row, old.rows - 1)};
+  nav::FloorGrid grown;
+  grown.lattice = {old.corner + old.side * Vec2{double(low.column), double(low.row)}, old.side,
+                   high.column - low.column + 1, high.row - low.row + 1};
+  if (grown.lattice.columns == old.columns && grown.lattice.rows == old.rows) return true;
+  if (grown.lattice.size() > most_cells_) return false;
+  grown.cells.assign(grown.lattice.size(), nav::FloorGrid::kUnknown);
+  for (int row = 0; row < old.rows; ++row)
+    std::copy_n(
+        grid_.cells.begin() + static_cast<std::ptrdiff_t>(old.index({0, row})), old.columns,
+        grown.cells.begin() + static_cast<std::ptrdiff_t>(grown.lattice.index({-low.column, row - low.row})));
+  grid_ = std::move(grown);
   return true;
 }
 

@@ -21,10 +21,17 @@ class Floor {
   static constexpr std::uint64_t kMostToPlan =
       (1U << 24U) - 1U;  ///< that GridSearch can search: 5 cm of 0.04 km2
 
-  /// @param most_cells  that it takes, at most kMostCells.
-  explicit Floor(std::uint64_t most_cells = kMostCells) : most_cells_(most_cells) {}
+  /// The fate of a map when something comes that lies beyond its edge.
+  enum class Edge {
+    fixed,  ///< It is another map, such as the window of a WorldModel that has moved on.
+    grows   ///< The map grows: a SlamLocalizer makes it.
+  };
 
-  /// Takes over a map, or a tile of the one that is there: it has the same name and resolution and lies within it.
+  /// @param most_cells  that it takes, at most kMostCells.
+  explicit Floor(std::uint64_t most_cells = kMostCells, Edge edge = Edge::fixed)
+      : most_cells_(most_cells), edge_(edge) {}
+
+  /// Takes over a map, or a tile of the one that is there: it has the same name and resolution, and cells in the same places.
   /// @errors  invalid_argument with what is wrong with it. Then all stays as it was.
   Status take(const idl::OccupancyGrid& grid);
 
@@ -42,8 +49,10 @@ class Floor {
 
  private:
   bool take_tile(const idl::OccupancyGrid& grid);
+  bool grow_to(nav::Cell first, nav::Cell last);
 
   std::uint64_t most_cells_;
+  Edge edge_;
   std::string name_;
   double yaw_ = 0.0;
   nav::FloorGrid grid_;
