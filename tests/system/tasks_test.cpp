@@ -151,9 +151,9 @@ namespace {
 /// A run of a task that an operator steps through.
 struct Operated {
   explicit Operated(const std::string& task)
-      : program(deployer(Words{source_file("graphs/pioneer_tasks.xml"), "--pace", "0", "--set",
-                               "task=" + source_file("graphs/tasks/" + task)} +
-                         virtual_clock())) {
+      : Operated(Words{source_file("graphs/pioneer_tasks.xml"), "--set",
+                       "task=" + source_file("graphs/tasks/" + task)}) {}
+  explicit Operated(const Words& graph) : program(deployer(graph + Words{"--pace", "0"} + virtual_clock())) {
     for (int tries = 0; run_orcactl({"pace"}).exit_code() != 0; ++tries) {
       REQUIRE(tries < 200);
       std::this_thread::sleep_for(50ms);
@@ -221,6 +221,41 @@ TEST_CASE("a robot delivers a letter when people say that it is there and taken"
   CHECK(run.exit_code() == 0);
   CHECK(names(run) == Words{"office_2", "kitchen", "start"});
   CHECK(run.says("The letter is delivered."));
+}
+
+TEST_CASE("an operator sends a robot here and there, and sees how far it is and why it waits",
+          "[system][tasks]") {
+  Operated robot(Words{source_file("graphs/pioneer_localize.xml")});
+  robot.step("5s");
+  CHECK_THAT(robot.order({"go"}).out,
+             Contains("command: on the way to kitchen, ") && Contains(" m left; then office_2, meeting"));
+  robot.order({"go", "library"});
+  robot.order({"go", "--queue", "2", "6"});
+  CHECK_THAT(robot.order({"go"}).out,
+             Contains("on the way to library, ") && Contains("then point_1") &&
+                 Contains("the last one: kitchen: cancelled: there are other goals"));
+  robot.order({"swap", "command", ORCA_BINARY_DIR "/plugins/command.so"});
+  CHECK_THAT(robot.order({"go"}).out, Contains("on the way to library, ") && Contains("then point_1"));
+  robot.step("40s");
+  CHECK_THAT(robot.order({"go"}).out, Contains("command: no goal; the last one: point_1: reached"));
+
+  const auto refused = [](const Words& words) {
+    Subprocess asked(orcactl(words));
+    std::this_thread::sleep_for(100ms);
+    REQUIRE(run_orcactl({"pace", "4"}).exit_code() == 0);
+    const Run done = finish(asked, Seconds(20));
+    REQUIRE(run_orcactl({"pause"}).exit_code() == 0);
+    CHECK(done.exit_code() == 1);
+    return done.err;
+  };
+  CHECK_THAT(refused({"go", "kichen"}), Contains("did you mean \"kitchen\"?"));
+  CHECK_THAT(refused({"go", "3"}), Contains("needs two of them: orcactl go 3.2 4"));
+
+  robot.order({"go", "--repeat", "kitchen", "library"});
+  robot.order({"go", "--cancel"});
+  CHECK_THAT(robot.order({"go"}).out, Contains("command: no goal"));
+  REQUIRE(run_orcactl({"stop"}).exit_code() == 0);
+  CHECK(names(finish(robot.program, Seconds(20))) == Words{"library", "point_1"});
 }
 
 TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes back and says so",

@@ -139,6 +139,13 @@ void add_names(Client& client, const char* command, const char* cell, std::set<s
 
 }  // namespace
 
+std::vector<std::string> components_with(Client& client, std::string_view port) {
+  std::vector<std::string> components;
+  for (const std::string& name : names_of(client, "names", "port"))
+    if (name.ends_with(port)) components.push_back(name.substr(0, name.size() - port.size()));
+  return components;
+}
+
 std::set<std::string> names_of(Client& client, const char* command, const char* cell) {
   std::set<std::string> names;
   const auto take = [&](supervisor::ControlAnswer& answer) {

@@ -20,6 +20,9 @@ namespace orca::orcactl {
 /// Returns the values of the cells of a name in the answer to a command; none if it fails.
 [[nodiscard]] std::set<std::string> names_of(Client& client, const char* command, const char* cell);
 
+/// Returns the components that have a port of that name, which begins with a dot.
+[[nodiscard]] std::vector<std::string> components_with(Client& client, std::string_view port);
+
 /// Prints a failure to stderr.
 /// @return its exit status.
 ExitCode report(const Failure& failure);

@@ -238,6 +238,20 @@ std::vector<Command> history_commands() {
                   "step for done, end "
                   "takes the task for failed, begin begins it again. yes and no answer the question that a "
                   "task asks."},
+      {.name = "go",
+       .arguments = {{"GOAL", Names::none, true, true}},
+       .options = {{"--queue", "", "after the goals that it has, instead of them"},
+                   {"--repeat", "", "to all of them in turn, again and again"},
+                   {"--cancel", "", "stand, and forget all goals"},
+                   {"--wait", "", "show what becomes of each goal; exit status 1 if one was not reached"},
+                   {"--component", "NAME", "which component takes the order, if several do"},
+                   kTimeout},
+       .text = "send the robot somewhere, or show where it goes and how far it is",
+       .details =
+           "A GOAL is a place by its name (kitchen), two coordinates in metres (3.2 4), or a text as in "
+           "Command's parameter goals (\"desk: 3 2 > 5 4.5 @ 90\"). Several are driven to one after the "
+           "other. Without a goal it shows the goal on the way, what is left, and why the robot waits. "
+           "Who was given an order waits for the next one when it is carried out."},
       {.name = "missions",
        .arguments = {{"MISSION", Names::none, true}},
        .text = "what happened in each mission, in order"},

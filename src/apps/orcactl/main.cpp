@@ -13,6 +13,7 @@
 #include "common/manual.hpp"
 #include "common/output.hpp"
 #include "exit_code.hpp"
+#include "going.hpp"
 #include "map_saving.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
@@ -27,12 +28,12 @@ namespace apps = orca::apps;
 
 ExitCode carry_out(const apps::Call& call) {
   using Way = ExitCode (*)(const apps::Call&);
-  static const std::map<std::string_view, Way> ways{{"echo", tap},          {"hz", tap},
-                                                    {"latency", tap},       {"send", offer},
-                                                    {"query", offer},       {"names", print_names},
-                                                    {"record", record},     {"bag", handle_bag},
-                                                    {"map", handle_map},    {"calibrate", calibrate},
-                                                    {"tasks", handle_tasks}};
+  static const std::map<std::string_view, Way> ways{{"echo", tap},           {"hz", tap},
+                                                    {"latency", tap},        {"send", offer},
+                                                    {"query", offer},        {"names", print_names},
+                                                    {"record", record},      {"bag", handle_bag},
+                                                    {"map", handle_map},     {"calibrate", calibrate},
+                                                    {"tasks", handle_tasks}, {"go", handle_go}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

@@ -51,14 +51,6 @@ const char* word_for(idl::TaskPhase phase) {
   return "on the way";
 }
 
-// Returns the components that have a port of that name.
-std::vector<std::string> components_with(Client& client, std::string_view port) {
-  std::vector<std::string> components;
-  for (const std::string& name : names_of(client, "names", "port"))
-    if (name.ends_with(port)) components.push_back(name.substr(0, name.size() - port.size()));
-  return components;
-}
-
 Result<ObjectPtr<idl::TaskState>> fetch_task(Client& client, const std::string& component, Duration limit) {
   Result<ObjectLoan> reply =
       ask_port(client, component + std::string(kShows), make_object(object_type<idl::Ask>()), limit);

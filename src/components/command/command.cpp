@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,8 @@
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/goals/mission_proxy.hpp"
+#include "orca/idl/tasks.hpp"
+#include "orca/idl/time.hpp"
 #include "prompt.hpp"
 
 namespace {
@@ -47,7 +51,7 @@ class Command final : public orca::Component {
   // A lap begins a goal, or waits for something to happen to it. While it waits, orders and objects that are sent are taken.
   orca::Outcome work() override {
     if (mission_.active()) {
-      if (const auto ending = mission_.wait(kLongestLap)) note(ending->reached);
+      if (const auto ending = mission_.wait(kLongestLap)) note(ending->reached, ending->reason);
       return orca::again();
     }
     while (agenda_.next(rounds()) == nullptr) {
@@ -59,11 +63,13 @@ class Command final : public orca::Component {
     return orca::again();
   }
 
-  [[nodiscard]] std::size_t rounds() const { return static_cast<std::size_t>(*rounds_); }
+  [[nodiscard]] std::size_t rounds() const {
+    return ordered_rounds_.value_or(static_cast<std::size_t>(*rounds_));
+  }
 
   orca::Outcome conclude() {
-    if (emptied_) wait_until([] { return false; }, std::chrono::hours(1));  // an order ends the lap
-    if (emptied_) return orca::again();
+    if (stays_) wait_until([] { return false; }, std::chrono::hours(1));  // an order ends the lap
+    if (stays_) return orca::again();
     if (missed_ == 0) return orca::done();
     return orca::failed("not reached: " + orca::listed(unreached_) + " (" + std::to_string(missed_) + " of " +
                         std::to_string(tried_) + " goals)");
@@ -74,11 +80,13 @@ class Command final : public orca::Component {
     agenda_.begin();
     ++tried_;
     going_to_ = trip.name;
-    if (const auto ending = mission_.begin(trip, *goal_timeout_)) note(ending->reached);
+    if (const auto ending = mission_.begin(trip, *goal_timeout_)) note(ending->reached, ending->reason);
   }
 
   // Takes note of how the drive has ended.
-  void note(bool reached) {
+  void note(bool reached, const std::string& reason) {
+    result_ = going_to_ + ": " + (reached ? "reached" : reason);
+    if (reached) ++reached_;
     if (reached) return;
     ++missed_;
     rests_ = *rounds_ != 1;
@@ -91,14 +99,57 @@ class Command final : public orca::Component {
     std::vector<Trip> trips;
     for (const std::string& text : *goals_)
       if (const orca::Status added = add(text, trips); !added.ok()) return added;
+    listed_ = *goals_;
+    stays_ = trips.empty() && !asks_;
+    ordered_.clear();
+    ordered_rounds_.reset();
+    drive_to(std::move(trips), "there are other goals");
+    return orca::ok();
+  }
+
+  void drive_to(std::vector<Trip> trips, const std::string& why) {
     if (mission_.active()) {
-      mission_.cancel("there are other goals");
-      note(false);
+      mission_.cancel(why);
+      note(false, "cancelled: " + why);
     }
     rests_ = false;
-    listed_ = *goals_;
-    emptied_ = trips.empty() && !asks_;
     agenda_.set(std::move(trips));
+  }
+
+  orca::Result<orca::Loan<orca::idl::TripState>> on_order(
+      const orca::ObjectPtr<orca::idl::TripOrder>& order) {
+    if (const orca::Status obeyed = obey(*order); !obeyed.ok()) return obeyed.error();
+    auto state = orca::make_object<orca::idl::TripState>();
+    if (mission_.active()) state->going_to() = going_to_;
+    state->next() = agenda_.rest(rounds());
+    state->reached(static_cast<std::uint32_t>(reached_));
+    state->missed(static_cast<std::uint32_t>(missed_));
+    state->result() = result_;
+    state->stamp(orca::to_time_value(now()));
+    return state;
+  }
+
+  // Who was given an order waits for others when it is carried out.
+  orca::Status obey(const orca::idl::TripOrder& order) {
+    const orca::idl::TripOrderKind kind = order.kind();
+    std::vector<Trip> trips;
+    for (const std::string& text : order.goals())
+      if (orca::Status added = add(text, trips); !added.ok()) return added;
+    const bool needs_goals = kind == orca::idl::TRIP_GO || kind == orca::idl::TRIP_QUEUE;
+    if (needs_goals == trips.empty())
+      return orca::fail(orca::Code::invalid_argument,
+                        "an order to go names a goal at least, and no other order names one");
+    if (kind == orca::idl::TRIP_SHOW) return orca::ok();
+    stays_ = true;
+    if (kind != orca::idl::TRIP_QUEUE) ordered_.clear();
+    ordered_.insert(ordered_.end(), order.goals().begin(), order.goals().end());
+    if (kind == orca::idl::TRIP_QUEUE) {
+      agenda_.add(std::move(trips));
+      return orca::ok();
+    }
+    ordered_rounds_ = order.rounds();
+    drive_to(std::move(trips),
+             kind == orca::idl::TRIP_GO ? "there are other goals" : "by \"" + order.origin() + "\"");
     return orca::ok();
   }
 
@@ -107,7 +158,8 @@ class Command final : public orca::Component {
   // A goal that the robot is on its way to is driven to again.
   void save_state(orca::StateWriter& state) const override {
     const std::size_t on_the_way = mission_.active() ? 1 : 0;
-    state.write(tried_ - on_the_way, unreached_, missed_, agenda_.begun() - on_the_way, listed_, emptied_);
+    state.write(tried_ - on_the_way, unreached_, missed_, agenda_.begun() - on_the_way, listed_, stays_,
+                ordered_, ordered_rounds_, reached_);
   }
 
   orca::Status load_state(orca::StateReader& state) override {
@@ -119,17 +171,36 @@ class Command final : public orca::Component {
     }
     std::size_t begun = 0;
     std::vector<std::string> listed;
-    bool emptied = false;
-    if (orca::Status read = state.read(tried_, unreached_, missed_, begun, listed, emptied); !read.ok())
+    bool stays = false;
+    if (orca::Status read = state.read(tried_, unreached_, missed_, begun, listed, stays, ordered_,
+                                       ordered_rounds_, reached_);
+        !read.ok())
       return read;
-    if (listed != listed_) return orca::ok();  // that was another list
+    if (listed != listed_) return forget_orders();  // that was another list
+    if (orca::Status again = take_orders_again(); !again.ok()) return again;
     agenda_.go_on_after(begun);
-    emptied_ = emptied;
-    asks_ = asks_ && !emptied;
+    stays_ = stays;
+    asks_ = asks_ && !stays;
     return orca::ok();
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  orca::Status forget_orders() {
+    ordered_.clear();
+    ordered_rounds_.reset();
+    return orca::ok();
+  }
+
+  // Orders took the place of the list of before, or were added to it.
+  orca::Status take_orders_again() {
+    std::vector<Trip> trips;
+    for (const std::string& text : ordered_)
+      if (orca::Status added = add(text, trips); !added.ok()) return added;
+    if (ordered_rounds_) agenda_.set({});
+    agenda_.add(std::move(trips));
+    return orca::ok();
+  }
+
+  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
   [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Command", 1}}; }
 
   // Asks the user for one goal; false when there will be no more. Typed letters stay when the lap is given up for an order.
@@ -162,6 +233,11 @@ class Command final : public orca::Component {
     return orca::ok();
   }
 
+  orca::QueryServer<orca::idl::TripOrder, orca::idl::TripState> orders_{
+      *this,
+      "TripQuery",
+      &Command::on_order,
+      {.text = "Orders of an operator: other goals, more goals, or none. The answer is what it does then."}};
   MissionProxy mission_{*this, host()};
 
   orca::Param<std::vector<std::string>> goals_{
@@ -189,14 +265,18 @@ class Command final : public orca::Component {
       {.unit = "s", .min = 1.0, .text = "Longest time for one goal; after it the goal has failed."}};
 
   Agenda agenda_;
-  std::vector<std::string> listed_;  // the parameter goals, as it was taken
-  bool asks_ = false;                // Whether goals come from the prompt.
-  bool emptied_ = false;             // Whether all goals were taken away while it runs.
+  std::vector<std::string> listed_;   // the parameter goals, as it was taken
+  bool asks_ = false;                 // Whether goals come from the prompt.
+  bool stays_ = false;                // Whether it waits for orders after the last goal.
+  std::vector<std::string> ordered_;  // the goals of the orders that are carried out, as they were written
+  std::optional<std::size_t> ordered_rounds_;  // theirs; nothing: none was given
   orca::command::Prompt prompt_;
   std::string going_to_;  // name of the goal on the way
   bool rests_ = false;    // Whether the goal before was not reached, and others are driven to in rounds.
   std::size_t tried_ = 0;
   std::size_t missed_ = 0;
+  std::size_t reached_ = 0;
+  std::string result_;                  // of the last goal that is over
   std::vector<std::string> unreached_;  // each once
 };
 

@@ -33,7 +33,18 @@ class Agenda {
     trips_ = std::move(trips);
     begun_ = 0;
   }
+  /// Adds goals behind all others.
+  void add(std::vector<Trip> trips) {
+    trips_.insert(trips_.end(), std::make_move_iterator(trips.begin()), std::make_move_iterator(trips.end()));
+  }
   [[nodiscard]] bool empty() const { return trips_.empty(); }
+  /// Returns the names of the goals of this round that were not begun.
+  [[nodiscard]] std::vector<std::string> rest(std::size_t rounds) const {
+    std::vector<std::string> names;
+    if (next(rounds) == nullptr) return names;
+    for (std::size_t i = begun_ % trips_.size(); i < trips_.size(); ++i) names.push_back(trips_[i].name);
+    return names;
+  }
 
   /// Returns the goal that is to be driven to now; null after the last one.
   /// @param rounds  in which the list is driven; 0: without end.

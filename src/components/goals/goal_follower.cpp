@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -17,6 +18,23 @@ std::string in_short(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
   return text;
+}
+
+bool are_motors_held(const std::vector<idl::Alarm>& alarms) {
+  return std::ranges::any_of(
+      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
+}
+
+// Returns what is left of the way to the last point [m]. @pre  there is one.
+double way_left(const Route& route, const Patience& patience, Vec2 from) {
+  double left = 0.0;
+  for (const Route::Point& point : route.points()) {
+    const Vec2 place{point->coordinate().point().x(), point->coordinate().point().y()};
+    const double straight = norm(place - from);
+    left += point == route.points().front() ? patience.plan_left().value_or(straight) : straight;
+    from = place;
+  }
+  return left;
 }
 
 // Says how near the robot has come to a point, for people.
@@ -43,6 +61,8 @@ GoalFollower::GoalFollower(ComponentHost& host, double blocked_after)
       path_(
           *this, "PathPush",
           {.text = "The way that is left: one object whenever its points change, and for a new subscriber."}),
+      progress_(*this, "ProgressQuery", &GoalFollower::on_question,
+                {.text = "The goal on the way, what is left of the way, and why the robot waits."}),
       odometry_(*this, "odometry",
                 {.text = "Pose of the robot, used if no localizer is connected.", .optional = true}),
       localizer_(*this, "localizer",
@@ -131,13 +151,16 @@ Outcome GoalFollower::work() {
   const std::optional<Pose2> pose = take_pose();
   if (pose && !is_lost()) {
     follow_route(*pose);
-  } else {
-    wait_for_pose();
+  } else {  // it stands while nobody says where it is, or lets others look around
+    before_ = {};
+    const bool leaves_it = lost_ && *lost_wait_ > 0.0;
+    motion_.push(route_.empty() || leaves_it ? dont_care() : full_stop());
   }
   return again();
 }
 
 void GoalFollower::follow_route(const Pose2& pose) {
+  seen_at_ = pose.position();
   pass_via_points(pose);
   if (route_.empty()) {
     before_ = {};
@@ -172,13 +195,6 @@ void GoalFollower::note_odometry(const idl::Odometry& odometry) {
   lost_ = lost_ || !localizer_.connected();
 }
 
-// Stands while nobody says where it is, or lets others look around.
-void GoalFollower::wait_for_pose() {
-  before_ = {};
-  const bool leaves_it = lost_ && *lost_wait_ > 0.0;
-  motion_.push(route_.empty() || leaves_it ? dont_care() : full_stop());
-}
-
 // Shows the way that is left, if it has changed or somebody has come who has not seen it.
 void GoalFollower::push_path(const Pose2& pose) {
   const PathShown now_shown{route_.changes(), path_.subscriber_count()};
@@ -188,6 +204,27 @@ void GoalFollower::push_path(const Pose2& pose) {
   auto path = path_.loan();
   fill_path(route_, pose, *height_, *path);
   path_.push(std::move(path));
+}
+
+Result<Loan<idl::Progress>> GoalFollower::on_question(const ObjectPtr<idl::Ask>& /*ask*/) {
+  auto progress = make_object<idl::Progress>();
+  progress->stamp(to_time_value(now()));
+  if (route_.empty()) return progress;
+  progress->name() = route_.points().back()->name();
+  progress->mission(route_.point()->mission());
+  progress->left(way_left(route_, patience_, seen_at_));
+  progress->waits() = why_it_waits();
+  return progress;
+}
+
+std::string GoalFollower::why_it_waits() const {
+  constexpr double kWaits = 3.0;  // [s] without progress
+  if (lost_) return "it is not known where the robot is";
+  if (are_motors_held(kept_alarms())) return "the motors are held; orcactl estop --release lets them go";
+  if (doubts_) return doubt();
+  if (stuck_ < kWaits) return {};
+  const std::string holds = what_holds();
+  return "no progress for " + in_short(std::floor(stuck_)) + " s" + (holds.empty() ? "" : ": " + holds);
 }
 
 void GoalFollower::take(const Step& step, const Pose2& pose, const Target& target) {
@@ -231,8 +268,9 @@ void GoalFollower::push_goal(const Target& target) {
 
 // Returns whether it has given up the route. It does not as long as nobody wants to know.
 bool GoalFollower::is_hopeless(const Pose2& pose) {
-  if (are_motors_held()) patience_.begin();  // that it stands is somebody's wish
+  if (are_motors_held(kept_alarms())) patience_.begin();  // that it stands is somebody's wish
   const double stuck = patience_.note(distance(next_place(pose), pose), now());
+  stuck_ = stuck;
   const idl::GoalPoint& next = route_.next();
   if (failed_.subscriber_count() == 0 || next.reach_radius().distance() <= 0.0) return false;
   if (next.time_limit() > 0.0 && route_.age(now()) >= next.time_limit()) {
@@ -246,12 +284,6 @@ bool GoalFollower::is_hopeless(const Pose2& pose) {
     return false;
   }
   return true;
-}
-
-bool GoalFollower::are_motors_held() const {
-  const std::vector<idl::Alarm> alarms = kept_alarms();
-  return std::ranges::any_of(
-      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
 
 void GoalFollower::end_route(idl::GoalFailure kind, const std::string& reason) {

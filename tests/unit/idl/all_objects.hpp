@@ -35,16 +35,15 @@ using TravellingStructs =
                idl::WorldCoordinate3D, idl::WorldCoordinate6DOF>;
 
 /// The object types that have a header themselves.
-using HeadedObjects =
-    std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery,
-               idl::BumperReadings, idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door,
-               idl::Drive, idl::Estimate, idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph,
-               idl::GripperCommand, idl::GripperState, idl::HolonomicVelocity, idl::Image,
-               idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor, idl::Localization,
-               idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid, idl::Odometry,
-               idl::Path, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
-               idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TurretAngle,
-               idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
+using HeadedObjects = std::tuple<
+    idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery, idl::BumperReadings,
+    idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door, idl::Drive, idl::Estimate,
+    idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::GripperCommand, idl::GripperState,
+    idl::HolonomicVelocity, idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
+    idl::Localization, idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid,
+    idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
+    idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TripOrder, idl::TripState,
+    idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

@@ -104,16 +104,16 @@ class GoalFollower : public Component {
   Status refuse(const idl::GoalPoint& goal, const char* fault);
   void follow_route(const Pose2& pose);
   void push_path(const Pose2& pose);
+  Result<Loan<idl::Progress>> on_question(const ObjectPtr<idl::Ask>& ask);
+  [[nodiscard]] std::string why_it_waits() const;
   void push_goal(const Target& target);
   void pass_via_points(const Pose2& pose);
   const Target& next_place(const Pose2& pose);
   void arrive(const Pose2& pose);
   void wait_to_be_sure();
-  void wait_for_pose();
   bool is_lost();
   [[nodiscard]] std::string doubt() const;
   bool is_hopeless(const Pose2& pose);
-  [[nodiscard]] bool are_motors_held() const;
   void end_route(idl::GoalFailure kind, const std::string& reason);
   void announce(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason);
 
@@ -124,6 +124,7 @@ class GoalFollower : public Component {
   PushServer<idl::GoalFailed> failed_;
   PushServer<idl::GoalPoint> goal_push_;
   PushServer<idl::Path> path_;
+  QueryServer<idl::Ask, idl::Progress> progress_;
   PushProxy<idl::Odometry> odometry_;
   PushProxy<idl::RobotPose> localizer_;
 
@@ -146,6 +147,8 @@ class GoalFollower : public Component {
   Patience patience_;
   Before before_;
   std::optional<TimePoint> posed_at_;
+  Vec2 seen_at_;            // the robot, when its pose was taken last
+  double stuck_ = 0.0;      // [s] without progress
   double deviation_ = 0.0;  // [m] standard deviation of its position, in the worst direction; 0: not known
   bool doubts_ = false;     // Whether it has said that it may be at the goal.
 };

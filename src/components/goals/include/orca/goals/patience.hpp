@@ -34,6 +34,8 @@ class Patience {
     return to_seconds(now - since_);
   }
 
+  /// Returns what is left of the planned way to the point [m], if there is a plan.
+  [[nodiscard]] std::optional<double> plan_left() const { return left_; }
   /// Returns the smallest distance so far [m], to within 0.1 m; infinite if there is none.
   [[nodiscard]] double nearest() const { return nearest_; }
 

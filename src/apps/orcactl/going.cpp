@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Additional permission: LICENSES/Orca-plugin-exception.txt
+#include "going.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include "asking.hpp"
+#include "client.hpp"
+#include "offering.hpp"
+#include "orca/base/text.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/idl/tasks.hpp"
+#include "orca/xml/quantity.hpp"
+#include "table.hpp"
+
+namespace orca::orcactl {
+namespace {
+
+constexpr std::string_view kTrips = ".TripQuery";
+constexpr std::string_view kDrives = ".ProgressQuery";
+constexpr Duration kLookEvery = std::chrono::milliseconds(500);
+
+// Returns the value of "3.2" or "3.2m" [m]; nothing for other words.
+std::optional<double> metres(const std::string& word) {
+  const Result<double> read = xml::parse_quantity(word, "m");
+  return read ? std::optional(*read) : std::nullopt;
+}
+
+std::string point_text(const std::string& name, double x, double y) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%s: %.9g %.9g", name.c_str(), x, y);
+  return text;
+}
+
+// Asks a port for a T.
+template <class T>
+Result<ObjectPtr<T>> fetch(Client& client, const std::string& port, const ObjectLoan& question,
+                           Duration limit) {
+  Result<ObjectLoan> reply = ask_port(client, port, question, limit);
+  if (!reply) return reply.error();
+  ObjectPtr<T> object = object_cast<T>(std::move(*reply).seal());
+  if (!object)
+    return fail(Code::invalid_argument, port + " answers with something else than is expected of it");
+  return object;
+}
+
+// Gives an order, which may be TRIP_SHOW.
+Result<ObjectPtr<idl::TripState>> fetch_trips(Client& client, const std::string& component,
+                                              Loan<idl::TripOrder> order, Duration limit) {
+  return fetch<idl::TripState>(client, component + std::string(kTrips), std::move(order), limit);
+}
+
+// Returns "4.2 m left" or why the robot waits, of whoever drives to that goal; empty if nobody says so.
+std::string progress_text(Client& client, const std::string& goal, Duration limit) {
+  for (const std::string& driver : components_with(client, kDrives)) {
+    const auto progress = fetch<idl::Progress>(client, driver + std::string(kDrives),
+                                               make_object(object_type<idl::Ask>()), limit);
+    if (!progress || (*progress)->name() != goal) continue;
+    char text[48];
+    std::snprintf(text, sizeof text, ", %.1f m left", (*progress)->left());
+    return text + ((*progress)->waits().empty() ? "" : "; it waits: " + printable((*progress)->waits()));
+  }
+  return {};
+}
+
+Status show_goals(Client& client, const std::vector<std::string>& components, Duration limit) {
+  for (const std::string& component : components) {
+    const auto state = fetch_trips(client, component, make_object<idl::TripOrder>(), limit);
+    if (!state) return state.error();
+    std::string text = component + ": ";
+    const std::string& goal = (*state)->going_to();
+    text +=
+        goal.empty() ? "no goal" : "on the way to " + printable(goal) + progress_text(client, goal, limit);
+    if (!(*state)->next().empty()) text += "; then " + listed((*state)->next());
+    if (!(*state)->result().empty()) text += "; the last one: " + printable((*state)->result());
+    print(text + "\n");
+  }
+  return ok();
+}
+
+// Shows what becomes of the goals until there is none any more.
+// @errors  not_found: a goal was missed.
+Status wait_for(Client& client, const std::string& component, const idl::TripState& begin, Duration limit) {
+  std::string said = begin.result();
+  for (;; std::this_thread::sleep_for(kLookEvery)) {
+    const auto state = fetch_trips(client, component, make_object<idl::TripOrder>(), limit);
+    if (!state) return state.error();
+    if ((*state)->result() != said) print(printable((*state)->result()) + "\n");
+    said = (*state)->result();
+    if (!(*state)->going_to().empty() || !(*state)->next().empty()) continue;
+    const std::uint32_t missed = (*state)->missed() - begin.missed();
+    if (missed == 0) return ok();
+    return fail(Code::not_found,
+                std::to_string(missed) + (missed == 1 ? " goal was" : " goals were") + " not reached");
+  }
+}
+
+Result<Loan<idl::TripOrder>> trip_order(const apps::Call& call) {
+  Result<std::vector<std::string>> goals = goals_in(call.words);
+  if (!goals) return goals.error();
+  if (call.has("--cancel") && !goals->empty())
+    return fail(Code::invalid_argument, "--cancel takes all goals away; it goes with none");
+  auto order = make_object<idl::TripOrder>();
+  order->kind(idl::TRIP_GO);
+  if (call.has("--queue")) order->kind(idl::TRIP_QUEUE);
+  if (call.has("--cancel")) order->kind(idl::TRIP_CANCEL);
+  order->goals() = *std::move(goals);
+  order->rounds(call.has("--repeat") ? 0 : 1);
+  return order;
+}
+
+Status carry_out_trip(Client& client, const std::vector<std::string>& components, const apps::Call& call) {
+  const Duration limit = call.duration("--timeout").value_or(kAnswerLimit);
+  if (call.words.empty() && !call.has("--cancel")) return show_goals(client, components, limit);
+  const std::optional<std::string> named = call.text("--component");
+  if (!named && components.size() > 1)
+    return fail(Code::invalid_argument, "several components send robots to goals: " + listed(components) +
+                                            "; name one by --component");
+  const std::string component = named.value_or(components.front());
+  Result<Loan<idl::TripOrder>> order = trip_order(call);
+  if (!order) return order.error();
+  const auto taken = fetch_trips(client, component, *std::move(order), limit);
+  if (!taken) return taken.error();
+  return call.has("--wait") ? wait_for(client, component, **taken, limit) : ok();
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> goals_in(const std::vector<std::string>& words) {
+  std::vector<std::string> goals;
+  std::optional<double> x;
+  for (const std::string& word : words) {
+    if (word == "m") continue;  // "3.2 m 4 m"
+    const std::optional<double> number = metres(word);
+    if (number && x) {
+      goals.push_back(point_text("point_" + std::to_string(goals.size() + 1), *x, *number));
+      x.reset();
+    } else if (number) {
+      x = number;
+    } else if (x) {
+      break;
+    } else {
+      goals.push_back(word);
+    }
+  }
+  if (x) return fail(Code::invalid_argument, "a place by coordinates needs two of them: orcactl go 3.2 4");
+  return goals;
+}
+
+ExitCode handle_go(const apps::Call& call) {
+  std::variant<Client, Failure> connected = Client::connect(call);
+  if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  Client& client = std::get<Client>(connected);
+  const std::vector<std::string> components = components_with(client, kTrips);
+  if (components.empty())
+    return report({fail(
+        Code::not_found,
+        "no component here takes orders to go; orca.Command does. A task is changed by orcactl tasks")});
+  const Status done = carry_out_trip(client, components, call);
+  return done.ok() ? ExitCode::done : report({done.error()});
+}
+
+}  // namespace orca::orcactl
