@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "batteries.hpp"
+#include "doors.hpp"
 #include "items.hpp"
 #include "motion/physics.hpp"
 #include "movers.hpp"
@@ -57,6 +58,7 @@ struct World::Impl {
         physics(model, errors),
         movers(model, o.seed, caster, physics),
         schedule(model.events, o.seed),
+        doors(model, o.seed),
         team(o.threads) {}
 
   WorldModel model;
@@ -67,6 +69,7 @@ struct World::Impl {
   detail::ContactLog contact_log;
   detail::Movers movers;
   detail::Schedule schedule;
+  detail::Doors doors;
   std::deque<detail::Robot> robots;  // Robots do not move in memory. Their numbers are those in physics.
   detail::Items items{model, robots, movers};
   detail::Batteries batteries{model, robots};
@@ -308,6 +311,7 @@ Status World::set_gripper_command(RobotId robot, const GripperOrder& order) {
 void World::step() {
   impl_->notes.clear();
   impl_->schedule.run(*this, impl_->notes);
+  impl_->doors.work(*this, impl_->notes);
   impl_->drive();
   impl_->report_contacts();
   impl_->move();

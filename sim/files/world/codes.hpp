@@ -33,5 +33,6 @@ inline constexpr const char* kOtherFormat = "W026";
 inline constexpr const char* kLightGrey = "W027";
 inline constexpr const char* kNoSuchPlace = "W028";
 inline constexpr const char* kBadBase = "W029";
+inline constexpr const char* kBadDoor = "W030";
 
 }  // namespace orca::sim::detail::world_codes

@@ -100,12 +100,21 @@ void EventReader::drain(const xml::Attributes& element) {
   if (robot && at && to) events_.drains.push_back({*robot, *at, *to});
 }
 
-Events EventReader::take() {
+void EventReader::turn(const xml::Attributes& element, bool opens) {
+  const auto door = element.name("of");
+  const auto at = element.duration("at");
+  if (!door || !at) return;
+  events_.turns.push_back({*door, opens, *at, read_end(element, "latest", *at)});
+  turn_positions_.push_back(element.element().position());
+}
+
+Events EventReader::take(const std::vector<Door>& doors) {
   if (events_.visitors.size() > kMostVisitors)
     reporter_.error(world_codes::kTooMany, last_visitor_,
                     "the world has " + std::to_string(events_.visitors.size()) +
                         " obstacles that come or go, at most " + std::to_string(kMostVisitors) + " are read");
   for (std::size_t i = 0; i < events_.moves.size(); ++i) check(events_.moves[i], move_positions_[i]);
+  for (std::size_t i = 0; i < events_.turns.size(); ++i) check(events_.turns[i], doors, turn_positions_[i]);
   return std::move(events_);
 }
 
@@ -122,6 +131,15 @@ void EventReader::check(const Move& move, const xml::Position& position) {
   }
   if (move.at < visitor->comes || (visitor->goes && move.at >= *visitor->goes))
     reporter_.error(world_codes::kBadEvent, position, "\"" + move.visitor + "\" is not there at that time");
+}
+
+void EventReader::check(const DoorTurn& turn, const std::vector<Door>& doors, const xml::Position& position) {
+  std::vector<std::string> names;
+  for (const Door& door : doors) names.push_back(door.name);
+  if (std::ranges::find(names, turn.door) == names.end())
+    reporter_.error(world_codes::kBadDoor, position,
+                    "there is no door \"" + turn.door + "\" that can be opened or shut" +
+                        reporter_.hint(turn.door, names));
 }
 
 }  // namespace orca::sim::detail

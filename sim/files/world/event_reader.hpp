@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/sim/event.hpp"
+#include "orca/sim/world_model.hpp"
 #include "orca/xml/attributes.hpp"
 
 namespace orca::sim::detail {
@@ -23,16 +24,22 @@ class EventReader {
   void kidnap(const xml::Attributes& element);
   void outage(const xml::Attributes& element);
   void drain(const xml::Attributes& element);
+  void open(const xml::Attributes& element) { turn(element, true); }
+  void shut(const xml::Attributes& element) { turn(element, false); }
 
   // Returns what was read, after a look whether it fits together.
-  Events take();
+  // @param doors  of the world.
+  Events take(const std::vector<Door>& doors);
 
  private:
+  void turn(const xml::Attributes& element, bool opens);
   void check(const Move& move, const xml::Position& position);
+  void check(const DoorTurn& turn, const std::vector<Door>& doors, const xml::Position& position);
 
   xml::Reporter& reporter_;
   Events events_;
   std::vector<xml::Position> move_positions_;
+  std::vector<xml::Position> turn_positions_;
   xml::Position last_visitor_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "fixture_reader.hpp"
 
+#include <numbers>
 #include <utility>
 
 #include "codes.hpp"
@@ -14,6 +15,10 @@ using namespace robot_file::values;
 namespace {
 
 constexpr std::size_t kMaxCorners = 1000;
+constexpr double kNarrowest = 0.1;  // [m] of a door
+constexpr double kThickness = 0.04;
+constexpr double kDoorHeight = 2.0;
+constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 }  // namespace
 
@@ -52,6 +57,26 @@ void FixtureReader::wet(const xml::Attributes& element, const std::string& name)
     return element.error_at("points", world_codes::kBadPolygon, fault);
   patch.area = outline_of(*corners);
   world_.floor.patches.push_back(std::move(patch));
+}
+
+void FixtureReader::leaf(const xml::Attributes& element, const std::string& name) {
+  const auto from = read_point(element, "from");
+  const auto to = read_point(element, "to");
+  Door door{.name = name, .swing = kQuarter, .thickness = kThickness, .height = kDoorHeight};
+  if (element.has("kind")) door.slides = element.choice("kind") == "slides";
+  if (door.slides && element.has("swing"))
+    element.error_at("swing", world_codes::kBadDoor, "a door that slides does not swing; leave this out");
+  set(door.swing, element.number_or("swing", door.swing));
+  if (element.has("starts")) door.open = element.choice("starts") == "open";
+  set(door.thickness, element.number_or("thickness", door.thickness));
+  set(door.height, element.number_or("height", door.height));
+  if (element.has("closes_after")) door.closer = element.duration("closes_after");
+  if (!from || !to) return;
+  if (norm(*to - *from) < kNarrowest)
+    return element.error(world_codes::kBadDoor,
+                         "a door is at least 0.1 m wide; move \"to\" away from \"from\"");
+  door.shut = {*from, *to};
+  world_.doors.push_back(std::move(door));
 }
 
 void FixtureReader::charger(const xml::Attributes& element, const std::string& /*name*/) {

@@ -20,6 +20,7 @@ class FixtureReader {
   // @param name  that the element gives itself, or its kind.
   void sill(const xml::Attributes& element, const std::string& name);
   void wet(const xml::Attributes& element, const std::string& name);
+  void leaf(const xml::Attributes& element, const std::string& name);
   void charger(const xml::Attributes& element, const std::string& name);
   // Gives the chargers their places. Reports those that the world does not have.
   // @pre  all places are read.

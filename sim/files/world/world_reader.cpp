@@ -50,6 +50,7 @@ constexpr std::size_t kMaxObstacles = 100'000;
 constexpr std::size_t kMaxPlaces = 1000;
 constexpr std::size_t kMaxWalkers = 200;
 constexpr std::size_t kMaxItems = 200;
+constexpr std::size_t kMaxDoors = 200;
 constexpr std::size_t kMaxEvents = 1000;
 constexpr double kPoint = 1e-3;  // [m] As large as a place is.
 
@@ -79,9 +80,11 @@ bool within_limits(const xml::Attributes& world, const Elements& elements) {
   const bool places = too_many(count(kPlaceRule), "places", kMaxPlaces);
   const bool walkers = too_many(count(kWalkerRule), "walkers", kMaxWalkers);
   const bool items = too_many(count(kItemRule), "items", kMaxItems);
-  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule) + count(kDrainRule),
-                               "moves, kidnaps, outages and drains", kMaxEvents);
-  return !obstacles && !places && !walkers && !items && !events;
+  const bool doors = too_many(count(kLeafRule), "doors", kMaxDoors);
+  const bool events = too_many(count(kMoveRule) + count(kKidnapRule) + count(kOutageRule) +
+                                   count(kDrainRule) + count(kOpenRule) + count(kShutRule),
+                               "moves, kidnaps, outages, drains and doors that open or shut", kMaxEvents);
+  return !obstacles && !places && !walkers && !items && !doors && !events;
 }
 
 }  // namespace
@@ -103,15 +106,18 @@ namespace {
 using FixtureRead = void (FixtureReader::*)(const xml::Attributes&, const std::string&);
 using EventRead = void (EventReader::*)(const xml::Attributes&);
 
-constexpr std::array<std::pair<const xml::ElementRule*, FixtureRead>, 3> kFixtures{
+constexpr std::array<std::pair<const xml::ElementRule*, FixtureRead>, 4> kFixtures{
     {{&kSillRule, &FixtureReader::sill},
      {&kWetRule, &FixtureReader::wet},
-     {&kChargerRule, &FixtureReader::charger}}};
-constexpr std::array<std::pair<const xml::ElementRule*, EventRead>, 4> kEvents{
+     {&kChargerRule, &FixtureReader::charger},
+     {&kLeafRule, &FixtureReader::leaf}}};
+constexpr std::array<std::pair<const xml::ElementRule*, EventRead>, 6> kEvents{
     {{&kMoveRule, &EventReader::move},
      {&kKidnapRule, &EventReader::kidnap},
      {&kOutageRule, &EventReader::outage},
-     {&kDrainRule, &EventReader::drain}}};
+     {&kDrainRule, &EventReader::drain},
+     {&kOpenRule, &EventReader::open},
+     {&kShutRule, &EventReader::shut}}};
 
 // Returns how the elements of a rule are read; null: another table has that.
 template <class Table>
@@ -132,7 +138,7 @@ WorldModel WorldReader::read(const xml::Element& root) {
   check_walkers();
   check_items();
   fixtures_.place_chargers();
-  world_.events = events_.take();
+  world_.events = events_.take(world_.doors);
   return std::move(world_);
 }
 

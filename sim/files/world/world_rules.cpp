@@ -20,6 +20,8 @@ constexpr ValueRule kSeed = whole(0.0, ValueRule::kUnlimited);
 constexpr ValueRule kCount = whole(0.0, 1e6);  // Generators allow fewer, and report that themselves.
 constexpr std::array<std::string_view, 4> kSides{"south", "north", "west", "east"};
 constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
+constexpr std::array<std::string_view, 2> kLeaves{"swings", "slides"};
+constexpr std::array<std::string_view, 2> kDoorStates{"shut", "open"};
 constexpr std::array<std::string_view, 5> kGeneratorKinds{"barn", "u_trap", "narrow_doors", "corridor",
                                                           "office"};
 
@@ -105,6 +107,12 @@ constexpr std::array kDrain{required("robot", kText), required("at", kTime),
                             required("to", not_negative("", 1.0))};
 constexpr std::array kCharger{required("place", kName), required("reach", positive("m", 10.0))};
 
+constexpr std::array kLeaf{
+    required("name", kName),           required("from", kText),     required("to", kText),
+    optional("kind", one_of(kLeaves)), optional("swing", kAngle),   optional("starts", one_of(kDoorStates)),
+    optional("thickness", kLength),    optional("height", kLength), optional("closes_after", kTime)};
+constexpr std::array kTurn{required("of", kName), required("at", kTime), optional("latest", kTime)};
+
 constexpr ElementRule kDoorRule{.name = "door", .attributes = kDoor};
 constexpr ElementRule kRoomDoorRule{.name = "door", .attributes = kRoomDoor};
 constexpr std::array kInWall{&kDoorRule};
@@ -130,13 +138,16 @@ constexpr ElementRule kKidnapRule{.name = "kidnap", .attributes = kKidnap};
 constexpr ElementRule kOutageRule{.name = "outage", .attributes = kOutage};
 constexpr ElementRule kDrainRule{.name = "drain", .attributes = kDrain};
 constexpr ElementRule kChargerRule{.name = "charger", .attributes = kCharger};
+constexpr ElementRule kLeafRule{.name = "leaf", .attributes = kLeaf};
+constexpr ElementRule kOpenRule{.name = "open", .attributes = kTurn};
+constexpr ElementRule kShutRule{.name = "shut", .attributes = kTurn};
 
 namespace {
 
-constexpr std::array kInWorld{&kWallRule,   &kRoomRule,  &kBoxRule,    &kCylinderRule, &kPolygonRule,
-                              &kBitmapRule, &kMeshRule,  &kPlaceRule,  &kGenerateRule, &kWalkerRule,
-                              &kItemRule,   &kSillRule,  &kWetRule,    &kMoveRule,     &kKidnapRule,
-                              &kOutageRule, &kDrainRule, &kChargerRule};
+constexpr std::array kInWorld{
+    &kWallRule,   &kRoomRule,     &kBoxRule,    &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule,
+    &kPlaceRule,  &kGenerateRule, &kWalkerRule, &kItemRule,     &kSillRule,    &kWetRule,    &kMoveRule,
+    &kKidnapRule, &kOutageRule,   &kDrainRule,  &kChargerRule,  &kLeafRule,    &kOpenRule,   &kShutRule};
 
 }  // namespace
 
@@ -147,7 +158,8 @@ namespace {
 constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,   &kDoorRule,  &kBoxRule,
                                     &kCylinderRule, &kPolygonRule, &kBitmapRule, &kMeshRule,  &kPlaceRule,
                                     &kGenerateRule, &kWalkerRule,  &kItemRule,   &kSillRule,  &kWetRule,
-                                    &kMoveRule,     &kKidnapRule,  &kOutageRule, &kDrainRule, &kChargerRule};
+                                    &kMoveRule,     &kKidnapRule,  &kOutageRule, &kDrainRule, &kChargerRule,
+                                    &kLeafRule,     &kOpenRule,    &kShutRule};
 
 }  // namespace
 

@@ -26,6 +26,9 @@ extern const xml::ElementRule kKidnapRule;
 extern const xml::ElementRule kOutageRule;
 extern const xml::ElementRule kDrainRule;
 extern const xml::ElementRule kChargerRule;
+extern const xml::ElementRule kLeafRule;
+extern const xml::ElementRule kOpenRule;
+extern const xml::ElementRule kShutRule;
 
 extern const xml::FileRules kWorldFile;
 

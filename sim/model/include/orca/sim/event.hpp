@@ -63,6 +63,14 @@ struct Drain {
   double to = 0.0;  ///< Share of a full charge, 0 to 1.
 };
 
+/// A door is opened or shut.
+struct DoorTurn {
+  std::string door;
+  bool opens = true;
+  Duration at{0};
+  std::optional<Duration> latest{};  ///< The time is drawn between `at` and this.
+};
+
 /// What happens in a world while it runs, besides people who walk about; times count from its start. What a robot is in the way of
 /// happens as soon as it is gone. Plain values.
 struct Events {
@@ -71,6 +79,7 @@ struct Events {
   std::vector<Kidnap> kidnaps{};
   std::vector<Outage> outages{};
   std::vector<Drain> drains{};
+  std::vector<DoorTurn> turns{};
 };
 
 }  // namespace orca::sim

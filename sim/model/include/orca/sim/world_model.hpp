@@ -87,6 +87,20 @@ struct Charger {
   double reach = 0.0;  ///< [m] How far the middle of a robot may be from there.
 };
 
+/// The leaf of a door, which swings or slides. It is shut or open, or on its way from one to the other. People open it.
+struct Door {
+  std::string name;  ///< Name that contacts report; not that of another door, a walker or a visitor.
+  Segment shut{};    ///< The shut leaf, from its hinges, or from where it slides to, to its free edge.
+  bool slides = false;
+  double swing =
+      0.0;  ///< [rad] The open leaf of a door that swings is turned so far, counter-clockwise positive.
+  bool open = false;       ///< At first.
+  double thickness = 0.0;  ///< [m]
+  double height = 0.0;     ///< [m]
+  /// It shuts itself so long after the last person has gone; nothing: it stays open.
+  std::optional<Duration> closer{};
+};
+
 /// A thing that a gripper can carry: an upright cylinder that stands on the floor.
 struct Item {
   std::string name;     ///< Name that contacts report; not that of another item or of a walker.
@@ -95,8 +109,8 @@ struct Item {
   Pose2 pose;           ///< Where it stands at first, in the world frame.
 };
 
-/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, things to carry, chargers, and what
-/// happens in it. A plain value.
+/// A world without robots: a plan with heights (2.5-D), named places, people who walk about, things to carry, chargers, doors, and
+/// what happens in it. A plain value.
 struct WorldModel {
   std::string name;
   std::vector<Obstacle> obstacles;
@@ -106,6 +120,7 @@ struct WorldModel {
   Events events{};
   std::vector<Item> items{};
   std::vector<Charger> chargers{};
+  std::vector<Door> doors{};
 
   /// Returns the place of that name, or null.
   [[nodiscard]] const Place* place(std::string_view name) const;
