@@ -24,8 +24,10 @@ struct MissionProxy::Drive {
   Trip trip;
   Outbox outbox;
   std::uint64_t mission;
-  double time_limit;  // [s]
-  TimePoint limit;    // for Goto to reach it
+  double time_limit;                  // [s]
+  TimePoint limit;                    // for Goto to reach it
+  bool by_route = false;              // The via points are those of a route.
+  std::optional<TimePoint> ask_at{};  // when the route is asked for again
 };
 
 MissionProxy::MissionProxy(Component& owner, ComponentHost& host)
@@ -50,6 +52,7 @@ MissionProxy::MissionProxy(Component& owner, ComponentHost& host)
              .depth = 16}),
       given_up_(owner, "GoalFailedPush",
                 {.text = "Goals that failed without a word of Goto: not taken, or not answered."}),
+      routes_(owner),
       behaviours_(owner, "behaviours", {"goto", "avoid"},
                   {.text = "Behaviours that the fuser uses on the way."}),
       reach_radius_(owner, "reach_radius", 0.2,
@@ -66,6 +69,7 @@ Status MissionProxy::configure() {
   results_.add(arrived_);
   results_.add(failed_);
   results_.add(path_);
+  results_.add(routes_.doors());
   return check_behaviours();
 }
 
@@ -126,10 +130,14 @@ std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double
       Drive{trip, Outbox(trip.via.size() + 1), mission, time_limit, host_.now() + from_seconds(time_limit)});
   arrived_.subscribe();
   failed_.subscribe();
-  if (goto_.server_restarts()) path_.subscribe();  // in another process: it may forget the route
+  drive_->by_route = routes_.connected() && trip.via.empty();
+  if (goto_.server_restarts() || drive_->by_route)
+    path_.subscribe();  // in another process: it may forget the route
+  if (drive_->by_route) routes_.begin();
   if (const Status found = find_places(drive_->trip);
       !found.ok() && found.error().code == Code::invalid_argument)
     return end(give_up(idl::GOAL_REFUSED, "refused: " + found.error().text()));
+  if (drive_->by_route) (void)lay_route();
   const Status sent = send_due(time_limit);
   if (sent.ok() || may_come_back()) return std::nullopt;
   return end(give_up(idl::GOAL_REFUSED, "refused: " + sent.error().text()));
@@ -146,6 +154,7 @@ std::optional<MissionProxy::Ending> MissionProxy::wait(Duration longest) {
   } else if (is_due()) {
     send_again();
   }
+  follow_route();
   return std::nullopt;
 }
 
@@ -165,6 +174,7 @@ MissionProxy::Ending MissionProxy::end(const Ending& ending) {
   arrived_.unsubscribe();
   failed_.unsubscribe();
   path_.unsubscribe();
+  routes_.end();
   if (const Status sent = send_clients({}); !sent.ok())
     host_.write_log(log::Level::warning, "the robot may drive on: " + sent.error().text());
   host_.end_mission();
@@ -241,7 +251,8 @@ void MissionProxy::send_again() {
 
 // Waits for a result, or until something is to be sent again; then it returns null, as it does after that time.
 PushSubject* MissionProxy::next_result(Duration longest) {
-  return results_.wait(drive_->outbox.is_empty() ? longest : std::min(longest, kRetryAfter), [this] {
+  const bool is_idle = drive_->outbox.is_empty() && !drive_->ask_at;
+  return results_.wait(is_idle ? longest : std::min(longest, kRetryAfter), [this] {
     return drive_->outbox.is_outdated(goto_.server_restarts(), clients_.server_restarts());
   });
 }
@@ -252,14 +263,58 @@ std::optional<MissionProxy::Ending> MissionProxy::take_result(const PushSubject&
     if (is_ours(*arrived_.get_update())) return Ending{true, drive_->mission, {}};
   } else if (&port == &failed_) {
     const auto failed = failed_.get_update();
-    if (!is_ours(*failed)) return std::nullopt;
+    if (!is_ours(*failed) || find_other_way(*failed)) return std::nullopt;
     host_.write_log(log::Level::warning,
                     "goal \"" + drive_->trip.name + "\" was not reached; " + failed->reason());
     return Ending{false, drive_->mission, failed->reason()};
+  } else if (&port == &routes_.doors()) {
+    (void)routes_.doors().get_update();
+    if (drive_->by_route) drive_->ask_at = host_.now();
   } else if (const auto path = path_.get_update(); is_ours(*path)) {
     note_way(*path);
   }
   return std::nullopt;
+}
+
+// Lays the trip along the cheapest route, as far as there is an answer now.
+// @return whether its points must be sent.
+bool MissionProxy::lay_route() {
+  constexpr Duration kAgain = std::chrono::milliseconds(500);
+  drive_->ask_at.reset();
+  const Result<bool> laid = routes_.lay(drive_->trip);
+  if (!laid) {
+    const bool later = laid.error().code != Code::not_found;
+    if (later) drive_->ask_at = host_.now() + kAgain;
+    host_.write_log(later ? log::Level::debug : log::Level::warning,
+                    "no route to \"" + drive_->trip.name + "\": " + laid.error().message);
+    return false;
+  }
+  if (*laid) drive_->outbox.lay_out(drive_->trip.via.size() + 1);
+  return *laid;
+}
+
+// Asks for the route again if a door has been found shut or open. Points that are on their way to Goto come first.
+void MissionProxy::follow_route() {
+  if (!drive_->ask_at || host_.now() < *drive_->ask_at || !drive_->outbox.is_empty()) return;
+  const bool is_first = drive_->trip.via.empty();
+  if (!lay_route()) return;
+  if (!is_first)
+    host_.write_log(log::Level::info, "another way to \"" + drive_->trip.name + "\": " + routes_.text());
+  const Status sent = send_due(std::max(to_seconds(drive_->limit - host_.now()), 0.1));
+  if (!sent.ok()) host_.write_log(log::Level::warning, sent.error().text());
+}
+
+// Goes on by another way after a leg was blocked, as another mission: Goto has given up the one before.
+// @return whether there is one.
+bool MissionProxy::find_other_way(const idl::GoalFailed& failed) {
+  if (!drive_->by_route || failed.kind() != idl::GOAL_BLOCKED) return false;
+  const Status reported = routes_.report_blocked(drive_->trip, drive_->outbox.points_left());
+  if (!reported.ok() || !lay_route()) return false;
+  host_.write_log(log::Level::info, "another way to \"" + drive_->trip.name + "\" after it was " +
+                                        failed.reason() + ": " + routes_.text());
+  host_.end_mission();
+  drive_->mission = host_.begin_mission();
+  return send_due(std::max(to_seconds(drive_->limit - host_.now()), 0.1)).ok();
 }
 
 bool MissionProxy::is_ours(const idl::OrcaObject& result) const {

@@ -21,6 +21,11 @@ class Outbox {
   /// @param points  of the route: the via points and the goal.
   explicit Outbox(std::size_t points) : points_(points) {}
 
+  /// Begins with other points for the same goal; the list of behaviours stays.
+  void lay_out(std::size_t points) {
+    points_ = points;
+    ahead_ = next_ = 0;
+  }
   /// Takes note of how often the receivers have been started again by now.
   void note_restarts(Restarts of_goto, Restarts of_fuser) {
     if (of_goto != of_goto_) next_ = ahead_;

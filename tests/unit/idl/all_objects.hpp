@@ -14,6 +14,7 @@
 #include "orca/idl/generated/sensing.reflection.hpp"
 #include "orca/idl/generated/system.reflection.hpp"
 #include "orca/idl/generated/tasks.reflection.hpp"
+#include "orca/idl/generated/ways.reflection.hpp"
 #include "orca/idl/generated/world.reflection.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/graph.hpp"
@@ -24,6 +25,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/tasks.hpp"
+#include "orca/idl/ways.hpp"
 #include "orca/idl/world.hpp"
 
 namespace orca::test {
@@ -41,9 +43,9 @@ using HeadedObjects = std::tuple<
     idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::GripperCommand, idl::GripperState,
     idl::HolonomicVelocity, idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
     idl::Localization, idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid,
-    idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Sensor,
-    idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TripOrder, idl::TripState,
-    idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
+    idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Route,
+    idl::Sensor, idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TripOrder,
+    idl::TripState, idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

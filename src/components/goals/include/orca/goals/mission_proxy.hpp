@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "orca/component.hpp"
+#include "orca/goals/route_proxy.hpp"
 #include "orca/goals/trip.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
@@ -17,7 +18,8 @@ namespace orca::go {
 
 /// The side of whoever wants a robot to be somewhere, in one component (thesis 11.1). For each trip it begins a mission, subscribes
 /// to its results, sends the points to who drives (a Goto, a planner, a Porter) and the list of behaviours to the fuser, and says what
-/// became of it. Then the robot stands, and the mission is over. If a receiver is in another process that is started again
+/// became of it. Then the robot stands, and the mission is over. A trip without via points is laid along a route, if there is a
+/// RouteServer, and laid again when a door on it is found shut or a leg of it is blocked. If a receiver is in another process that is started again
 /// meanwhile, it gets what it needs once more.
 ///
 /// A member of the component: it declares the ports and parameters that all such components have.
@@ -74,6 +76,9 @@ class MissionProxy {
   Status send_clients(const std::vector<std::string>& names);
   [[nodiscard]] bool is_due() const;
   void send_again();
+  bool lay_route();
+  void follow_route();
+  bool find_other_way(const idl::GoalFailed& failed);
   PushSubject* next_result(Duration longest);
   std::optional<Ending> take_result(const PushSubject& port);
   void note_way(const idl::Path& path);
@@ -93,6 +98,7 @@ class MissionProxy {
   PushProxy<idl::GoalFailed> failed_;
   PushProxy<idl::Path> path_;
   PushServer<idl::GoalFailed> given_up_;
+  RouteProxy routes_;
 
   Param<std::vector<std::string>> behaviours_;
   Param<double> reach_radius_;

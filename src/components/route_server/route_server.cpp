@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/geometry/objects/waiting_scans.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
+#include "orca/idl/ways.hpp"
+#include "orca/navigation/beams.hpp"
+#include "orca/navigation/pose_history.hpp"
+#include "orca/planning/floor.hpp"
+#include "orca/planning/ways.hpp"
+#include "orca/planning/ways_file.hpp"
+
+namespace {
+
+using orca::ObjectPtr;
+using orca::Pose2;
+using orca::TimePoint;
+using orca::Vec2;
+using orca::idl::GoalPoint;
+using orca::idl::OccupancyGrid;
+using orca::idl::Route;
+using orca::planning::FoundWay;
+using orca::planning::WayPoint;
+using orca::planning::Ways;
+
+constexpr double kNoWay = std::numeric_limits<double>::infinity();
+
+/// Something that is in the way. Its end is when it is forgotten, unless it is seen open before.
+struct Blockage {
+  std::string from;  // of a leg; empty: wherever the robot was
+  std::string to;    // of a leg, or a door
+  TimePoint end{};
+
+  auto state() { return std::tie(from, to, end); }
+};
+
+/// A server of routes through a topological map (thesis 8.3: GoalPoint, Door). It sees which doors are shut, hears which legs are blocked, and
+/// forgets that after a while. See README.md.
+class RouteServer final : public orca::Component {
+ public:
+  explicit RouteServer(orca::ComponentHost& host) : Component(host) { lap_on("localizer"); }
+
+ private:
+  orca::Status configure() override {
+    if (ways_file_->empty())
+      return ways_file_.refuse("it is not set; name a topological map, e.g. \"../sim/ways/office.xml\"");
+    orca::Result<Ways> ways = orca::planning::read_ways(*ways_file_);
+    if (!ways) return ways_file_.refuse(ways.error().message);
+    stay_active(true);  // It sees doors also while nobody drives by its routes.
+    ways_ = std::move(*ways);
+    return orca::ok();
+  }
+
+  void save_state(orca::StateWriter& state) const override { state.write(shut_, blocked_); }
+  orca::Status load_state(orca::StateReader& state) override { return state.read(shut_, blocked_); }
+
+  orca::Outcome work() override {
+    const auto pose = localizer_.get_update();
+    while (world_.new_data_arrived())
+      if (const orca::Status taken = floor_.take(*world_.get_update()); !taken.ok())
+        log_warning(taken.error().message);
+    if (failed_.new_data_arrived()) note_failure(*failed_.get_update());
+    if (!senders_.accepts(*pose)) return orca::again();
+    X_WR_ = orca::plane_pose(*pose);
+    forget();
+    if (orca::is_anywhere(pose->covariance())) {
+      history_.clear();
+      return orca::again();
+    }
+    history_.add(orca::to_time_point(pose->stamp()), X_WR_);
+    if (laser_.connected()) look_at_doors();
+    return orca::again();
+  }
+
+  void forget() {
+    const auto is_over = [this](const Blockage& one) { return one.end <= now(); };
+    std::erase_if(blocked_, is_over);
+    for (auto one = shut_.begin(); one != shut_.end();) {
+      const bool over = is_over(*one);
+      if (over) push_door(one->to, true, "may be open again: that it was shut is forgotten");
+      one = over ? shut_.erase(one) : one + 1;
+    }
+  }
+
+  // Looks at the doors that a scan shows. A leaf, or a person, that stands there long enough shuts a door.
+  void look_at_doors() {
+    if (laser_.new_data_arrived())
+      if (const auto scan = laser_.get_update(); senders_.accepts(*scan)) scans_.add(scan);
+    const orca::ScanPtr scan = scans_.take_until(history_.newest());
+    if (!scan) return;
+    const auto first = history_.at(orca::to_time_point(scan->stamp()));
+    const auto last = history_.at(orca::last_beam_of(*scan));
+    if (!first || !last) return;
+    const Pose2 mount = orca::plane_pose(scan->pose());
+    orca::nav::beams_of({scan->ranges(), scan->min_range(), scan->max_range(), scan->angle_start(),
+                         scan->angle_increment(), *first * mount, *last * mount},
+                        kSight, beams_);
+    for (const WayPoint& point : ways_.points)
+      if (point.door && norm(point.place - first->position()) < kSight) judge(point);
+  }
+
+  void judge(const WayPoint& door) {
+    const std::optional<bool> open = orca::planning::look_at(door, beams_).is_open(door.door->width);
+    if (!open || *open) suspected_.erase(door.name);
+    if (!open) return;
+    if (*open) return note_open(door.name);
+    const TimePoint since = suspected_.emplace(door.name, now()).first->second;
+    if (orca::to_seconds(now() - since) >= kSure) note_shut(door.name, "is shut");
+  }
+
+  void note_open(const std::string& door) {
+    if (std::erase_if(shut_, [&](const Blockage& one) { return one.to == door; }) > 0)
+      push_door(door, true, "is open");
+  }
+
+  void note_shut(const std::string& door, const std::string& what) {
+    const TimePoint end = now() + orca::from_seconds(*forget_after_);
+    const auto known = std::ranges::find(shut_, door, &Blockage::to);
+    if (known != shut_.end()) {
+      known->end = end;
+      return;
+    }
+    shut_.push_back({"", door, end});
+    push_door(door, false, what);
+  }
+
+  // A goal that a behaviour at a door has given up bears the name of that door.
+  void note_failure(const orca::idl::GoalFailed& failure) {
+    const auto point = ways_.find(failure.name());
+    if (failure.kind() == orca::idl::GOAL_BLOCKED && point && ways_.points[*point].door)
+      note_shut(failure.name(), "cannot be passed: " + failure.reason());
+  }
+
+  void push_door(const std::string& name, bool passable, const std::string& what) {
+    log_info(orca::in_quotes(name) + " " + what);
+    const auto found = ways_.find(name);
+    if (!found) return;
+    const WayPoint& point = ways_.points[*found];
+    auto door = doors_.loan();
+    door->name() = name;
+    door->coordinate().point().x(point.place.x);
+    door->coordinate().point().y(point.place.y);
+    door->orientation().orientation().yaw(point.door->direction);
+    door->door_width().distance(point.door->width);
+    door->door_leaf_exists(!passable);
+    door->passable(passable);
+    doors_.push(std::move(door));
+  }
+
+  orca::Status on_blocked(const ObjectPtr<Route>& route) {
+    if (route->legs().empty())
+      return orca::fail(orca::Code::invalid_argument, "it has no leg; its first one is what is blocked");
+    const std::string& to = route->legs().front().name();
+    blocked_.push_back({route->name(), to, now() + orca::from_seconds(*forget_after_)});
+    log_info("the leg from " + (route->name().empty() ? "here" : orca::in_quotes(route->name())) + " to " +
+             orca::in_quotes(to) + " is blocked");
+    return orca::ok();
+  }
+
+  // Returns the topological map in the frame of the cells.
+  [[nodiscard]] Ways ways_in_map() const {
+    const Pose2 X_MW = inverse(floor_.X_WM());
+    Ways ways = ways_;
+    for (WayPoint& point : ways.points) {
+      point.place = X_MW * point.place;
+      if (point.door) point.door->direction = orca::wrapped(X_MW.yaw + point.door->direction);
+    }
+    return ways;
+  }
+
+  [[nodiscard]] bool is_blocked(const std::string& from, const std::string& to) const {
+    return std::ranges::any_of(blocked_,
+                               [&](const Blockage& one) { return one.from == from && one.to == to; });
+  }
+
+  [[nodiscard]] double toll_between(const std::string& from, const std::string& to) const {
+    return is_blocked(from, to) || is_blocked(to, from) ? *blocked_cost_ : 0.0;
+  }
+
+  // Returns the index of the goal among the points; one that is no point of the map becomes one, with legs to those around it.
+  [[nodiscard]] std::size_t add_goal(Ways& ways, const std::string& name, Vec2 place) const {
+    constexpr double kSame = 0.3;  // [m]
+    for (std::size_t i = 0; i < ways.points.size(); ++i)
+      if (norm(ways.points[i].place - place) < kSame) return i;
+    const std::vector<double> costs = costs_from(floor_.grid(), ways, place);
+    const std::size_t goal = ways.points.size();
+    ways.points.push_back({.name = name, .place = place});
+    for (std::size_t i = 0; i < costs.size(); ++i)
+      if (costs[i] < kNoWay) ways.legs.push_back({i / 2, goal, costs[i] + 1e-3, false, i % 2, 0});
+    return goal;
+  }
+
+  [[nodiscard]] std::optional<FoundWay> find(const Ways& ways, std::size_t goal) const {
+    std::vector<double> start = costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
+    std::vector<double> end(2 * ways.points.size(), kNoWay);
+    std::vector<double> points(ways.points.size(), 0.0);
+    std::vector<double> legs;
+    end[2 * goal] = end[2 * goal + 1] = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::string& name = ways.points[i].name;
+      if (std::ranges::find(shut_, name, &Blockage::to) != shut_.end()) points[i] = *blocked_cost_;
+      start[2 * i] += toll_between("", name);
+      start[2 * i + 1] += toll_between("", name);
+    }
+    for (const orca::planning::WayLeg& leg : ways.legs)
+      legs.push_back(toll_between(ways.points[leg.from].name, ways.points[leg.to].name));
+    return cheapest_way(ways, {start, end, points, legs});
+  }
+
+  orca::Result<orca::Loan<Route>> on_question(const ObjectPtr<GoalPoint>& goal) {
+    if (floor_.grid().cells.empty() || !localizer_.latest())
+      return orca::fail(orca::Code::unavailable,
+                        "it does not know the world or the robot's pose yet; ask again later");
+    const auto& place = goal->coordinate().point();
+    Ways ways = ways_in_map();
+    const std::size_t end =
+        add_goal(ways, goal->name(), seen_from(floor_.X_WM(), Vec2{place.x(), place.y()}));
+    const std::optional<FoundWay> way = find(ways, end);
+    if (!way)
+      return orca::fail(orca::Code::not_found, "no way of " + *ways_file_ + " leads from here to \"" +
+                                                   goal->name() + "\"; give it the legs that are lacking");
+    return route_of(*way, goal->name());
+  }
+
+  [[nodiscard]] orca::Loan<Route> route_of(const FoundWay& way, const std::string& goal) const {
+    auto route = orca::make_object<Route>();
+    route->name() = goal;
+    route->cost(way.cost);
+    for (std::size_t i = 0; i + 1 < way.points.size(); ++i) {
+      const WayPoint& point =
+          ways_.points[way.points[i]];  // The goal, which may be a new point, is the last one.
+      auto& leg = route->legs().emplace_back();
+      leg.name() = point.name;
+      leg.x(point.place.x);
+      leg.y(point.place.y);
+      leg.door(point.door.has_value());
+      leg.direction(point.door ? point.door->direction : 0.0);
+      leg.width(point.door ? point.door->width : 0.0);
+      leg.cost(way.costs[i]);
+    }
+    return route;
+  }
+
+  static constexpr double kSight = 5.0;  // [m] from which it judges a door
+  static constexpr double kSure = 1.0;   // [s] for which a door must look shut: people walk through
+
+  orca::PushProxy<orca::idl::RobotPose> localizer_{
+      *this, "localizer", {.text = "Pose of the robot, in the frame of the topological map."}};
+  orca::PushProxy<OccupancyGrid> world_{
+      *this,
+      "world",
+      {.text =
+           "The map with what was seen of late, by which it judges doors and finds what the robot gets to."}};
+  orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
+      *this, "laser", {.text = "Scans in which it sees whether doors are open.", .optional = true}};
+  orca::PushProxy<orca::idl::GoalFailed> failed_{
+      *this,
+      "failed",
+      {.text = "Goals that were given up; one that is blocked and bears a door's name shuts that.",
+       .optional = true}};
+  orca::QueryServer<GoalPoint, Route> question_{
+      *this,
+      "RouteQuery",
+      &RouteServer::on_question,
+      {.text = "The cheapest way from the robot to a goal, by legs."}};
+  orca::SendServer<Route> blockages_{*this,
+                                     "BlockedSend",
+                                     &RouteServer::on_blocked,
+                                     {.text = "A leg that cannot be driven: from the place in name, empty "
+                                              "for where the robot is, to that of the first "
+                                              "leg."}};
+  orca::PushServer<orca::idl::Door> doors_{
+      *this, "DoorPush", {.text = "A door that is seen to be shut, or is not any more."}};
+  orca::Param<std::string> ways_file_{
+      *this, "ways", "", {.file = true, .fixed = true, .text = "File of the topological map (README)."}};
+  orca::Param<double> blocked_cost_{
+      *this,
+      "blocked_cost",
+      50.0,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "Way that the robot drives more rather than wait at a shut door or a blocked leg."}};
+  orca::Param<double> forget_after_{
+      *this,
+      "forget_after",
+      120.0,
+      {.unit = "s",
+       .min = 1.0,
+       .text = "Time after which a blocked leg, or a shut door that is not seen, may be open."}};
+
+  Ways ways_;  // in the frame of the goals
+  orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
+  Pose2 X_WR_;
+  orca::nav::PoseHistory history_;
+  orca::WaitingScans scans_;
+  std::vector<orca::nav::Beam> beams_;          // of the last scan
+  std::vector<Blockage> shut_;                  // doors
+  std::vector<Blockage> blocked_;               // legs
+  std::map<std::string, TimePoint> suspected_;  // doors that look shut, and since when
+  orca::SenderWatch senders_{host()};
+};
+
+}  // namespace
+
+ORCA_COMPONENT(RouteServer, "orca.RouteServer")
