@@ -18,13 +18,22 @@ constexpr double kRemembered = 1.5;     // [m] around the robot that recovery do
 }  // namespace
 
 Navigator::Navigator(const Footprint& footprint, const NavigatorRules& rules)
-    : footprint_(footprint), rules_(rules), driver_(footprint), map_(rules.cell, rules.extent) {}
+    : footprint_(footprint),
+      rules_(rules),
+      driver_(footprint, rules.recoveries),
+      map_(rules.cell, rules.extent) {}
+
+void Navigator::set_rules(const NavigatorRules& rules) {
+  rules_ = rules;
+  driver_.set_recoveries(rules.recoveries);
+}
 
 void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
   const bool lost = !map_.lattice().holds(map_.lattice().cell_at(pose.position()));
   if (!std::exchange(begun_, true) || lost) map_.reset(pose.position());
   map_.follow(pose.position());
   map_.see(scan);
+  if (doubts_) map_.clear_along(scan);
   const double reach = footprint_.outer_radius() + rules_.pursuit.max_look_ahead * 1.5 + 0.3;
   std::vector<Vec2>& points = driver_.points();
   points.clear();
@@ -56,25 +65,34 @@ double Navigator::room_ahead(const Moment& moment) const {
   return driver_.room_ahead(moment.pose, rules_.pursuit.margin);
 }
 
-bool Navigator::is_free(Vec2 point) const {
+bool Navigator::has_seen(Vec2 point) const {
   const Cell cell = map_.lattice().cell_at(point);
-  return map_.lattice().holds(cell) && map_.free(cell);
+  return map_.lattice().holds(cell) && map_.known(map_.lattice().index(cell));
 }
 
 Steer Navigator::steer(const Moment& moment, const Errand& errand) {
   if (!planned_for_) driver_.begin(moment);
-  const auto seen = [this](Vec2 point) { return is_free(point); };
-  if (const auto back = driver_.recover(moment, rules_.pursuit, seen)) return *back;
+  const auto seen = [this](Vec2 point) { return has_seen(point); };
+  const auto recovered = driver_.recover(moment, rules_.pursuit, seen);
+  if (doubts(driver_.recovery())) doubt(moment.pose.position());
+  if (recovered) return *recovered;
+  doubts_ = false;
   driver_.note(moment.pose);
   keep_path(moment, errand);
   news_ = false;
   const bool passes = errand.passing && kept_.plan().complete;
-  const Steer steer = driver_.follow_path(path(), moment, rules_.pursuit,
-                                          passes ? rules_.pursuit.max_speed : 0.0, rules_.patience);
+  const Steer steer =
+      driver_.follow_path(path(), moment, rules_.pursuit,
+                          {passes ? rules_.pursuit.max_speed : 0.0, rules_.patience, kept_.plan().complete});
   if (!driver_.recovers()) return steer;
   kept_.drop();
-  if (driver_.recoveries() % 2 == 0) map_.forget_beyond(moment.pose.position(), kRemembered);
   return steer;
+}
+
+// Seen farther away it may be old.
+void Navigator::doubt(Vec2 robot) {
+  if (!doubts_) map_.forget_beyond(robot, kRemembered);
+  doubts_ = true;
 }
 
 void Navigator::keep_path(const Moment& moment, const Errand& errand) {

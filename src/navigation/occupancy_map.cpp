@@ -124,6 +124,19 @@ void OccupancyMap::look_through(const Beam& beam) {
   });
 }
 
+void OccupancyMap::clear_along(std::span<const Beam> scan) {
+  for (const Beam& beam : scan)
+    walk_line(lattice_, beam.from, beam.to, [&](Cell cell) {
+      if (!lattice_.holds(cell)) return false;
+      State& state = cells_[lattice_.index(cell)];
+      if (state.evidence > 0) state.evidence = -kMiss;
+      return true;
+    });
+  for (const Beam& beam : scan)
+    if (const Cell cell = lattice_.cell_at(beam.to); beam.echo && lattice_.holds(cell))
+      cells_[lattice_.index(cell)].evidence = kHit;
+}
+
 void OccupancyMap::forget_beyond(Vec2 place, double distance) {
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (norm(lattice_.middle_of(lattice_.cell_of(i)) - place) > distance) cells_[i] = {};

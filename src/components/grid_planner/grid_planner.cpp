@@ -18,6 +18,7 @@
 #include "orca/navigation/navigator.hpp"
 #include "orca/navigation/pose_history.hpp"
 #include "orca/planning/asked_robot.hpp"
+#include "orca/planning/recoveries.hpp"
 #include "outlook.hpp"
 
 namespace {
@@ -52,7 +53,7 @@ class GridPlanner final : public orca::go::GoalFollower {
       return orca::fail(orca::Code::failed_precondition,
                         "with scanners, connect its port localizer too: they see places of the world");
     if (odometry().connected()) lap_on("odometry");
-    return sound;
+    return sound.ok() ? recoveries_.check() : sound;
   }
 
   Status start() override {
@@ -68,11 +69,13 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   void stop() override {
     robot_.leave();
+    recoveries_.note(std::nullopt);
     scanners_.unsubscribe_all();
     GoalFollower::stop();
   }
 
   Status params_changed() override {
+    if (const Status sound = recoveries_.check(); !sound.ok()) return sound;
     if (navigator_) navigator_->set_rules(rules());
     return orca::ok();
   }
@@ -230,6 +233,7 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   void idle() override {
     standing_.reset();
+    recoveries_.note(std::nullopt);
     if (navigator_) navigator_->drop_path();
   }
 
@@ -250,6 +254,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     }
     const orca::nav::Steer steer = navigator_->steer(moment, {place_for(pose, target), target.via});
     motion().push(orca::turn(steer.turn_rate, steer.speed, weight()));
+    recoveries_.note(navigator_->recovery());
     note_speed(steer.speed);
     note_plan(navigator_->way_left());
     if (const auto ahead = navigator_->ahead(moment)) outlook_.lead.name(*ahead, 0.0);
@@ -318,6 +323,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     rules.wishes.clearance = *clearance_;
     rules.extent = *map_size_;
     rules.replan_every = *replan_every_;
+    rules.recoveries = recoveries_.order();
     return rules;
   }
 
@@ -329,6 +335,7 @@ class GridPlanner final : public orca::go::GoalFollower {
                       .optional = true}};
   orca::planning::AskedRobot robot_{*this};
   orca::planner::Outlook outlook_{*this};
+  orca::planning::Recoveries recoveries_{*this, host()};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
   orca::Param<double> turn_rate_{

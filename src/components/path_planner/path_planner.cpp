@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -61,6 +62,7 @@ class PathPlanner final : public orca::Component {
     X_WR_ = orca::plane_pose(*pose);
     stands_ =
         std::fabs(pose->translational_velocity()) < kSlow && std::fabs(pose->steering_velocity()) < kSlow;
+    if (!stands_) moved_at_ = now();
     const auto goal = goal_.latest();
     const bool drives = goal && orca::to_seconds(now() - orca::to_time_point(goal->creation_time())) < kStale;
     const bool has_new_subscribers = paths_.take_new_subscribers();
@@ -116,7 +118,8 @@ class PathPlanner final : public orca::Component {
     const orca::nav::Path& path = kept_.plan().path;
     const double along = path.empty() ? 0.0 : path.nearest(robot, 0.0, path.length());
     const orca::nav::FloorRules rules = rules_.in(inverse(floor_.X_WM()));
-    return kept_.renew({map, footprint(), wishes_, robot, to.place, along, false, &rules});
+    const bool blocked = now() - moved_at_ > kBlocked;
+    return kept_.renew({map, footprint(), wishes_, robot, to.place, along, blocked, &rules});
   }
 
   void look_at(const orca::nav::OccupancyMap& map, Vec2 robot) {
@@ -216,6 +219,8 @@ class PathPlanner final : public orca::Component {
   static constexpr double kSlow = 0.02;  // [m/s], [rad/s]
   static constexpr double kEasier =
       1.15;  // radius of planned bends, relative to the smallest: who follows needs room to steer
+  static constexpr orca::Duration kBlocked =
+      std::chrono::milliseconds(500);      // of standing after which another way is planned
   static constexpr double kStale = 1.0;    // [s] after the last word of a goal nobody drives there any more
   static constexpr double kMargin = 0.02;  // [m] around the outline of a robot that steers
 
@@ -262,6 +267,7 @@ class PathPlanner final : public orca::Component {
   Pose2 steered_from_;  // in the frame of the cells
   Pose2 X_WR_;
   bool stands_ = true;
+  orca::TimePoint moved_at_{};
   std::optional<Vec2> planned_for_;  // in the frame of the cells
   orca::TimePoint planned_at_{};
   orca::SenderWatch senders_{host()};

@@ -15,6 +15,7 @@
 #include "orca/planning/asked_robot.hpp"
 #include "orca/planning/floor.hpp"
 #include "orca/planning/layer_file.hpp"
+#include "orca/planning/recoveries.hpp"
 
 namespace {
 
@@ -78,8 +79,9 @@ class Pilot final : public orca::go::GoalFollower {
       if (!rules) return layer_.refuse(rules.error().message);
       rules_ = std::move(*rules);
     }
-    const Status sound = robot_.check();
-    return sound.ok() ? GoalFollower::configure() : sound;
+    if (const Status sound = robot_.check(); !sound.ok()) return sound;
+    if (const Status sound = recoveries_.check(); !sound.ok()) return sound;
+    return GoalFollower::configure();
   }
 
   Status start() override {
@@ -90,8 +92,15 @@ class Pilot final : public orca::go::GoalFollower {
     return robot_.ask();
   }
 
+  Status params_changed() override {
+    if (const Status sound = recoveries_.check(); !sound.ok()) return sound;
+    if (driver_) driver_->set_recoveries(recoveries_.order());
+    return orca::ok();
+  }
+
   void stop() override {
     robot_.leave();
+    recoveries_.note(std::nullopt);
     GoalFollower::stop();
   }
 
@@ -110,7 +119,7 @@ class Pilot final : public orca::go::GoalFollower {
     if (!read.ok()) return read;
     if (const auto around = world_.latest(); !around || !floor_.take(*around).ok()) heard_at_.reset();
     if (!has_driver) return read;
-    driver_.emplace(footprint());
+    driver_.emplace(footprint(), recoveries_.order());
     return std::apply([&](auto&... part) { return state.read(part...); }, driver_->state());
   }
 
@@ -118,7 +127,7 @@ class Pilot final : public orca::go::GoalFollower {
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
-    if (!driver_ && robot_.body()) driver_.emplace(footprint());
+    if (!driver_ && robot_.body()) driver_.emplace(footprint(), recoveries_.order());
     while (world_.new_data_arrived()) take_world(*world_.get_update());
     return GoalFollower::work();
   }
@@ -152,6 +161,7 @@ class Pilot final : public orca::go::GoalFollower {
 
   void idle() override {
     drop_path();
+    recoveries_.note(std::nullopt);
     if (driver_) driver_->reset();
   }
 
@@ -165,11 +175,19 @@ class Pilot final : public orca::go::GoalFollower {
     if (const auto step = rests ? step_of_rest(target, pose, deceleration(), before()) : std::nullopt) {
       if (!steers() || step->kind != Step::Kind::turn) return rest(*step, pose, target);
     }
-    if (const auto back = driver_->recover(moment, pursuit(), [&](Vec2 point) { return is_free(point); }))
-      return command(*back);
+    const auto steer = driver_->recover(moment, pursuit(), [&](Vec2 point) { return is_known(point); });
+    note_recovery();
+    if (steer) return command(*steer);
     driver_->note(pose);
     if (stretches_.empty()) return stand();
     follow(moment, target);
+  }
+
+  // Who keeps the map is asked to doubt it.
+  void note_recovery() {
+    recoveries_.note(driver_->recovery());
+    if (!doubts(driver_->recovery()) || !doubt_.connected()) return;
+    if (const Status sent = doubt_.send(doubt_.loan()); !sent.ok()) log_warning(sent.error().text());
   }
 
   void stand() {
@@ -221,9 +239,11 @@ class Pilot final : public orca::go::GoalFollower {
           driver_->points().push_back(floor_.X_WM() * grid.lattice.middle_of({column, row}));
   }
 
-  [[nodiscard]] bool is_free(Vec2 point) const {
+  // Returns whether it is known what is there. Obstacles are looked at one by one.
+  [[nodiscard]] bool is_known(Vec2 point) const {
     const auto& grid = floor_.grid();
-    return grid.free(grid.lattice.cell_at(seen_from(floor_.X_WM(), point)));
+    const orca::nav::Cell cell = grid.lattice.cell_at(seen_from(floor_.X_WM(), point));
+    return grid.free(cell) || grid.occupied(cell);
   }
 
   // Follows the present stretch; at its end the robot stops and begins the next.
@@ -246,8 +266,9 @@ class Pilot final : public orca::go::GoalFollower {
       facing.pose.yaw = orca::wrapped(facing.pose.yaw + std::numbers::pi);
       facing.twist = {-moment.twist.forward, -moment.twist.left, moment.twist.turn_rate};
     }
-    Steer steer =
-        driver_->follow_path(stretch.path, facing, manner, passes ? manner.max_speed : 0.0, kPatience);
+    const bool leads_there = at_ + 1 < stretches_.size() || norm(end - target.place) < kSame;
+    Steer steer = driver_->follow_path(stretch.path, facing, manner,
+                                       {passes ? manner.max_speed : 0.0, kPatience, leads_there});
     if (stretch.backwards) steer.speed = -steer.speed;
     command(steer);
     double left = -driver_->along();
@@ -312,13 +333,18 @@ class Pilot final : public orca::go::GoalFollower {
   }
 
   static constexpr double kTurnRate = 1.5;  // [rad/s]
-  static constexpr double kPatience = 1.0;  // [s] of standing blocked before it backs off
+  static constexpr double kPatience = 1.0;  // [s] of standing blocked before it recovers
 
   orca::PushProxy<orca::idl::Path> path_{
       *this, "path", {.text = "The way to what GoalPush says, as a PathPlanner finds it."}};
   orca::PushProxy<OccupancyGrid> world_{
       *this, "world", {.text = "What is around the robot, and parts of it that have changed."}};
+  orca::SendProxy<orca::idl::Ask> doubt_{
+      *this,
+      "doubt",
+      {.text = "Receiver of the wish to doubt what it has seen: a WorldModel.", .optional = true}};
   orca::planning::AskedRobot robot_{*this};
+  orca::planning::Recoveries recoveries_{*this, host()};
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed."}};
   orca::Param<double> turning_radius_{

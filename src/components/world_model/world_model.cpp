@@ -182,11 +182,30 @@ class WorldModel final : public orca::Component {
                         false});
   }
 
+  // A smooth wall gives no echo at a grazing angle, so what shows no echo does not clear the walls of the map.
+  void end_at_walls() {
+    const orca::nav::FloorGrid& map = floor_.grid();
+    Lattice walls = map.lattice;
+    walls.corner = {};
+    for (Beam& beam : beams_) {
+      if (beam.echo || map.cells.empty()) continue;
+      const Vec2 way = beam.to - beam.from;
+      orca::nav::walk_line(walls, beam.from, beam.to, [&](Cell cell) {
+        const bool is_wall = walls.holds(cell) && map.occupied(cell);
+        const double before = norm(walls.middle_of(cell) - beam.from) - 1.5 * walls.side;
+        if (is_wall) beam.to = beam.from + shortened(way, std::max(0.0, before));
+        return !is_wall;
+      });
+    }
+  }
+
   void see() {
     const Lattice& window = seen_->lattice();
     if (!std::exchange(begun_, true) || !window.holds(window.cell_at(robot_))) seen_->reset(robot_);
     seen_->follow(robot_);
+    end_at_walls();
     seen_->see(beams_);
+    if (std::exchange(doubts_, false)) seen_->clear_along(beams_);
   }
 
   void fade() {
@@ -268,6 +287,11 @@ class WorldModel final : public orca::Component {
     return grid;
   }
 
+  orca::Status on_doubt(const ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    doubts_ = true;
+    return orca::ok();
+  }
+
   orca::Result<orca::Loan<OccupancyGrid>> on_ask(const ObjectPtr<orca::idl::Ask>& /*ask*/) { return whole(); }
 
   orca::PushProxy<orca::idl::RobotPose> localizer_{
@@ -283,6 +307,12 @@ class WorldModel final : public orca::Component {
       "OccupancyGridQuery",
       &WorldModel::on_ask,
       {.text = "The whole map, with what was seen of late."}};
+  orca::SendServer<orca::idl::Ask> doubt_{
+      *this,
+      "DoubtSend",
+      &WorldModel::on_doubt,
+      {.text = "The wish of a robot that finds no way: what the next scan looks through is free, also where "
+               "no echo says so."}};
   orca::PushServer<OccupancyGrid> maps_{
       *this,
       "OccupancyGridPush",
@@ -323,6 +353,7 @@ class WorldModel final : public orca::Component {
   std::vector<Beam> beams_;
   Vec2 robot_;
   bool begun_ = false;                       // something was seen
+  bool doubts_ = false;                      // what the next scan looks through is free
   std::optional<orca::TimePoint> whole_at_;  // when the whole map went out; none: not since all was forgotten
   Vec2 pushed_corner_;                       // of the window, then
   orca::TimePoint faded_at_{};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "orca/geometry/arc.hpp"
@@ -53,7 +54,13 @@ struct Drive {
   Pose2 end;
   double least_clearance = 1.0;
   int recoveries = 0;
+  std::vector<Recovery> tried;  // what went on, in its order
 };
+
+const std::vector<Wall> kCell{{{-1.0, -1.0}, {1.0, -1.0}},
+                              {{1.0, -1.0}, {1.0, 1.0}},
+                              {{1.0, 1.0}, {-1.0, 1.0}},
+                              {{-1.0, 1.0}, {-1.0, -1.0}}};
 
 // Returns another navigator that knows what this one knows.
 std::unique_ptr<Navigator> successor_of(Navigator& navigator) {
@@ -65,9 +72,11 @@ std::unique_ptr<Navigator> successor_of(Navigator& navigator) {
 
 // Drives a robot that obeys after one lap through a plane with walls.
 // @param relieved_every  laps after which another navigator goes on; 0: never.
-Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds, int relieved_every = 0) {
-  auto owned = std::make_unique<Navigator>(kBase, NavigatorRules{});
+Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds, int relieved_every = 0,
+               const NavigatorRules& rules = {}) {
+  auto owned = std::make_unique<Navigator>(kBase, rules);
   int laps = 0;
+  std::optional<Recovery> last;
   Drive drive;
   orca::Twist2 twist;
   for (double time = 0.0; time < seconds && norm(drive.end.position() - goal) > 0.2; time += kLap) {
@@ -83,6 +92,9 @@ Drive drive_to(Vec2 goal, const std::vector<Wall>& walls, double seconds, int re
         drive.least_clearance =
             std::min(drive.least_clearance, clearance(kBase, seen_from(drive.end, beam.to)));
     drive.recoveries = std::max(drive.recoveries, navigator.recoveries());
+    const auto recovery = navigator.recovery();
+    if (recovery && recovery != last) drive.tried.push_back(*recovery);
+    last = recovery;
   }
   return drive;
 }
@@ -107,26 +119,77 @@ TEST_CASE("the navigator drives through a door that is 10 cm wider than the robo
 }
 
 TEST_CASE("shut in, the navigator tries to recover and touches nothing", "[navigation]") {
-  const std::vector<Wall> cell{{{-1.0, -1.0}, {1.0, -1.0}},
-                               {{1.0, -1.0}, {1.0, 1.0}},
-                               {{1.0, 1.0}, {-1.0, 1.0}},
-                               {{-1.0, 1.0}, {-1.0, -1.0}}};
-  const Drive drive = drive_to({4.0, 0.0}, cell, 30.0);
+  const Drive drive = drive_to({4.0, 0.0}, kCell, 30.0);
   CHECK(std::abs(drive.end.x) < 1.0);
   CHECK(std::abs(drive.end.y) < 1.0);
   CHECK(drive.recoveries > 0);
   CHECK(drive.least_clearance > 0.0);
 }
 
+TEST_CASE("shut in, the navigator tries its recoveries in turn", "[navigation]") {
+  const Drive drive = drive_to({4.0, 0.0}, kCell, 90.0);
+  REQUIRE(drive.tried.size() > kUsualRecoveries.size());
+  for (std::size_t i = 0; i < drive.tried.size(); ++i)
+    CHECK(drive.tried[i] == kUsualRecoveries[i % kUsualRecoveries.size()]);
+}
+
+TEST_CASE("a navigator without recoveries stands where nothing leads on", "[navigation]") {
+  NavigatorRules rules;
+  rules.recoveries.clear();
+  const Drive drive = drive_to({4.0, 0.0}, kCell, 30.0, 0, rules);
+  CHECK(drive.recoveries == 0);
+  CHECK(drive.tried.empty());
+  CHECK(drive.least_clearance > 0.0);
+}
+
+TEST_CASE("a recovery that can do nothing gives way to the next at once", "[navigation]") {
+  // It cannot turn round between two walls, and has driven over nothing behind it.
+  const std::vector<Wall> slot{{{-0.35, 0.26}, {0.4, 0.26}},
+                               {{-0.35, -0.26}, {0.4, -0.26}},
+                               {{0.3, -0.26}, {0.3, 0.26}},
+                               {{-0.3, -0.26}, {-0.3, 0.26}}};
+  NavigatorRules rules;
+  rules.recoveries = {Recovery::look_around, Recovery::back_off, Recovery::wait};
+  const Drive drive = drive_to({4.0, 0.0}, slot, 20.0, 0, rules);
+  REQUIRE_FALSE(drive.tried.empty());
+  for (const Recovery recovery : drive.tried) CHECK(recovery == Recovery::wait);
+}
+
+TEST_CASE("a navigator gets past what has gone where no echo says that it has", "[navigation]") {
+  const std::vector<Wall> gap{{{1.5, 0.4}, {1.5, 3.0}},
+                              {{1.5, -0.4}, {1.5, -3.0}},
+                              {{-1.0, 3.0}, {1.5, 3.0}},
+                              {{-1.0, -3.0}, {1.5, -3.0}},
+                              {{-1.0, -3.0}, {-1.0, 3.0}}};
+  std::vector<Wall> blocked = gap;
+  blocked.push_back({{1.5, -0.4}, {1.5, 0.4}});
+  for (const bool recovers : {false, true}) {
+    NavigatorRules rules;
+    if (!recovers) rules.recoveries.clear();
+    Navigator navigator(kBase, rules);
+    Pose2 pose;
+    orca::Twist2 twist;
+    for (double time = 0.0; time < 30.0 && pose.x < 2.5; time += kLap) {
+      navigator.hear(scan_of(time < 3.0 ? blocked : gap, pose), pose);
+      const Steer steer = navigator.steer({TimePoint{orca::from_seconds(time)}, pose, twist}, {{3.0, 0.0}});
+      pose = along_arc(pose, twist * kLap);
+      twist = {steer.speed, 0.0, steer.turn_rate};
+    }
+    CAPTURE(recovers);
+    CHECK((pose.x >= 2.5) == recovers);
+  }
+}
+
+TEST_CASE("recoveries have names", "[navigation]") {
+  for (const Recovery recovery : kUsualRecoveries) CHECK(recovery_of(name_of(recovery)) == recovery);
+  CHECK_FALSE(recovery_of("spin"));
+}
+
 TEST_CASE("a navigator that goes on with what another one knows drives the same, also while it recovers",
           "[navigation]") {
   const std::vector<Wall> u{
       {{1.5, -1.0}, {1.5, 1.0}}, {{-0.5, 1.0}, {1.5, 1.0}}, {{-0.5, -1.0}, {1.5, -1.0}}};
-  const std::vector<Wall> cell{{{-1.0, -1.0}, {1.0, -1.0}},
-                               {{1.0, -1.0}, {1.0, 1.0}},
-                               {{1.0, 1.0}, {-1.0, 1.0}},
-                               {{-1.0, 1.0}, {-1.0, -1.0}}};
-  for (const auto& walls : {u, cell}) {
+  for (const auto& walls : {u, kCell}) {
     const Drive alone = drive_to({4.0, 0.0}, walls, 30.0);
     const Drive relieved = drive_to({4.0, 0.0}, walls, 30.0, 7);
     CHECK(relieved.end == alone.end);

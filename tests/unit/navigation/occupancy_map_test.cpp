@@ -95,6 +95,19 @@ TEST_CASE("recovery forgets what is far away", "[navigation]") {
   CHECK_FALSE(known(map, {-3.02, 0.02}));
 }
 
+TEST_CASE("a map that is doubted frees what a scan looks through without an echo, but for what the scan sees",
+          "[navigation]") {
+  OccupancyMap map(0.05, 16.0);
+  const std::vector<Beam> before{{{}, {1.02, 0.02}, true}, {{}, {0.02, 1.02}, true}};
+  map.see(before);
+  const std::vector<Beam> now{{{}, {5.02, 0.1}, false}, {{}, {0.02, 1.02}, true}};
+  map.see(now);
+  CHECK(occupied(map, {1.02, 0.02}));  // No echo is no reason,
+  map.clear_along(now);
+  CHECK_FALSE(occupied(map, {1.02, 0.02}));  // unless nothing leads on.
+  CHECK(occupied(map, {0.02, 1.02}));
+}
+
 TEST_CASE("a line visits neighbouring cells from one end to the other, whatever its direction",
           "[navigation]") {
   orca::RandomStream random(5, "test", "lines");

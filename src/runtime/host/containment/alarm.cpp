@@ -69,7 +69,8 @@ std::string alarm_text(const idl::Alarm& alarm) {
 }
 
 void log_alarm(const idl::Alarm& alarm, const std::string& log_name) {
-  log::error(alarm.source().empty() ? log_name : alarm.source(),
+  const log::Level level = alarm.severity() == idl::ALARM_NOTICE ? log::Level::info : log::Level::error;
+  log::write(level, alarm.source().empty() ? log_name : alarm.source(),
              "alarm " + kind_text(alarm) + ": " + alarm.text());
 }
 

@@ -29,14 +29,15 @@ struct NavigatorRules {
   double cell = 0.05;         ///< [m] side of a cell of the map.
   double extent = 16.0;       ///< [m] of the map, around the robot.
   double replan_every = 0.5;  ///< [s] at which a better path is looked for.
-  double patience = 1.0;      ///< [s] of standing blocked before it backs off.
+  double patience = 1.0;      ///< [s] of standing blocked before it recovers.
+  RecoveryOrder recoveries = kUsualRecoveries;
 };
 
 /// The way from scans to motion: it keeps the map, plans, follows the path, and recovers where nothing leads on. It plans when
 /// there is no path to the place, when the path is blocked, and now and then in case there is a better one.
 ///
-/// After each recovery of its PathDriver it plans again. From the second time in a row on it also forgets what it has seen farther than 1.5 m
-/// away, for that may be old.
+/// After each recovery of its PathDriver it plans again. To clear its map it also forgets what it has seen farther than 1.5 m away, for that may be
+/// old.
 ///
 /// Thread contract: one thread at a time.
 class Navigator {
@@ -44,7 +45,7 @@ class Navigator {
   explicit Navigator(const Footprint& footprint, const NavigatorRules& rules);
 
   /// Takes over other rules; the sizes of the map stay.
-  void set_rules(const NavigatorRules& rules) { rules_ = rules; }
+  void set_rules(const NavigatorRules& rules);
   /// Takes over a scan that was taken about where the robot is now.
   void hear(std::span<const Beam> scan, const Pose2& pose);
   /// Returns the motion of the next moment.
@@ -61,21 +62,26 @@ class Navigator {
   void drop_path();
 
   /// Names what it knows besides its rules and its map, so that another one can go on from there.
-  [[nodiscard]] auto state() { return std::tie(driver_, kept_, planned_for_, planned_at_, begun_, news_); }
+  [[nodiscard]] auto state() {
+    return std::tie(driver_, kept_, planned_for_, planned_at_, begun_, news_, doubts_);
+  }
   /// Takes over the map of another one, as OccupancyMap::packed() gives it.
   /// @return whether it had the same size.
   [[nodiscard]] bool unpack_map(std::string_view text) { return map_.unpack(text); }
 
   [[nodiscard]] const Path& path() const { return kept_.plan().path; }
   [[nodiscard]] const OccupancyMap& map() const { return map_; }
+  /// Returns the recovery that goes on; nothing: none does.
+  [[nodiscard]] std::optional<Recovery> recovery() const { return driver_.recovery(); }
   /// Returns how often it has recovered since the last drop_path().
   [[nodiscard]] int recoveries() const { return driver_.recoveries(); }
 
  private:
   void keep_path(const Moment& moment, const Errand& errand);
   void replan(const Moment& moment, const Errand& errand);
+  void doubt(Vec2 robot);
   [[nodiscard]] bool is_known(Vec2 echo) const;
-  [[nodiscard]] bool is_free(Vec2 point) const;
+  [[nodiscard]] bool has_seen(Vec2 point) const;
 
   Footprint footprint_;
   NavigatorRules rules_;
@@ -84,8 +90,9 @@ class Navigator {
   KeptPlan kept_;
   std::optional<Vec2> planned_for_;
   TimePoint planned_at_{};
-  bool begun_ = false;  // a scan has come
-  bool news_ = false;   // a scan has come since the last look at the path
+  bool begun_ = false;   // a scan has come
+  bool news_ = false;    // a scan has come since the last look at the path
+  bool doubts_ = false;  // what scans look through is to be cleared
 };
 
 }  // namespace orca::nav

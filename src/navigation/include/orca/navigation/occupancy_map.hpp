@@ -41,6 +41,10 @@ class OccupancyMap {
   void follow(Vec2 place);
   /// Takes over one scan. Parts of beams outside the window do not count.
   void see(std::span<const Beam> scan);
+  /// Makes free what the beams of a scan pass through, also where they end without an echo, except where that scan has seen something. A smooth wall at a
+  /// grazing angle is forgotten as well: call it only if nothing leads on.
+  /// @pre  see() has taken over this scan last.
+  void clear_along(std::span<const Beam> scan);
   /// Weakens what is known of each cell by a 16th of the strongest evidence: 16 times after it was seen last, nothing is known of any.
   void fade();
   /// Makes unknown all that lies farther than `distance` [m] from `place`.

@@ -17,13 +17,13 @@ namespace orca::nav {
 /// The way out of a place where nothing leads on: backwards along the way that the robot has come; if that is not free, along the
 /// freest of some arcs backwards; if there is none, or if the robot does not move although it should, likewise forwards.
 ///
-/// The robot never leaves the floor that it knows: that which it has driven over lately, and that which its sensors have seen to be free.
+/// The robot never leaves the floor that it knows: that which it has driven over lately, and that which its sensors have seen.
 /// So a robot that has just been switched on, and does not see what is behind it, does not back off.
 ///
 /// Thread contract: one thread at a time.
 class Retreat {
  public:
-  /// Returns whether the sensors have seen that nothing is at a point, given in the frame of the poses.
+  /// Returns whether the sensors have seen what is at a point, given in the frame of the poses: nothing, or one of the obstacles of the scene.
   using Seen = std::function<bool(Vec2)>;
 
   explicit Retreat(const Footprint& footprint) : footprint_(footprint) {}
