@@ -166,6 +166,13 @@ void add_localization(const host::RunResult& result, Measures& measures) {
   measures.ambiguous = shares.ambiguous;
 }
 
+// A planner raises this alarm each time (orca/planning/recoveries.hpp).
+double recoveries_in(const host::RunResult& result) {
+  return static_cast<double>(std::ranges::count_if(result.alarms, [](const idl::Alarm& alarm) {
+    return alarm.active() && alarm.kind() == idl::OWN_KIND && alarm.own_kind() == "RECOVERS";
+  }));
+}
+
 std::string reason_of(const host::RunResult& result) {
   return result.error ? result.error->text() : result.culprit;
 }
@@ -176,6 +183,7 @@ void add_scene(const host::RunResult& result, const RunEnd& end, Outcome& outcom
   measures.claimed_wrongly = outcome.measures.claimed_wrongly;
   measures.not_claimed = outcome.measures.not_claimed;
   add_localization(result, measures);
+  measures.recoveries = recoveries_in(result);
   outcome.measures = measures;
   if (outcome.ending < Ending::failed) outcome.failure = failure_in(*result.scene, end);
   outcome.sketch = sketch_of(*result.scene);

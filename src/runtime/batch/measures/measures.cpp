@@ -76,7 +76,9 @@ constexpr std::array kMeasures{
     Measure{"sure_but_wrong", "", "Share of the time in which it was sure and more than 0.5 m off.",
             &Measures::sure_but_wrong, kLocalizer},
     Measure{"ambiguous", "", "Share of the time in which it said that there are several places.",
-            &Measures::ambiguous, kLocalizer}};
+            &Measures::ambiguous, kLocalizer},
+    Measure{"recoveries", "", "Times that a planner found no way on and recovered.", &Measures::recoveries,
+            kRobot}};
 
 constexpr std::array<std::pair<Failure, const char*>, 8> kFailures{{{Failure::none, ""},
                                                                     {Failure::crash, "crash"},

@@ -55,6 +55,7 @@ struct Measures {
   std::optional<double> found_again{};
   std::optional<double> sure_but_wrong{};
   std::optional<double> ambiguous{};
+  std::optional<double> recoveries{};
   friend bool operator==(const Measures&, const Measures&) = default;
 };
 
