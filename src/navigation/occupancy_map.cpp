@@ -137,6 +137,16 @@ void OccupancyMap::clear_along(std::span<const Beam> scan) {
       cells_[lattice_.index(cell)].evidence = kHit;
 }
 
+void OccupancyMap::hold(Vec2 place) {
+  const Cell cell = lattice_.cell_at(place);
+  if (!lattice_.holds(cell)) return;
+  State& state = cells_[lattice_.index(cell)];
+  if (state.evidence <= 0)
+    state.at = {share_of_cell(place.x, lattice_.corner.x, lattice_.side),
+                share_of_cell(place.y, lattice_.corner.y, lattice_.side)};
+  state.evidence = kMost;
+}
+
 void OccupancyMap::forget_beyond(Vec2 place, double distance) {
   for (std::size_t i = 0; i < cells_.size(); ++i)
     if (norm(lattice_.middle_of(lattice_.cell_of(i)) - place) > distance) cells_[i] = {};

@@ -165,6 +165,27 @@ TEST_CASE("each part is exchanged while the robot drives, and it drives on by th
   CHECK(std::all_of(moving, speeds.end() - 1, [](double speed) { return speed > 0.1; }));
 }
 
+TEST_CASE(
+    "a step that only bumpers feel is remembered, and driven around; without them the goal is not reached",
+    "[system][planner][parts][ablation]") {
+  const TempFolder folder;
+  const std::string hall = R"(<room name="hall" from="0 0" to="7 5"/>
+  <box name="step" x="3.5" y="2.5" length="0.2" width="1.6" height="0.1"/>
+  <place name="start" x="1.2" y="2.4"/>)";
+  const std::string feels = folder.write("feels.xml", world("feels", hall));
+  const std::string numb =
+      folder.write("numb.xml", world("numb", hall + R"(<outage robot="Dewey" sensor="bumper" at="0 s"/>)"));
+  for (int seed = 1; seed <= 3; ++seed) {
+    const Words behind{"--seed", std::to_string(seed), "--set", "goals=behind: 5.6 2.5", "--set"};
+    const Run with_bumpers = drive(behind + Words{"world=" + feels});
+    const Run without = drive(behind + Words{"world=" + numb});
+    INFO(seed << with_bumpers.out << without.out << without.err);
+    CHECK(with_bumpers.arrivals().size() == 1);
+    CHECK(with_bumpers.contacts().size() <= 4);
+    CHECK(without.arrivals().empty());
+  }
+}
+
 TEST_CASE("without one of the parts the robot stays where it is", "[system][planner][parts][ablation]") {
   for (const char* part : {"command", "world_model", "planner", "pilot", "fuser", "base"}) {
     const Run run = drive({"--fail", std::string(part) + "=silent@0s"}, "40 s");
@@ -191,5 +212,5 @@ TEST_CASE("without the map the robot drives into a dead end, and sonars alone do
   const Run office = drive({});
   const Run without_laser = drive({"--fail", "laser=throw@0s"});
   INFO(office.out << without_laser.out);
-  CHECK(end_of(without_laser) > 1.2 * end_of(office));
+  CHECK(end_of(without_laser) > end_of(office) + 2.0);  // 3 to 9 s in six seeds
 }

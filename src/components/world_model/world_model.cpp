@@ -45,6 +45,12 @@ struct Heard {
   std::vector<orca::TimePoint> fired{};  // of each sonar
 };
 
+/// A place at which something was touched.
+struct Touched {
+  Vec2 place;  // in the grid's frame
+  orca::TimePoint at{};
+};
+
 /// A model of the floor around the robot (thesis 11.1): what lasers and sonars have seen of late, over the map of a building. See README.md.
 class WorldModel final : public orca::Component {
  public:
@@ -90,7 +96,7 @@ class WorldModel final : public orca::Component {
     }
     history_.add(orca::to_time_point(pose->stamp()), seen_from(X_WG_, orca::plane_pose(*pose)));
     robot_ = history_.at(history_.newest())->position();
-    const bool heard = hear_lasers() | hear_sonars();
+    const bool heard = hear_lasers() | hear_sonars() | feel_bumpers();
     fade();
     push(heard);
     return orca::again();
@@ -114,6 +120,7 @@ class WorldModel final : public orca::Component {
   void begin(double cell) {
     seen_.emplace(cell, *map_size_);
     history_.clear();
+    touched_.clear();
     begun_ = false;
     whole_at_.reset();
     faded_at_ = now();
@@ -171,6 +178,38 @@ class WorldModel final : public orca::Component {
     return heard;
   }
 
+  // Notes what bumpers touch, which lasers and sonars may overlook: a place as wide as a switch, a little nearer than that.
+  bool feel_bumpers() {
+    constexpr double kNearer = 0.05;  // [m]
+    if (!bumper_.new_data_arrived()) return false;
+    const auto touch = bumper_.get_update();
+    const auto then =
+        history_.at(orca::to_time_point(touch->stamp())).value_or(*history_.at(history_.newest()));
+    bool feels = false;
+    for (std::size_t i = 0; i < std::min(touch->pressed().size(), touch->poses().size()); ++i) {
+      if (touch->pressed()[i] == 0) continue;
+      feels = true;
+      for (const double aside : {-0.1, -0.05, 0.0, 0.05, 0.1})
+        note_touch(then * (orca::plane_pose(touch->poses()[i]) * Vec2{-kNearer, aside}));
+    }
+    if (feels) hold_touched();
+    return feels;
+  }
+
+  void note_touch(Vec2 place) {
+    const double same = 0.5 * seen_->lattice().side;
+    std::erase_if(touched_, [&](const Touched& before) { return norm(before.place - place) < same; });
+    touched_.push_back({place, now()});
+  }
+
+  // Keeps touched places occupied for a time, although beams pass above them.
+  void hold_touched() {
+    if (*forget_after_ > 0.0)
+      std::erase_if(touched_,
+                    [&](const Touched& t) { return orca::to_seconds(now() - t.at) > *forget_after_; });
+    for (const Touched& touched : touched_) seen_->hold(touched.place);
+  }
+
   // An echo is taken to come from the middle of its cone; the cone is free on both sides up to nine tenths of the way.
   void add_echo(const Pose2& sonar, double range, double half_lobe) {
     const bool echo = range < *sonar_range_;
@@ -206,6 +245,7 @@ class WorldModel final : public orca::Component {
     end_at_walls();
     seen_->see(beams_);
     if (std::exchange(doubts_, false)) seen_->clear_along(beams_);
+    hold_touched();
   }
 
   void fade() {
@@ -300,6 +340,11 @@ class WorldModel final : public orca::Component {
       *this, "laser", {.text = "Scans of lasers on the robot.", .optional = true}};
   orca::PushProxyArray<SonarRangeReadings> sonar_{
       *this, "sonar", {.text = "Rounds of sonar rings.", .optional = true}};
+  orca::PushProxy<orca::idl::BumperReadings> bumper_{
+      *this,
+      "bumper",
+      {.text = "Bumper switches: what they touch counts for forget_after, whatever looks over it.",
+       .optional = true}};
   orca::PushProxy<OccupancyGrid> map_{
       *this, "map", {.text = "The map of the building, as MapServer has it.", .optional = true}};
   orca::QueryServer<orca::idl::Ask, OccupancyGrid> question_{
@@ -351,6 +396,7 @@ class WorldModel final : public orca::Component {
   std::vector<Heard<LaserRangeReadings>> lasers_;
   std::vector<Heard<SonarRangeReadings>> rings_;
   std::vector<Beam> beams_;
+  std::vector<Touched> touched_;
   Vec2 robot_;
   bool begun_ = false;                       // something was seen
   bool doubts_ = false;                      // what the next scan looks through is free

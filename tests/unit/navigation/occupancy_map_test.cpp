@@ -108,6 +108,20 @@ TEST_CASE("a map that is doubted frees what a scan looks through without an echo
   CHECK(occupied(map, {0.02, 1.02}));
 }
 
+TEST_CASE("a place that is held is occupied until scans have looked through it often enough",
+          "[navigation]") {
+  OccupancyMap map(0.05, 16.0);
+  const std::vector<Beam> scan{{{}, {3.02, 0.02}, true}};
+  for (int i = 0; i < 10; ++i) map.see(scan);
+  map.hold({1.02, 0.02});
+  CHECK(occupied(map, {1.02, 0.02}));
+  map.see(scan);
+  CHECK(occupied(map, {1.02, 0.02}));
+  for (int i = 0; i < 10; ++i) map.see(scan);
+  CHECK_FALSE(occupied(map, {1.02, 0.02}));
+  map.hold({100.0, 0.0});  // outside of the window
+}
+
 TEST_CASE("a line visits neighbouring cells from one end to the other, whatever its direction",
           "[navigation]") {
   orca::RandomStream random(5, "test", "lines");

@@ -45,6 +45,8 @@ class OccupancyMap {
   /// grazing angle is forgotten as well: call it only if nothing leads on.
   /// @pre  see() has taken over this scan last.
   void clear_along(std::span<const Beam> scan);
+  /// Makes a place as surely occupied as can be, whatever has been seen there. A place outside the window does not count.
+  void hold(Vec2 place);
   /// Weakens what is known of each cell by a 16th of the strongest evidence: 16 times after it was seen last, nothing is known of any.
   void fade();
   /// Makes unknown all that lies farther than `distance` [m] from `place`.
