@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "errand.hpp"
-#include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
@@ -45,11 +43,10 @@ class Porter final : public orca::Component {
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     errand_.reset();
-    if (goal->via()) led_ = goal->mission();
     goal_ = goal;
     if (!kind_of(*goal)) return goto_.send(copy_value(goal));
     auto near = orca::make_object(*goal);
-    near->via(true);  // Goto announces no arrival there
+    near->name() = "near_" + goal->name();
     near->reach_radius().distance(*standoff_);
     near->use_orientation(false);
     return goto_.send(std::move(near));
@@ -74,7 +71,6 @@ class Porter final : public orca::Component {
       return orca::again();
     }
     const orca::Pose2 pose = orca::plane_pose(*here);
-    if (!errand_) begin_errand_near(pose);
     if (errand_) {
       do_errand(pose);
     } else {
@@ -83,38 +79,29 @@ class Porter final : public orca::Component {
     return orca::again();
   }
 
+  // Goto has done its part when the robot is as near as it was to bring it.
   void hear(const orca::idl::Arrived& arrived) {
     if (is_late(arrived)) return;
+    if (const auto kind = kind_of(*goal_)) {
+      errand_.emplace(*kind, place_of(*goal_));
+      heard_ = now();
+      return;
+    }
     done_.push(arrived);
     forget_goal();
   }
 
   void hear(const orca::idl::GoalFailed& failed) {
     if (is_late(failed)) return;
-    undone_.push(failed);
+    auto own = orca::make_object(failed);
+    own->name() = goal_->name();
+    undone_.push(std::move(own));
     forget_goal();
   }
 
   // Returns whether it reports a goal that was replaced by another one meanwhile.
   [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
     return !goal_ || goal_->mission() != result.mission();
-  }
-
-  // Goto has done its part when the robot is as near as it was to bring it, with all via points behind it.
-  void begin_errand_near(const orca::Pose2& pose) {
-    const auto kind = goal_ ? kind_of(*goal_) : std::nullopt;
-    if (!kind || !is_behind_via_points()) return;
-    const orca::Vec2 place = place_of(*goal_);
-    if (orca::portable::hypot(place.x - pose.x, place.y - pose.y) > *standoff_) return;
-    errand_.emplace(*kind, place);
-    heard_ = now();
-  }
-
-  // A robot that is there already drives to nothing.
-  [[nodiscard]] bool is_behind_via_points() const {
-    if (led_ != goal_->mission()) return true;
-    const auto towards = towards_.latest();
-    return towards && towards->mission() == goal_->mission() && place_of(*towards) == place_of(*goal_);
   }
 
   [[nodiscard]] static orca::Vec2 place_of(const orca::idl::GoalPoint& goal) {
@@ -178,10 +165,8 @@ class Porter final : public orca::Component {
     return {*reach_, *approach_speed_, *turn_rate_, *back_off_, *patience_};
   }
 
-  void save_state(orca::StateWriter& state) const override { state.write(goal_, led_, errand_, heard_); }
-  orca::Status load_state(orca::StateReader& state) override {
-    return state.read(goal_, led_, errand_, heard_);
-  }
+  void save_state(orca::StateWriter& state) const override { state.write(goal_, errand_, heard_); }
+  orca::Status load_state(orca::StateReader& state) override { return state.read(goal_, errand_, heard_); }
 
   orca::SendServer<orca::idl::GoalPoint> goals_{
       *this, "GotoCoordinateSend", &Porter::on_goal, {.text = "Via points and goals, as Goto takes them."}};
@@ -194,7 +179,6 @@ class Porter final : public orca::Component {
 
   orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
   orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of Goto."}};
-  orca::PushProxy<orca::idl::GoalPoint> towards_{*this, "towards", {.text = "Where Goto drives to now."}};
   orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "Goals that Goto has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};
@@ -216,8 +200,10 @@ class Porter final : public orca::Component {
   orca::Param<double> standoff_{
       *this,
       "standoff",
-      0.7,
-      {.unit = "m", .min = 0.0, .text = "Distance at which it leaves Goto and turns to the place."}};
+      1.0,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "Distance from the place at which Goto begins to stop; then it turns to the place."}};
   orca::Param<double> approach_speed_{
       *this,
       "approach_speed",
@@ -252,7 +238,6 @@ class Porter final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::ObjectPtr<orca::idl::GoalPoint> goal_;  // the last point that came, until its result
-  std::optional<std::uint64_t> led_;            // the last mission that had via points
   orca::SenderWatch senders_{host()};
   std::optional<Errand> errand_;  // from when the robot is there
   orca::TimePoint heard_{};       // when the gripper has said something, in an errand
