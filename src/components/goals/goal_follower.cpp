@@ -51,13 +51,15 @@ GoalFollower::GoalFollower(ComponentHost& host, double blocked_after)
       goal_(*this, "GotoCoordinateSend", &GoalFollower::on_goal,
             {.text = "Via points and goals to drive to."}),
       cancel_(*this, "CancelSend", &GoalFollower::on_cancel,
-              {.text = "The goal to give up, by its name; without a name whatever it drives to."}),
+              {.text = "The goal to give up, by its name; without a name whatever it drives to. With the "
+                       "kind GOAL_BLOCKED it is given up as blocked."}),
       motion_(*this, "MotionCmdPush",
               {.text = "One command per lap: a wish, full stop on arrival, no opinion without a goal."}),
       arrived_(*this, "ArrivedPush", {.text = "One object per goal reached; none for via points."}),
       failed_(*this, "GoalFailedPush",
               {.text = "One object per goal given up: refused, blocked, timed out, lost or cancelled."}),
       goal_push_(*this, "GoalPush", {.text = "The via point or goal that it drives to now, once per lap."}),
+      door_(*this, "DoorPush", {.text = "The door that it drives through now, once per lap."}),
       path_(
           *this, "PathPush",
           {.text = "The way that is left: one object whenever its points change, and for a new subscriber."}),
@@ -136,8 +138,10 @@ Status GoalFollower::on_cancel(const ObjectPtr<idl::GoalFailed>& order) {
   if (!order->name().empty() && std::ranges::none_of(route_.points(), is_meant))
     return fail(Code::not_found, "cannot cancel the goal \"" + order->name() + "\": the robot drives to \"" +
                                      route_.next().name() + "\"");
-  end_route(idl::GOAL_UNANSWERED, "cancelled: by \"" + order->origin() + "\"" +
-                                      (order->reason().empty() ? "" : ", " + order->reason()));
+  const bool is_blocked = order->kind() == idl::GOAL_BLOCKED;  // Who sends it knows better.
+  end_route(is_blocked ? idl::GOAL_BLOCKED : idl::GOAL_UNANSWERED,
+            (is_blocked ? "blocked: by \"" : "cancelled: by \"") + order->origin() + "\"" +
+                (order->reason().empty() ? "" : ", " + order->reason()));
   return ok();
 }
 
@@ -255,6 +259,7 @@ std::string GoalFollower::doubt() const {
 
 // Pushes the point that it drives to, or a place on the way through a door.
 void GoalFollower::push_goal(const Target& target) {
+  if (const auto door = route_.point().as<idl::Door>()) door_.push(copy_value(door));
   const auto& point = route_.next().coordinate().point();
   if (target.place == Vec2{point.x(), point.y()}) {
     goal_push_.push(copy_value(route_.point()));

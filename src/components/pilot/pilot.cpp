@@ -166,6 +166,7 @@ class Pilot final : public orca::go::GoalFollower {
   }
 
   void drive(const Pose2& pose, const Target& target) override {
+    if (is_taken_over()) return leave_it();
     const bool hears = driver_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= kDeafAfter;
     if (!hears) return stand();
     take_path(pose, target);
@@ -188,6 +189,20 @@ class Pilot final : public orca::go::GoalFollower {
     recoveries_.note(driver_->recovery());
     if (!doubts(driver_->recovery()) || !doubt_.connected()) return;
     if (const Status sent = doubt_.send(doubt_.loan()); !sent.ok()) log_warning(sent.error().text());
+  }
+
+  // Returns whether another behaviour, which can do better there, takes the robot through a door.
+  [[nodiscard]] bool is_taken_over() {
+    constexpr double kStale = 0.3;  // [s]
+    const auto wish = traverse_.latest();
+    return wish && wish->kind() != orca::idl::DONTCARE &&
+           (wish->kind() == orca::idl::FULLSTOP || wish->weight() > 0.0) &&
+           orca::to_seconds(now() - orca::to_time_point(wish->creation_time())) < kStale;
+  }
+
+  void leave_it() {
+    motion().push(orca::dont_care());
+    note_speed(0.0);
   }
 
   void stand() {
@@ -343,6 +358,10 @@ class Pilot final : public orca::go::GoalFollower {
       *this,
       "doubt",
       {.text = "Receiver of the wish to doubt what it has seen: a WorldModel.", .optional = true}};
+  orca::PushProxy<orca::idl::MotionCommand> traverse_{
+      *this,
+      "traverse",
+      {.text = "Wishes of a TraverseDoor; while it has any, the Pilot has none.", .optional = true}};
   orca::planning::AskedRobot robot_{*this};
   orca::planning::Recoveries recoveries_{*this, host()};
   orca::Param<double> max_speed_{

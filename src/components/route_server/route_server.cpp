@@ -74,7 +74,6 @@ class RouteServer final : public orca::Component {
     while (world_.new_data_arrived())
       if (const orca::Status taken = floor_.take(*world_.get_update()); !taken.ok())
         log_warning(taken.error().message);
-    if (failed_.new_data_arrived()) note_failure(*failed_.get_update());
     if (!senders_.accepts(*pose)) return orca::again();
     X_WR_ = orca::plane_pose(*pose);
     forget();
@@ -120,7 +119,7 @@ class RouteServer final : public orca::Component {
     if (!open) return;
     if (*open) return note_open(door.name);
     const TimePoint since = suspected_.emplace(door.name, now()).first->second;
-    if (orca::to_seconds(now() - since) >= kSure) note_shut(door.name, "is shut");
+    if (orca::to_seconds(now() - since) >= kSure) note_shut(door.name);
   }
 
   void note_open(const std::string& door) {
@@ -128,7 +127,7 @@ class RouteServer final : public orca::Component {
       push_door(door, true, "is open");
   }
 
-  void note_shut(const std::string& door, const std::string& what) {
+  void note_shut(const std::string& door) {
     const TimePoint end = now() + orca::from_seconds(*forget_after_);
     const auto known = std::ranges::find(shut_, door, &Blockage::to);
     if (known != shut_.end()) {
@@ -136,14 +135,7 @@ class RouteServer final : public orca::Component {
       return;
     }
     shut_.push_back({"", door, end});
-    push_door(door, false, what);
-  }
-
-  // A goal that a behaviour at a door has given up bears the name of that door.
-  void note_failure(const orca::idl::GoalFailed& failure) {
-    const auto point = ways_.find(failure.name());
-    if (failure.kind() == orca::idl::GOAL_BLOCKED && point && ways_.points[*point].door)
-      note_shut(failure.name(), "cannot be passed: " + failure.reason());
+    push_door(door, false, "is shut");
   }
 
   void push_door(const std::string& name, bool passable, const std::string& what) {
@@ -188,6 +180,12 @@ class RouteServer final : public orca::Component {
                                [&](const Blockage& one) { return one.from == from && one.to == to; });
   }
 
+  // Returns whether a door is shut, or was tried in vain: from another side it is the same door.
+  [[nodiscard]] bool is_closed(const WayPoint& point) const {
+    const auto is_it = [&](const Blockage& one) { return one.to == point.name; };
+    return point.door && (std::ranges::any_of(shut_, is_it) || std::ranges::any_of(blocked_, is_it));
+  }
+
   [[nodiscard]] double toll_between(const std::string& from, const std::string& to) const {
     return is_blocked(from, to) || is_blocked(to, from) ? *blocked_cost_ : 0.0;
   }
@@ -206,16 +204,14 @@ class RouteServer final : public orca::Component {
   }
 
   [[nodiscard]] std::optional<FoundWay> find(const Ways& ways, std::size_t goal) const {
-    std::vector<double> start = costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
+    const std::vector<double> start =
+        costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
     std::vector<double> end(2 * ways.points.size(), kNoWay);
     std::vector<double> points(ways.points.size(), 0.0);
     std::vector<double> legs;
     end[2 * goal] = end[2 * goal + 1] = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::string& name = ways.points[i].name;
-      if (std::ranges::find(shut_, name, &Blockage::to) != shut_.end()) points[i] = *blocked_cost_;
-      start[2 * i] += toll_between("", name);
-      start[2 * i + 1] += toll_between("", name);
+      if (is_closed(ways.points[i])) points[i] = *blocked_cost_;
     }
     for (const orca::planning::WayLeg& leg : ways.legs)
       legs.push_back(toll_between(ways.points[leg.from].name, ways.points[leg.to].name));
@@ -268,11 +264,6 @@ class RouteServer final : public orca::Component {
            "The map with what was seen of late, by which it judges doors and finds what the robot gets to."}};
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
       *this, "laser", {.text = "Scans in which it sees whether doors are open.", .optional = true}};
-  orca::PushProxy<orca::idl::GoalFailed> failed_{
-      *this,
-      "failed",
-      {.text = "Goals that were given up; one that is blocked and bears a door's name shuts that.",
-       .optional = true}};
   orca::QueryServer<GoalPoint, Route> question_{
       *this,
       "RouteQuery",

@@ -123,6 +123,7 @@ class GoalFollower : public Component {
   PushServer<idl::Arrived> arrived_;
   PushServer<idl::GoalFailed> failed_;
   PushServer<idl::GoalPoint> goal_push_;
+  PushServer<idl::Door> door_;
   PushServer<idl::Path> path_;
   QueryServer<idl::Ask, idl::Progress> progress_;
   PushProxy<idl::Odometry> odometry_;
