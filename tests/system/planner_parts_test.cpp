@@ -165,6 +165,29 @@ TEST_CASE("each part is exchanged while the robot drives, and it drives on by th
   CHECK(std::all_of(moving, speeds.end() - 1, [](double speed) { return speed > 0.1; }));
 }
 
+TEST_CASE("a robot gets out where nothing leads on, and without its recoveries stays in a dead end",
+          "[system][planner][parts][ablation]") {
+  const auto drive_out = [](const std::string& kind, int place, const Words& more) {
+    const std::string number = "_" + std::to_string(place);
+    const std::string nose = kind == "dead_end" ? "nose" + number + "; " : "";
+    return run_deployer(Words{source_file("sim/experiments/to_goal/parts.xml"), "--until", "30 s", "--set",
+                              "world=" + source_file("sim/experiments/stuck/" + kind + ".xml"), "--set",
+                              "place=start" + number, "--set", "goals=" + nose + "goal" + number} +
+                        virtual_clock() + more);
+  };
+  for (const std::string kind : {"dead_end", "ghost", "too_near", "stander"})
+    for (int place = 1; place <= part_of(10); ++place) {
+      const Run run = drive_out(kind, place, {});
+      INFO(kind << " " << place << "\n" << run.out << run.err);
+      CHECK(run.arrivals().size() == (kind == "dead_end" ? 2 : 1));
+      CHECK(run.contacts().empty());
+      if (kind != "dead_end") continue;
+      const Run stands = drive_out(kind, place, {"--set", "pilot.recoveries="});
+      CHECK(stands.arrivals().size() < 2);
+      CHECK_FALSE(stands.says("alarm RECOVERS"));
+    }
+}
+
 TEST_CASE(
     "a step that only bumpers feel is remembered, and driven around; without them the goal is not reached",
     "[system][planner][parts][ablation]") {
