@@ -24,7 +24,7 @@ void TouchGuard::look(const SharedWorld::Inbox& inbox) {
     for (const auto& contact : inbox.contacts) motion_.obstruct("it touched " + contact.event.other);
   for (const auto& [ring, reading] : inbox.bumper) motion_.press(pressed(ring, reading));
   for (const OdometryReading& reading : inbox.odometry)
-    if (stall_.look(reading)) motion_.obstruct("its motors are stalled");
+    if (stall_.look(reading)) motion_.obstruct("its motors are stalled", hw::Hindrance::stall);
 }
 
 std::vector<hw::Obstruction::Pressed> TouchGuard::pressed(std::size_t ring,

@@ -205,6 +205,10 @@ TEST_CASE(
     INFO(seed << with_bumpers.out << without.out << without.err);
     CHECK(with_bumpers.arrivals().size() == 1);
     CHECK(with_bumpers.contacts().size() <= 4);
+    CHECK(with_bumpers.says("alarm BUMPER_TOUCHED: its bumper"));
+    CHECK(with_bumpers.says("alarm BUMPER_TOUCHED is over"));
+    CHECK(without.says("alarm MOTOR_STALLED: its motors are stalled"));
+    CHECK(without.says("alarm BLOCKED: \"behind\" was not reached"));
     CHECK(without.arrivals().empty());
   }
 }

@@ -14,6 +14,8 @@
 namespace orca::go {
 namespace {
 
+constexpr const char* kBlocked = "BLOCKED";
+
 std::string in_short(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
@@ -124,6 +126,7 @@ Status GoalFollower::on_goal(const ObjectPtr<idl::GoalPoint>& goal) {
     fault = fault_of_door(*door, *door_room_);
   if (fault != nullptr) return refuse(*goal, fault);
   if (route_.empty() && *lost_wait_ > 0.0) lost_at_.reset();  // each goal waits for a pose again
+  clear_alarm(kBlocked, "it drives to \"" + goal->name() + "\"");
   route_.add(goal, now());
   doubts_ = false;
   before_.near = false;
@@ -296,6 +299,10 @@ void GoalFollower::end_route(idl::GoalFailure kind, const std::string& reason) {
   route_.give_up(goal->mission());
   before_ = {};
   motion_.push(full_stop());
+  if (kind == idl::GOAL_BLOCKED)
+    raise_alarm(
+        kBlocked, idl::ALARM_WARNING,
+        "\"" + goal->name() + "\" was not reached; " + reason + "; clear the way, or give it another goal");
   announce(*goal, kind, reason);
   end_mission();
 }

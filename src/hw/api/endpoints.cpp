@@ -91,9 +91,9 @@ Status MotionHW::move(const DriveSetpoint& wanted, std::uint64_t mission, TimePo
   return ok();
 }
 
-void MotionHW::obstruct(const std::string& reason) {
+void MotionHW::obstruct(const std::string& reason, Hindrance by) {
   const std::lock_guard lock(mutex_);
-  obstruction_.meet(setpoint_.velocity, reason);
+  obstruction_.meet(setpoint_.velocity, reason, by);
   stand();
 }
 
@@ -104,6 +104,11 @@ void MotionHW::press(const std::vector<Obstruction::Pressed>& bumpers) {
   if (!reason) return;
   obstruction_.meet(setpoint_.velocity, *reason);
   stand();
+}
+
+std::optional<std::string> MotionHW::take_hindrance(Hindrance by) {
+  const std::lock_guard lock(mutex_);
+  return obstruction_.take_hindrance(by);
 }
 
 // @pre  mutex_ is held.

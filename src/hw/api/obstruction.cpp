@@ -2,6 +2,7 @@
 #include "orca/hw/obstruction.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace orca::hw {
 namespace {
@@ -11,12 +12,30 @@ constexpr double kTowards = 1e-6;
 
 Vec2 translation(const Twist2& velocity) { return {velocity.forward, velocity.left}; }
 
+std::string text_of(const Obstruction::Pressed& bumper) {
+  return "its bumper \"" + bumper.name + "\" is pressed";
+}
+
 }  // namespace
 
-void Obstruction::meet(const Twist2& velocity, const std::string& reason) {
+void Obstruction::meet(const Twist2& velocity, const std::string& reason, Hindrance by) {
   if (velocity == Twist2{}) return;
   met_while_ = velocity;
   reason_ = reason;
+  met_by_ = by;
+  felt_[static_cast<std::size_t>(by)] = reason;
+}
+
+void Obstruction::press(std::vector<Pressed> bumpers) {
+  pressed_ = std::move(bumpers);
+  if (!pressed_.empty()) felt_[static_cast<std::size_t>(Hindrance::touch)] = text_of(pressed_.front());
+}
+
+std::optional<std::string> Obstruction::take_hindrance(Hindrance by) {
+  std::optional<std::string> felt = std::exchange(felt_[static_cast<std::size_t>(by)], std::nullopt);
+  if (by == Hindrance::touch && !pressed_.empty()) return text_of(pressed_.front());
+  if (met_while_ && met_by_ == by) return reason_;
+  return felt;
 }
 
 // A base that only turned when it was stalled goes on when it turns the same way.
@@ -34,7 +53,7 @@ std::optional<std::string> Obstruction::against(const Twist2& velocity) {
   };
   const auto pressed = std::find_if(pressed_.begin(), pressed_.end(), pushes);
   if (pressed == pressed_.end()) return std::nullopt;
-  return "its bumper \"" + pressed->name + "\" is pressed";
+  return text_of(*pressed);
 }
 
 }  // namespace orca::hw

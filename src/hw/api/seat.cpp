@@ -85,6 +85,11 @@ Duration HardwareSeat::max_command_age() const {
   return driver_->motion()->max_command_age();
 }
 
+std::optional<std::string> HardwareSeat::take_hindrance(Hindrance by) const {
+  const std::lock_guard lock(mutex_);
+  return pause_ ? std::nullopt : driver_->motion()->take_hindrance(by);
+}
+
 bool HardwareSeat::has_line() const {
   const std::lock_guard lock(mutex_);
   return !driver_->line_name().empty();
@@ -138,16 +143,11 @@ bool HardwareSeat::is_lost() const {
   return pause_ ? pause_->state == HardwareState::fault : driver_->is_lost();
 }
 
-void HardwareSeat::watch(Strand& strand) {
-  const std::lock_guard lock(mutex_);
-  watchers_.push_back(&strand);
-  driver_->watch(strand);
-}
-
-void HardwareSeat::unwatch(Strand& strand) {
+void HardwareSeat::watch(Strand& strand, bool on) {
   const std::lock_guard lock(mutex_);
   std::erase(watchers_, &strand);
-  driver_->watch(strand, false);
+  if (on) watchers_.push_back(&strand);
+  driver_->watch(strand, on);
 }
 
 void HardwareSeat::hold(const std::string& reason) {

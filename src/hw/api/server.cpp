@@ -16,7 +16,9 @@ namespace {
 constexpr Duration kWatchPeriod = 100ms;     // how often the hardware's state is looked at
 constexpr Duration kStartLimit = 5s;         // for a device to start
 constexpr Duration kFirstReadingLimit = 2s;  // for a query to an idle device
-constexpr Duration kMotionHold = 500ms;      // a base stays active this long after the last motion command
+constexpr const char* kTouched = "BUMPER_TOUCHED";
+constexpr const char* kStalled = "MOTOR_STALLED";
+constexpr Duration kMotionHold = 500ms;  // a base stays active this long after the last motion command
 
 // Whether the device has failed, also if it is opened again later.
 bool has_failed(HardwareState state) {
@@ -121,7 +123,7 @@ HardwareServer::HardwareServer(ComponentHost& host, Source source, const ObjectT
 }
 
 HardwareServer::~HardwareServer() {
-  if (watches_) seat_->unwatch(host().strand());
+  if (watches_) seat_->watch(host().strand(), false);
 }
 
 void HardwareServer::offer_motion() {
@@ -179,11 +181,14 @@ void HardwareServer::carry_out_waiting_command() {
 Outcome HardwareServer::work() {
   if (seat_->is_lost()) return failed("the hardware failed: " + seat_->fault());
   release_idle_motion();
+  report_hindrances();
   return again();
 }
 
 void HardwareServer::stop() {
   for (const auto& sensor : sensors_) sensor->set_open(false);
+  clear_alarm(kTouched, "nobody drives the base");
+  clear_alarm(kStalled, "nobody drives the base");
   seat_->release();
 }
 
@@ -246,6 +251,18 @@ Status HardwareServer::told_once(const Status& taken) {
   const std::string reason = taken.error().text();
   if (std::exchange(obstruction_, reason) != reason) log_warning(reason);
   return ok();
+}
+
+void HardwareServer::report_hindrances() {
+  if (!motion_) return;
+  if (const auto touch = seat_->take_hindrance(Hindrance::touch))
+    raise_alarm(kTouched, idl::ALARM_WARNING, *touch + "; back off, or take away what is there");
+  else
+    clear_alarm(kTouched, "the base touches nothing");
+  if (const auto stall = seat_->take_hindrance(Hindrance::stall))
+    raise_alarm(kStalled, idl::ALARM_WARNING, *stall + "; back off, or see what holds its wheels");
+  else
+    clear_alarm(kStalled, "its motors turn as they should");
 }
 
 void HardwareServer::release_idle_motion() {

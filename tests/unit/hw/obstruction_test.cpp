@@ -84,6 +84,35 @@ TEST_CASE("what comes to a standing base obstructs nothing", "[hw][obstruction]"
   CHECK(base.drive(0.5).ok());
 }
 
+TEST_CASE(
+    "a base is hindered by what it has met until it moves another way, by a bumper while that is pressed",
+    "[hw][obstruction]") {
+  ObstructedBase base;
+  REQUIRE(base.drive(0.5).ok());
+  CHECK_FALSE(base.motion.take_hindrance(Hindrance::touch));
+  base.motion.obstruct("its motors are stalled", Hindrance::stall);
+  CHECK(base.motion.take_hindrance(Hindrance::stall) == "its motors are stalled");
+  CHECK(base.motion.take_hindrance(Hindrance::stall));
+  CHECK_FALSE(base.motion.take_hindrance(Hindrance::touch));
+  REQUIRE(base.drive(-0.2).ok());
+  CHECK_FALSE(base.motion.take_hindrance(Hindrance::stall));
+
+  base.motion.press(kFrontPressed);
+  CHECK(base.motion.take_hindrance(Hindrance::touch));
+  base.motion.press({});
+  CHECK_FALSE(base.motion.take_hindrance(Hindrance::touch));
+}
+
+TEST_CASE("a touch that is over before anybody asks is reported once", "[hw][obstruction]") {
+  ObstructedBase base;
+  REQUIRE(base.drive(0.5).ok());
+  base.motion.press(kFrontPressed);
+  base.motion.press({});
+  REQUIRE(base.drive(-0.2).ok());
+  CHECK(base.motion.take_hindrance(Hindrance::touch));
+  CHECK_FALSE(base.motion.take_hindrance(Hindrance::touch));
+}
+
 TEST_CASE("a pressed bumper stops a base that drives towards it, and only that", "[hw][obstruction]") {
   ObstructedBase base;
   REQUIRE(base.drive(-0.5).ok());

@@ -119,7 +119,7 @@ EXECUTIVE_CASE("a driver that has left the seat wakes nobody any more", "[hw][se
   watcher.strand().pause_until(begin + 100ms);
   CHECK(before.scout.state() == HardwareState::ready);
   CHECK(executive.now() - begin >= 100ms);
-  seat.unwatch(watcher.strand());
+  seat.watch(watcher.strand(), false);
 }
 
 EXECUTIVE_CASE("a pause that does not end is a fault for the server", "[hw][seat]") {

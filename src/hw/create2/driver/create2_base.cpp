@@ -119,7 +119,7 @@ class Create2Base final : public BaseDriver {
     motion()->press(pressed);
     const Sensors& sensors = senses_->sensors();
     const bool is_safe = sensors.mode == Mode::safe;
-    if (sensors.is_stalled) motion()->obstruct("its motors draw too much current");
+    if (sensors.is_stalled) motion()->obstruct("its motors draw too much current", Hindrance::stall);
     if (sensors.bumps_and_drops.drop_left || sensors.bumps_and_drops.drop_right)
       hold("a wheel hangs; put it down on the floor");
     if (powered_ && sensors.is_at_charger) hold("it is connected to its charger; take it off");

@@ -252,7 +252,7 @@ class P2osBase final : public BaseDriver {
   // Stops the base where it cannot go on. The motors lose their power with the red button, and get it back only for an operator.
   void guard(const Sip& sip) {
     motion()->press(senses_->pressed());
-    if (sip.left_stall || sip.right_stall) motion()->obstruct("its motors are stalled");
+    if (sip.left_stall || sip.right_stall) motion()->obstruct("its motors are stalled", Hindrance::stall);
     if (sip.emergency_stop) hold("its emergency button is pressed; release it");
     const bool had_time = powered_ && host().now() - powered_at_ > kPowerTime;
     if (had_time && !sip.motors_enabled)

@@ -216,7 +216,7 @@ class PlayerBase final : public BaseDriver {
     const Result<Position2dState> state = decode<Position2dState>(message.payload);
     if (!state || !senses_->take(*state, now, is_active())) return session_->note_bad();
     heard(now);
-    if (state->stall && is_active()) motion()->obstruct("its motors are stalled");
+    if (state->stall && is_active()) motion()->obstruct("its motors are stalled", Hindrance::stall);
   }
 
   void take_bumpers(const Message& message, TimePoint now) {

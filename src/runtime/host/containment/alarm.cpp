@@ -29,6 +29,12 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
   }
 }
 
+// A component weighs its own alarms. Those of the runtime are about faults of programs.
+log::Level level_of(const idl::Alarm& alarm) {
+  if (alarm.kind() != idl::OWN_KIND || alarm.severity() == idl::ALARM_CRITICAL) return log::Level::error;
+  return alarm.severity() == idl::ALARM_WARNING ? log::Level::warning : log::Level::info;
+}
+
 }  // namespace
 
 idl::Alarm make_alarm(AlarmKind kind, const std::string& component, const std::string& hook,
@@ -69,8 +75,7 @@ std::string alarm_text(const idl::Alarm& alarm) {
 }
 
 void log_alarm(const idl::Alarm& alarm, const std::string& log_name) {
-  const log::Level level = alarm.severity() == idl::ALARM_NOTICE ? log::Level::info : log::Level::error;
-  log::write(level, alarm.source().empty() ? log_name : alarm.source(),
+  log::write(level_of(alarm), alarm.source().empty() ? log_name : alarm.source(),
              "alarm " + kind_text(alarm) + ": " + alarm.text());
 }
 

@@ -154,12 +154,15 @@ class MotionHW {
   /// @thread  any.
   [[nodiscard]] std::optional<std::string> own_hold() const;
 
-  /// Reports that the base has met something, or that its motors are stalled. If it is moving it stands until a command
+  /// Reports that the base has met something, or by `stall` that its motors are stalled. If it is moving it stands until a command
   /// asks for another direction.
   /// @param reason  for people, e.g. "it touched a wall".
-  void obstruct(const std::string& reason);
+  void obstruct(const std::string& reason, Hindrance by = Hindrance::touch);
   /// Reports which bumpers are pressed now. A base that moves towards one is obstructed, and no command moves it there.
   void press(const std::vector<Obstruction::Pressed>& bumpers);
+  /// Returns why the base is hindered, as Obstruction::take_hindrance().
+  /// @thread  any.
+  [[nodiscard]] std::optional<std::string> take_hindrance(Hindrance by);
 
   /// Returns the mission of the command that came last, even if the base stands since; 0: none. What happens to
   /// the base meanwhile happens in that mission.

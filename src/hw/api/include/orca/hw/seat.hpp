@@ -64,6 +64,8 @@ class HardwareSeat final : public Device {
   [[nodiscard]] std::optional<DriveLimits> limits() const;
   /// Returns for how long a command holds [s]. @pre  there is a base.
   [[nodiscard]] Duration max_command_age() const;
+  /// Returns why the base is hindered, as MotionHW::take_hindrance(); nothing during a pause.  @pre  there is a base.
+  [[nodiscard]] std::optional<std::string> take_hindrance(Hindrance by) const;
   /// Returns whether the hardware hangs on a line.
   [[nodiscard]] bool has_line() const;
   /// Returns whether it has a base or other actuators.
@@ -92,9 +94,8 @@ class HardwareSeat final : public Device {
   /// Returns whether the device has failed and will not be opened again.
   [[nodiscard]] bool is_lost() const;
   /// Wakes `strand` at every change of state.
-  void watch(Strand& strand);
-  /// Forgets `strand`, which is not woken once this has returned.
-  void unwatch(Strand& strand);
+  /// @param on  false: no more. It is not woken once this has returned.
+  void watch(Strand& strand, bool on = true);
 
   // For the process.
 

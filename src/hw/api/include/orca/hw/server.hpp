@@ -27,6 +27,8 @@ namespace orca::hw {
 /// asks for: then with an error, unavailable. RobotBaseServer, LaserServer and TruthLocalizer add a few lines of
 /// their own.
 ///
+/// A base that its bumpers or its motors hinder is the alarm BUMPER_TOUCHED or MOTOR_STALLED of this component, until it is so no more.
+///
 /// The hardware is active while somebody subscribes, for a moment after a motion command, and while a query
 /// waits.
 ///
@@ -68,6 +70,7 @@ class HardwareServer : public Component {
   void ask_about(const Command& command);
   void carry_out_waiting_command();
   void release_idle_motion();
+  void report_hindrances();
 
   HardwareSeat* const seat_;
   bool watches_ = false;  // whether the seat wakes the strand
