@@ -67,6 +67,16 @@ TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]
   CHECK(run.contacts().empty());
 }
 
+TEST_CASE("a robot whose way back is blocked asks people to clear it", "[system][tasks]") {
+  const Run run = Office{.events = R"(<box name="crate" x="1" y="6" length="1.2" width="1.2" height="1 m"
+    comes="40 s"/>)"}
+                      .run({"--set", "pilot.blocked_after=4 s", "--until", "200 s"});
+  INFO(run.out << run.err);
+  CHECK(run.says("alarm BLOCKED: \"start\" was not reached"));
+  CHECK(run.says("alarm QUESTION: I cannot get on. Please clear my way."));
+  CHECK(run.contacts().empty());
+}
+
 TEST_CASE("a room with another door is reached by that", "[system][tasks]") {
   const Run run = Office{.events = shut(9.0, 5.0)}.run_task(R"(<Drive to="office_2" within="120 s"/>)");
   INFO(run.err);
