@@ -55,6 +55,7 @@ LAYERS = (
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base"), ("eigen",), ("eigen",)),
     Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("fcl",)),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
+    Layer("tracking", ("src/tracking",), ("orca/tracking/",), ("navigation", "geometry", "base")),
     Layer("image", ("src/image",), ("orca/image/",), ("base",), ("png",)),
     Layer("maps", ("src/maps",), ("orca/maps/",), ("image", "geometry", "xml", "idl", "base"), ("yaml",)),
     Layer("patterns", ("src/patterns",), ("orca/patterns/",), ENDPOINTS, ("fmt",)),  # its handles need them inside only
@@ -105,7 +106,7 @@ LAYERS = (
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
     Layer("planning", ("src/components/planning",), ("orca/planning/",), ("navigation", "xml", "geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "navigation", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
+    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "navigation", "tracking", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
     Layer("task_tree", ("src/components/task_tree",), (), ("goals", "geometry_objects", "geometry", "text", "xml", *COMPONENT)),
