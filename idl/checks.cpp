@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/idl/checks.hpp"
 
+#include "orca/idl/moving.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -138,6 +140,26 @@ std::optional<std::string> doubt_about(const idl::HolonomicVelocity& velocity) {
   for (const double speed : {velocity.forward(), velocity.left()})
     if (auto doubt = doubt_about_speed(speed)) return doubt;
   return doubt_about_turn(velocity.turn_rate());
+}
+
+Status check_reading(const idl::MovingThings& moving) {
+  for (const idl::MovingThing& thing : moving.things()) {
+    const Quantity places[] = {{"x", thing.x()},
+                               {"y", thing.y()},
+                               {"velocity_x", thing.velocity_x()},
+                               {"velocity_y", thing.velocity_y()}};
+    const Quantity sizes[] = {{"radius", thing.radius()},
+                              {"place_error", thing.place_error()},
+                              {"velocity_error", thing.velocity_error()},
+                              {"unseen", thing.unseen()}};
+    const std::string whose = " of its thing " + std::to_string(thing.number()) + " is ";
+    for (const auto& [name, value] : places)
+      if (!is_possible(value)) return wrong(name + whose + in_digits(value) + "; expected at most 1e7");
+    for (const auto& [name, value] : sizes)
+      if (!(value >= 0.0 && is_possible(value)))
+        return wrong(name + whose + in_digits(value) + "; expected 0 to 1e7");
+  }
+  return ok();
 }
 
 }  // namespace orca

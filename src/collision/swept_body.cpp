@@ -254,6 +254,12 @@ bool SweptBody::is_empty() const { return shapes_->all.empty(); }
 
 double SweptBody::distance(const Post& post) const { return shapes_->distance(post); }
 
+double SweptBody::plan_distance(Vec2 place) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Shape& shape : shapes_->all) least = std::min(least, at_least(shape, {place}));
+  return least;
+}
+
 Approach SweptBody::along(const Travel2& travel, std::span<const Post> posts, double margin) const {
   const double length = portable::hypot(travel.forward, travel.left) + reach_ * std::fabs(travel.turn);
   Motion motion(*shapes_, travel, length);

@@ -41,6 +41,7 @@ const std::vector<Robot> kRobots{
     {"scout_hospital", "", {"goto", "avoid"}},
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
     {"pioneer_one_core", "", {"goto", "avoid"}},
+    {"pioneer_people", "", {"goto", "avoid"}},
     {"courier_depot", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
     {"pioneer_fetch", "", {"goto", "avoid", "porter"}},

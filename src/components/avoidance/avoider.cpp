@@ -29,6 +29,16 @@ bool stands(const Twist2& twist) {
 // A robot that turns on the spot does not get on either.
 bool stays(const Twist2& twist) { return std::abs(twist.forward) < 0.005 && std::abs(twist.left) < 0.005; }
 
+// Returns whether somebody moves near a place in the frame of the odometry: a robot there may stand to let him pass.
+bool passes_somebody(const ObjectPtr<idl::MovingThings>& moving, Vec2 place, TimePoint now) {
+  constexpr double kBeside = 3.5;  // [m]
+  constexpr Duration kFresh = 1s;
+  return moving && now - to_time_point(moving->stamp()) <= kFresh &&
+         std::ranges::any_of(moving->things(), [&](const idl::MovingThing& thing) {
+           return norm(Vec2{thing.x(), thing.y()} - place) <= kBeside;
+         });
+}
+
 }  // namespace
 
 Avoider::Avoider(ComponentHost& host, const Manner& manner)
@@ -246,8 +256,9 @@ std::string Avoider::why_deaf() {
 std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
   if (!remembers() || !moved_at_) return std::nullopt;
   if (!escape_) escape_.emplace(outline_of(described_body()));
-  const bool has_somewhere_to_go =
-      situation.goal && situation.goal_distance > situation.goal_reach && !are_motors_held();
+  const bool has_somewhere_to_go = situation.goal && situation.goal_distance > situation.goal_reach &&
+                                   !are_motors_held() &&
+                                   !passes_somebody(moving_.latest(), pose_.position(), now());
   const auto goal = has_somewhere_to_go ? situation.goal : std::nullopt;
   const auto steer = escape_->step({now(), pose_, twist_, goal, memory_.echoes(), floor_});
   if (steer && steer->speed < 0.0 && escape_->has_just_begun()) feel_ahead();

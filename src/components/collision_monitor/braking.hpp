@@ -45,6 +45,7 @@ struct Verdict {
   double share = 1.0;                 ///< [1] of the command's speed that is left; 0: stop.
   bool at_once = false;               ///< Whether only an emergency stop helps.
   std::optional<std::size_t> post{};  ///< The thing in the way; nothing: the way is free.
+  bool gives_way = false;             ///< Whether the command is slowed down because of people who move.
 };
 
 /// Decides how fast the body may obey a command: so that it can stop, as on any command, before the body comes nearer to a post than

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "braking.hpp"
+#include "crossing.hpp"
 #include "machine.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
@@ -16,6 +17,7 @@
 #include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/moving.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/pose_history.hpp"
@@ -29,6 +31,7 @@ using orca::Pose2;
 using orca::Status;
 using orca::TimePoint;
 using orca::Twist2;
+using orca::Vec2;
 using orca::gate::Verdict;
 using orca::idl::LaserRangeReadings;
 using orca::idl::MotionCommand;
@@ -49,7 +52,9 @@ class CollisionMonitor final : public orca::Component {
   static constexpr double kShareOfCone = 0.5;
   static constexpr orca::Duration kIdleAfter = std::chrono::seconds(2);
   static constexpr orca::Duration kSureAfter = std::chrono::milliseconds(500);
-  static constexpr double kLong = 2.0;  // [s] of standing after which an alarm is raised
+  static constexpr orca::Duration kPassedAfter = std::chrono::milliseconds(100);
+  static constexpr double kLong = 2.0;      // [s] of standing after which an alarm is raised
+  static constexpr double kPatient = 10.0;  // [s] the same while somebody passes
 
   template <class Reading>
   struct Sensor {
@@ -77,11 +82,13 @@ class CollisionMonitor final : public orca::Component {
     history_.clear();
     laser_list_.clear();
     sonar_list_.clear();
+    flank_list_.clear();
     twist_ = {};
     sent_ = {};
     tally_ = {};
     subscribe(lasers_, laser_list_);
     subscribe(sonars_, sonar_list_);
+    subscribe(flank_sonars_, flank_list_);
     return orca::ok();
   }
 
@@ -89,6 +96,7 @@ class CollisionMonitor final : public orca::Component {
     if (sent_ != Twist2{}) (void)base_.send(orca::full_stop());
     lasers_.unsubscribe_all();
     sonars_.unsubscribe_all();
+    flank_sonars_.unsubscribe_all();
     blind_since_.reset();
     clear_alarm("SENSOR_SILENT", "the robot is not driven any more");
     clear_alarm("COLLISION_AHEAD", "the robot is not driven any more");
@@ -133,12 +141,13 @@ class CollisionMonitor final : public orca::Component {
   // A robot that was stopped stands until it may drive on for a while: by the noise of a sensor it would come nearer scan by scan.
   bool may_pass(const Verdict& verdict) {
     if (verdict.share <= 0.0) {
-      held_ = held_ || verdict.post;
+      held_ = held_ || verdict.post || verdict.gives_way;
+      gives_way_ = verdict.gives_way;
       free_since_.reset();
       return false;
     }
     if (!free_since_) free_since_ = now();
-    if (held_ && now() - *free_since_ < kSureAfter) return false;
+    if (held_ && now() - *free_since_ < (gives_way_ ? kPassedAfter : kSureAfter)) return false;
     held_ = false;
     return true;
   }
@@ -167,7 +176,30 @@ class CollisionMonitor final : public orca::Component {
     const Verdict verdict =
         orca::gate::judge(body, posts, {wanted, twist_, held_}, machine_->rules(*reaction_time_, *margin_));
     if (verdict.post) in_the_way_ = where(posts[*verdict.post], body, surroundings_.source_of(*verdict.post));
-    return verdict;
+    return among_people(verdict, body, wanted);
+  }
+
+  // Lets people who move pass.
+  Verdict among_people(Verdict verdict, const orca::collision::SweptBody& body, const Twist2& wanted) {
+    const std::vector<orca::gate::Passer> people = passers();
+    const orca::gate::Crossing crossing =
+        orca::gate::cross(body, people, {wanted, twist_, held_}, machine_->rules(*reaction_time_, *margin_));
+    if (crossing.share >= verdict.share && !crossing.at_once) return verdict;
+    if (crossing.who) in_the_way_ = orca::gate::text_of(people[*crossing.who]);
+    return {crossing.share, verdict.at_once || crossing.at_once, verdict.post, true};
+  }
+
+  [[nodiscard]] double age_of(const orca::idl::MovingThings& moving) const {
+    return orca::to_seconds(now() - orca::to_time_point(moving.stamp()));
+  }
+
+  // Returns who moves, in the frame of the robot.
+  [[nodiscard]] std::vector<orca::gate::Passer> passers() const {
+    const auto moving = moving_.latest();
+    if (!moving) return {};
+    auto people = surroundings_.comers(orca::to_seconds(now().time_since_epoch()), here());
+    orca::gate::add_passers(*moving, age_of(*moving), here(), people);
+    return people;
   }
 
   // Says what is in the way, for people.
@@ -197,7 +229,7 @@ class CollisionMonitor final : public orca::Component {
       return;
     }
     if (is_new) log_info("stops the robot: " + in_the_way_);
-    if (tally_.stands_for(now()) > kLong)
+    if (tally_.stands_for(now()) > (verdict.gives_way ? kPatient : kLong))
       raise_alarm("COLLISION_AHEAD", orca::idl::ALARM_WARNING,
                   "the robot stands: " + in_the_way_ + "; find another way, or clear this one");
   }
@@ -207,11 +239,15 @@ class CollisionMonitor final : public orca::Component {
     while (odometry_.new_data_arrived()) follow(*odometry_.get_update());
     subscribe(lasers_, laser_list_);
     subscribe(sonars_, sonar_list_);
+    subscribe(flank_sonars_, flank_list_);
     if (history_.empty()) return;
     for (Sensor<LaserRangeReadings>& laser : laser_list_)
       if (laser.source.new_data_arrived()) see(laser, laser.source.take_latest());
     for (Sensor<SonarRangeReadings>& ring : sonar_list_)
       if (ring.source.new_data_arrived()) hear(ring, ring.source.take_latest());
+    for (Sensor<SonarRangeReadings>& ring : flank_list_)
+      if (ring.source.new_data_arrived()) hear_flanks(ring, *ring.source.take_latest());
+    surroundings_.forget(passers(), here());
   }
 
   void follow(const orca::idl::Odometry& odometry) {
@@ -276,6 +312,22 @@ class CollisionMonitor final : public orca::Component {
     }
   }
 
+  // Hears who comes from where no laser looks.
+  void hear_flanks(Sensor<SonarRangeReadings>& ring, const SonarRangeReadings& round) {
+    if (!senders_.accepts(round)) return;
+    const std::size_t count = std::min({round.ranges().size(), round.poses().size(), round.stamps().size()});
+    ring.fired.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const TimePoint fired = orca::to_time_point(round.stamps()[i]);
+      if (fired == std::exchange(ring.fired[i], fired)) continue;
+      const Pose2 X_OS = at(fired) * orca::plane_pose(round.poses()[i]);
+      surroundings_.hear_flank(
+          ring.source.path(),
+          {i, orca::to_seconds(fired.time_since_epoch()), round.ranges()[i], round.max_range(), X_OS},
+          round.half_lobe());
+    }
+  }
+
   template <class Reading>
   [[nodiscard]] double limit_of(const Sensor<Reading>& sensor) const {
     const double period = orca::to_seconds(sensor.source.base_period());
@@ -291,6 +343,10 @@ class CollisionMonitor final : public orca::Component {
   [[nodiscard]] std::string why_blind() const {
     if (!moves_ || !moved_at_ || orca::to_seconds(now() - *moved_at_) > kDeafAfter)
       return "nothing valid comes at its port \"odometry\"";
+    const auto moving = moving_.latest();
+    if (moving_.connected() &&
+        (!moving || !orca::check_reading(*moving).ok() || age_of(*moving) > kDeafAfter))
+      return "nothing valid comes at its port \"moving\"";
     for (const Sensor<LaserRangeReadings>& laser : laser_list_) {
       if (is_silent(laser)) return "nothing valid comes from " + laser.source.path();
       if (orca::is_covered(*laser.waiting)) return "something is at the laser of " + laser.source.path();
@@ -321,10 +377,22 @@ class CollisionMonitor final : public orca::Component {
       *this,
       "sonars",
       {.text = "Readings of its sonars. The robot stands while a ring is silent.", .optional = true}};
+  orca::PushProxyArray<SonarRangeReadings> flank_sonars_{
+      *this,
+      "flanks",
+      {.text =
+           "Readings of sonars that hear who comes from where no laser looks; they count beside \"moving\".",
+       .optional = true}};
   orca::PushProxy<orca::idl::GripperState> gripper_{
       *this,
       "gripper",
       {.text = "State of its gripper; with it what the gripper holds is a part of the body.",
+       .optional = true}};
+
+  orca::PushProxy<orca::idl::MovingThings> moving_{
+      *this,
+      "moving",
+      {.text = "Who moves near the robot: a PersonTracker. With it the robot lets people pass.",
        .optional = true}};
 
   orca::Param<std::string> robot_{
@@ -356,10 +424,12 @@ class CollisionMonitor final : public orca::Component {
   orca::SenderLife odometer_;
   std::vector<Sensor<LaserRangeReadings>> laser_list_;
   std::vector<Sensor<SonarRangeReadings>> sonar_list_;
+  std::vector<Sensor<SonarRangeReadings>> flank_list_;
   Pose2 pose_;
   Twist2 twist_;
-  Twist2 sent_;        // the last command of the base
-  bool held_ = false;  // whether it has made a stop of a command, and nothing has passed since
+  Twist2 sent_;             // the last command of the base
+  bool gives_way_ = false;  // whether that was for people
+  bool held_ = false;       // whether it has made a stop of a command, and nothing has passed since
   std::optional<TimePoint> free_since_;  // the first command that may pass since one that might not
   bool moves_ = false;
   std::optional<TimePoint> moved_at_;

@@ -14,6 +14,9 @@ namespace {
 constexpr double kBehind = 0.02;     // [m] A place that much behind a reading is hidden by it.
 constexpr double kPast = 0.1;        // [m] A laser that sees that far behind a place sees past it.
 constexpr double kSamePlace = 0.15;  // [m] Echoes of sonars nearer to each other are of one thing.
+constexpr double kAround = 0.15;     // [m] around people
+constexpr double kSameThing = 0.35;  // [m] An echo of a sonar so near to one of a laser is that.
+constexpr double kAside = 0.3;       // [m] by which the middle of a sonar's echo may be beside the thing
 constexpr double kSpacing = 0.04;    // [m] of the posts on the arc of a sonar's cone
 constexpr std::size_t kMost = 2000;  // echoes of a laser, or two scans if they are more
 
@@ -106,6 +109,40 @@ void Surroundings::hear(const std::string& name, const Cone& cone) {
     const bool stays = is_sure && i == steps / 2;
     ring.echoes.push_back({cone.X_OS * (cone.range * direction(angle)), 0.0, cone.sonar, stays, false});
   }
+}
+
+void Surroundings::forget(std::span<const Passer> people, const Pose2& X_OR) {
+  for (const Passer& passer : people) {
+    if (passer.unseen > 0.0 || norm(passer.velocity) < Passer::kStands) continue;
+    const Vec2 place = X_OR * passer.place;
+    const double room = passer.radius + kAround;
+    for (Source& source : sources_)
+      std::erase_if(source.echoes, [&](const Echo& echo) {
+        return !echo.is_carried && norm(echo.place - place) < room + (source.is_laser ? 0.0 : kAside);
+      });
+  }
+}
+
+// Lasers explain what they show, and what would be there where they look at all of the cone.
+void Surroundings::hear_flank(const std::string& ring, const Firing& firing, double half_lobe) {
+  const auto end = [&](double angle) { return firing.X_OS * (firing.range * direction(angle)); };
+  flanks_.hear(
+      ring, firing,
+      is_seen(end(0.0), kSameThing) || (is_looked_at(end(half_lobe)) && is_looked_at(end(-half_lobe))));
+}
+
+bool Surroundings::is_looked_at(Vec2 place) const {
+  return std::ranges::any_of(sources_, [&](const Source& source) {
+    return source.is_laser && look(source.sweep, place).sight != Sight::beside;
+  });
+}
+
+bool Surroundings::is_seen(Vec2 place, double room) const {
+  return std::ranges::any_of(sources_, [&](const Source& source) {
+    return source.is_laser && std::ranges::any_of(source.echoes, [&](const Echo& echo) {
+             return norm(echo.place - place) < room;
+           });
+  });
 }
 
 collision::Post Surroundings::post_of(const Source& source, Vec2 place) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "flanks.hpp"
 #include "orca/base/time.hpp"
 #include "orca/collision/swept_body.hpp"
 #include "orca/geometry/pose2.hpp"
@@ -50,13 +51,26 @@ class Surroundings {
   static constexpr double kRange = 2.5;  ///< [m] from the sensor; what is farther away does not count.
 
   /// Forgets all.
-  void clear() { sources_.clear(); }
+  void clear() {
+    sources_.clear();
+    flanks_.clear();
+  }
   /// Lets what is out of sight grow older by a time [s]. @param drives  whether the robot did meanwhile.
   void age(double time, bool drives);
   /// Takes a scan. @param source  name of the laser.
   void see(const std::string& source, Sweep sweep);
   /// Takes a reading of a sonar.
   void hear(const std::string& source, const Cone& cone);
+
+  /// Takes a firing of a sonar that hears who comes from where no laser looks.
+  /// @param half_lobe [rad]  half the opening angle of its cone.
+  void hear_flank(const std::string& ring, const Firing& firing, double half_lobe);
+  /// Forgets what was seen and heard where people move in sight: they are nothing that stands there.
+  void forget(std::span<const Passer> people, const Pose2& X_OR);
+  /// Returns those who come from where no laser looks, in the frame of the robot.
+  [[nodiscard]] std::vector<Passer> comers(double now, const Pose2& X_OR) const {
+    return flanks_.comers(now, X_OR);
+  }
 
   /// Returns what counts now, in the frame of a robot. Valid until the next call.
   [[nodiscard]] std::span<const collision::Post> posts(const Pose2& X_OR);
@@ -80,7 +94,11 @@ class Surroundings {
   Source& source(const std::string& name, bool is_laser);
   [[nodiscard]] collision::Post post_of(const Source& source, Vec2 place) const;
 
+  [[nodiscard]] bool is_looked_at(Vec2 place) const;
+  [[nodiscard]] bool is_seen(Vec2 place, double room) const;
+
   std::vector<Source> sources_;
+  Flanks flanks_;
   std::vector<collision::Post> posts_;
   std::vector<std::size_t> owners_;  // of each post, an index of sources_
 };

@@ -209,3 +209,16 @@ TEST_CASE("a motion among the echoes of a corridor is judged in less than a mill
   std::ranges::nth_element(times, times.begin() + kMotions / 2);
   CHECK(times[kMotions / 2] < 1e-3);
 }
+
+TEST_CASE(
+    "the distance of a plan is exact beside its edges, too little beside its corners, and negative within",
+    "[collision]") {
+  const SweptBody box(first(1));
+  CHECK(box.plan_distance({0.55, 0.0}) == Approx(0.3));
+  CHECK(box.plan_distance({0.0, -0.5}) == Approx(0.3));
+  CHECK(box.plan_distance({0.0, 0.1}) == Approx(-0.1));
+  const double corner =
+      std::hypot(0.3, 0.4);  // of a place 0.3 m ahead of the front and 0.4 m beside the side
+  CHECK(box.plan_distance({0.55, 0.6}) <= corner);
+  CHECK(box.plan_distance({0.55, 0.6}) >= 0.4);
+}

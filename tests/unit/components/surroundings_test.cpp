@@ -3,6 +3,7 @@
 #include "collision_monitor/surroundings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -142,4 +143,36 @@ TEST_CASE("something nearer than a sonar can measure is at the sonar, wherever t
   CHECK(seen.posts({0.1, 0.0, 0.0})[0].place.x == 0.2);
   seen.hear("ring", cone(3, 5.0));
   CHECK(seen.posts({}).empty());
+}
+
+TEST_CASE("what was seen where somebody moves in sight is forgotten, and nothing else is", "[gate][people]") {
+  Surroundings seen;
+  Sweep sweep = scan_with(8.0, 90, 1.5);
+  sweep.ranges[60] = 2.0;
+  seen.see("laser", sweep);
+  Passer passer{.place = {1.6, 0.0}, .velocity = {0.0, 0.1}};
+  seen.forget(std::array{passer}, {});  // He stands.
+  CHECK(seen.posts({}).size() == 2);
+  passer.velocity.y = 1.0;
+  seen.forget(std::array{passer}, {});
+  CHECK(seen.posts({}).size() == 1);
+}
+
+TEST_CASE("who comes from beside is heard where no laser looks or shows the same, and not elsewhere",
+          "[gate][people]") {
+  const auto comers = [](double yaw, double shown) {
+    Surroundings seen;
+    Sweep sweep = scan(8.0);
+    sweep.ranges[0] = shown;  // straight to the right
+    double time = 0.0;
+    for (const double range : {2.0, 1.6, 1.2}) {
+      seen.see("laser", sweep);
+      seen.hear_flank("ring", {7, time += 0.3, range, 5.0, {0.0, 0.0, yaw}}, 12 * kDegree);
+    }
+    return seen.comers(time, {}).size();
+  };
+  CHECK(comers(-130 * kDegree, 8.0) == 1);
+  CHECK(comers(-90 * kDegree, 8.0) == 1);  // half of the cone is beside the field of view
+  CHECK(comers(-90 * kDegree, 1.3) == 0);
+  CHECK(comers(0.0, 8.0) == 0);
 }

@@ -10,6 +10,7 @@
 #include "orca/idl/generated/hardware.reflection.hpp"
 #include "orca/idl/generated/machines.reflection.hpp"
 #include "orca/idl/generated/motion.reflection.hpp"
+#include "orca/idl/generated/moving.reflection.hpp"
 #include "orca/idl/generated/navigation.reflection.hpp"
 #include "orca/idl/generated/sensing.reflection.hpp"
 #include "orca/idl/generated/system.reflection.hpp"
@@ -21,6 +22,7 @@
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/machines.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/moving.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
@@ -37,15 +39,17 @@ using TravellingStructs =
                idl::WorldCoordinate3D, idl::WorldCoordinate6DOF>;
 
 /// The object types that have a header themselves.
-using HeadedObjects = std::tuple<
-    idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery, idl::BumperReadings,
-    idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door, idl::Drive, idl::Estimate,
-    idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph, idl::GripperCommand, idl::GripperState,
-    idl::HolonomicVelocity, idl::Image, idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor,
-    idl::Localization, idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::OccupancyGrid,
-    idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose, idl::Route,
-    idl::Sensor, idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder, idl::TaskState, idl::TripOrder,
-    idl::TripState, idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
+using HeadedObjects =
+    std::tuple<idl::Actuator, idl::Alarm, idl::Arrived, idl::Ask, idl::AskReading, idl::Battery,
+               idl::BumperReadings, idl::ClientList, idl::Contact, idl::DeviceStatistics, idl::Door,
+               idl::Drive, idl::Estimate, idl::FusionReason, idl::GoalFailed, idl::GoalPoint, idl::Graph,
+               idl::GripperCommand, idl::GripperState, idl::HolonomicVelocity, idl::Image,
+               idl::InfraredRangeReadings, idl::LaserRangeReadings, idl::LaserSensor, idl::Localization,
+               idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::MovingThings, idl::OccupancyGrid,
+               idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose,
+               idl::Route, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder,
+               idl::TaskState, idl::TripOrder, idl::TripState, idl::TurretAngle, idl::TurretCommand,
+               idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

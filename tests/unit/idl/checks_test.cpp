@@ -2,6 +2,8 @@
 // What counts as a reading, and what is asked about a command.
 #include "orca/idl/checks.hpp"
 
+#include "orca/idl/moving.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <limits>
@@ -118,4 +120,18 @@ TEST_CASE("a command beyond what robots do is asked about, with the likely mista
   idl::HolonomicVelocity sideways;
   sideways.left(300.0);
   CHECK_THAT(doubt_about(sideways).value_or(""), Contains("300 m/s"));
+}
+
+TEST_CASE("of things that move each number must be possible", "[idl][checks]") {
+  idl::MovingThings moving;
+  CHECK(check_reading(moving).ok());
+  moving.things().resize(1);
+  moving.things()[0].number(7);
+  CHECK(check_reading(moving).ok());
+  CHECK(fault_of(moving, [](auto& m) { m.things()[0].velocity_y(kNaN); }) ==
+        "velocity_y of its thing 7 is nan; expected at most 1e7");
+  CHECK(fault_of(moving, [](auto& m) { m.things()[0].radius(-0.1); }) ==
+        "radius of its thing 7 is -0.1; expected 0 to 1e7");
+  CHECK(fault_of(moving, [](auto& m) { m.things()[0].unseen(kInfinity); }) ==
+        "unseen of its thing 7 is inf; expected 0 to 1e7");
 }

@@ -60,6 +60,9 @@ class SweptBody {
   [[nodiscard]] double reach() const { return reach_; }
   /// Returns the distance [m] of the body to a post, both in the frame of the robot: 0 or negative within, by the way out sideways.
   [[nodiscard]] double distance(const Post& post) const;
+  /// Returns the distance [m] of the body's plan to a place at any height, in the frame of the robot: exact beside an edge, too little
+  /// beside a corner, negative within.
+  [[nodiscard]] double plan_distance(Vec2 place) const;
   /// Returns how much of a motion is free, to kStep of the way of the body's farthest point.
   /// @param travel  from the frame in which the posts are given, along an arc.
   /// @param margin  [m] to keep from posts.

@@ -15,6 +15,7 @@
 #include "orca/geometry/twist2.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/moving.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
@@ -158,6 +159,11 @@ class Avoider : public Component {
   PushProxy<idl::GoalPoint> goal_;
   PushProxy<idl::RobotPose> localizer_;
   PushServer<idl::MotionCommand> motion_;
+  PushProxy<idl::MovingThings> moving_{*this,
+                                       "moving",
+                                       {.text = "Who moves near the robot: a PersonTracker. A robot that "
+                                                "stands while somebody passes has met nothing.",
+                                        .optional = true}};
   QueryProxy<idl::Ask, idl::Robot> robot_{
       *this,
       "robot",
