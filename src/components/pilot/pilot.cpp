@@ -62,6 +62,14 @@ std::vector<Stretch> stretches_of(const orca::idl::Path& path) {
   return stretches;
 }
 
+// Returns whether another behaviour, which can do better there, takes the robot through a door.
+bool takes_over(const orca::ObjectPtr<orca::idl::MotionCommand>& wish, orca::TimePoint now) {
+  constexpr double kStale = 0.3;  // [s]
+  return wish && wish->kind() != orca::idl::DONTCARE &&
+         (wish->kind() == orca::idl::FULLSTOP || wish->weight() > 0.0) &&
+         orca::to_seconds(now - orca::to_time_point(wish->creation_time())) < kStale;
+}
+
 /// A behaviour that drives to goals on paths that a PathPlanner finds (thesis 11.1, Pilot). See README.md.
 class Pilot final : public orca::go::GoalFollower {
  public:
@@ -166,7 +174,11 @@ class Pilot final : public orca::go::GoalFollower {
   }
 
   void drive(const Pose2& pose, const Target& target) override {
-    if (is_taken_over()) return leave_it();
+    if (takes_over(traverse_.latest(), now())) {
+      motion().push(orca::dont_care());
+      note_speed(0.0);
+      return;
+    }
     const bool hears = driver_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= kDeafAfter;
     if (!hears) return stand();
     take_path(pose, target);
@@ -189,20 +201,6 @@ class Pilot final : public orca::go::GoalFollower {
     recoveries_.note(driver_->recovery());
     if (!doubts(driver_->recovery()) || !doubt_.connected()) return;
     if (const Status sent = doubt_.send(doubt_.loan()); !sent.ok()) log_warning(sent.error().text());
-  }
-
-  // Returns whether another behaviour, which can do better there, takes the robot through a door.
-  [[nodiscard]] bool is_taken_over() {
-    constexpr double kStale = 0.3;  // [s]
-    const auto wish = traverse_.latest();
-    return wish && wish->kind() != orca::idl::DONTCARE &&
-           (wish->kind() == orca::idl::FULLSTOP || wish->weight() > 0.0) &&
-           orca::to_seconds(now() - orca::to_time_point(wish->creation_time())) < kStale;
-  }
-
-  void leave_it() {
-    motion().push(orca::dont_care());
-    note_speed(0.0);
   }
 
   void stand() {
