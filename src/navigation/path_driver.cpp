@@ -88,17 +88,19 @@ void PathDriver::find_place(const Path& path, Vec2 robot) {
 Steer PathDriver::follow_path(const Path& path, const Moment& moment, const Pursuit& pursuit,
                               const Manner& manner) {
   const Steer steer = follow(path, along_, scene(moment, pursuit), footprint_, pursuit, manner.last_speed);
-  watch(steer, moment, manner);
+  watch(steer, moment, manner, pursuit.max_speed);
   return steer;
 }
 
 // Notes whether the robot gets on, and begins to recover if it does not.
-void PathDriver::watch(const Steer& steer, const Moment& moment, const Manner& manner) {
+void PathDriver::watch(const Steer& steer, const Moment& moment, const Manner& manner, double speed) {
   turning_ = steer.turning && !steer.blocked;
   note_motion(moment);
   if (!steer.blocked) blocked_since_.reset();
   if (steer.blocked && !blocked_since_) blocked_since_ = moment.now;
-  const double roaming = manner.leads_there ? kRoaming : kRoamingNowhere;
+  // A slow robot takes twice the time that it needs.
+  const double roaming =
+      std::max(manner.leads_there ? kRoaming : kRoamingNowhere, 2.0 * kLeft / std::max(speed, 0.01));
   const bool stuck = (blocked_since_ && to_seconds(moment.now - *blocked_since_) > manner.patience) ||
                      to_seconds(moment.now - moved_at_) > kIdle ||
                      to_seconds(moment.now - left_at_) > roaming;

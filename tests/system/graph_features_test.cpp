@@ -191,7 +191,7 @@ TEST_CASE("--check --json reports errors on stdout and nothing else", "[system][
 TEST_CASE("each way to look at a graph prints it and starts nothing", "[system][graph]") {
   for (const auto& [option, start] : {std::pair<std::string, std::string>{"--dot", "digraph"},
                                       {"--mermaid", "---\ntitle: scout_goto, profile sim"},
-                                      {"--list-ports", "command.goto"},
+                                      {"--list-ports", "command.TripQuery"},
                                       {"--print", "<?xml"}}) {
     const Run run = run_deployer({source_file("graphs/scout_goto.xml"), option});
     CAPTURE(option);

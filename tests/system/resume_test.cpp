@@ -148,7 +148,7 @@ TEST_CASE("with restore=last a Command that is killed goes on with the goal that
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "door"});
-  CHECK(run.says("goes on from the state orca.Command/2"));
+  CHECK(run.says("goes on from the state orca.Command/3"));
 }
 
 TEST_CASE("without restore a Command that is killed begins its list again", "[system][resume]") {

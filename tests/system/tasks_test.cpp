@@ -390,6 +390,24 @@ TEST_CASE("a robot sees all of a building that it can reach, comes back, and wai
   CHECK(floor_known(stays) < 30);
 }
 
+TEST_CASE("a border of the map that cannot be reached is left out, and the robot goes on and comes back",
+          "[system][tasks]") {
+  const TempFolder folder;
+  std::string world = read_text(source_file("sim/worlds/store.xml"));
+  world.insert(world.rfind("</world>"),  // too low for the laser, too high for the robot
+               R"(<box name="kerb" x="4 m" y="4.5 m" length="0.2 m" width="1 m" height="0.1 m"/>)");
+  const Run run = run_deployer(
+      Words{source_file("graphs/pioneer_map.xml"), "--set", "world=" + folder.write("world.xml", world)} +
+          virtual_clock(),
+      Seconds(120));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("m is left out: blocked"));
+  CHECK(run.says("nothing new can be reached"));
+  REQUIRE_FALSE(run.arrivals().empty());
+  CHECK(run.arrivals().back().name == "explore");
+}
+
 TEST_CASE("a task whose pilot has failed stands, asks for help, and has failed if nobody comes",
           "[system][tasks]") {
   const Run run = Office{}.run({"--fail", "pilot=throw@25s"});

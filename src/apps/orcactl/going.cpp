@@ -89,12 +89,15 @@ Status show_goals(Client& client, const std::vector<std::string>& components, Du
 // Shows what becomes of the goals until there is none any more.
 // @errors  not_found: a goal was missed.
 Status wait_for(Client& client, const std::string& component, const idl::TripState& begin, Duration limit) {
-  std::string said = begin.result();
+  std::uint32_t over = begin.reached() + begin.missed();
   for (;; std::this_thread::sleep_for(kLookEvery)) {
     const auto state = fetch_trips(client, component, make_object<idl::TripOrder>(), limit);
     if (!state) return state.error();
-    if ((*state)->result() != said) print(printable((*state)->result()) + "\n");
-    said = (*state)->result();
+    const std::uint32_t over_now = (*state)->reached() + (*state)->missed();
+    if (over_now < over)
+      return fail(Code::unavailable, component + " has begun anew, and knows its goals no more");
+    if (over_now > over) print(printable((*state)->result()) + "\n");
+    over = over_now;
     if (!(*state)->going_to().empty() || !(*state)->next().empty()) continue;
     const std::uint32_t missed = (*state)->missed() - begin.missed();
     if (missed == 0) return ok();
@@ -119,7 +122,13 @@ Result<Loan<idl::TripOrder>> trip_order(const apps::Call& call) {
 
 Status carry_out_trip(Client& client, const std::vector<std::string>& components, const apps::Call& call) {
   const Duration limit = call.duration("--timeout").value_or(kAnswerLimit);
-  if (call.words.empty() && !call.has("--cancel")) return show_goals(client, components, limit);
+  const bool shows = call.words.empty() && !call.has("--cancel");
+  if (shows && (call.has("--queue") || call.has("--repeat") || call.has("--wait")))
+    return fail(Code::invalid_argument, "name a goal: orcactl go kitchen");
+  if (call.has("--queue") && call.has("--repeat"))
+    return fail(Code::invalid_argument,
+                "--queue adds to the goals that there are, --repeat takes their place");
+  if (shows) return show_goals(client, components, limit);
   const std::optional<std::string> named = call.text("--component");
   if (!named && components.size() > 1)
     return fail(Code::invalid_argument, "several components send robots to goals: " + listed(components) +

@@ -11,7 +11,7 @@
 
 namespace orca::orcactl {
 
-/// Returns the goals that the words after "go" name, as Command takes them: each word is a place, but two or three numbers in a row are
+/// Returns the goals that the words after "go" name, as Command takes them: each word is a place, but two numbers in a row are
 /// coordinates [m], also with their unit in the word or behind it: "3.2 4", "3.2m 4m", "3.2 m 4 m".
 /// @errors  invalid_argument: a number is alone.
 [[nodiscard]] Result<std::vector<std::string>> goals_in(const std::vector<std::string>& words);

@@ -89,7 +89,7 @@ class Command final : public orca::Component {
     if (reached) ++reached_;
     if (reached) return;
     ++missed_;
-    rests_ = *rounds_ != 1;
+    rests_ = rounds() != 1;
     if (std::ranges::find(unreached_, going_to_) == unreached_.end()) unreached_.push_back(going_to_);
   }
 
@@ -141,15 +141,16 @@ class Command final : public orca::Component {
                         "an order to go names a goal at least, and no other order names one");
     if (kind == orca::idl::TRIP_SHOW) return orca::ok();
     stays_ = true;
-    if (kind != orca::idl::TRIP_QUEUE) ordered_.clear();
+    const bool is_over = !mission_.active() && agenda_.next(rounds()) == nullptr;
+    const bool adds = kind == orca::idl::TRIP_QUEUE && !is_over;
+    if (!adds) ordered_.clear();
     ordered_.insert(ordered_.end(), order.goals().begin(), order.goals().end());
-    if (kind == orca::idl::TRIP_QUEUE) {
+    if (adds) {
       agenda_.add(std::move(trips));
       return orca::ok();
     }
     ordered_rounds_ = order.rounds();
-    drive_to(std::move(trips),
-             kind == orca::idl::TRIP_GO ? "there are other goals" : "by \"" + order.origin() + "\"");
+    drive_to(std::move(trips), needs_goals ? "there are other goals" : "by \"" + order.origin() + "\"");
     return orca::ok();
   }
 
@@ -172,10 +173,10 @@ class Command final : public orca::Component {
     std::size_t begun = 0;
     std::vector<std::string> listed;
     bool stays = false;
-    if (orca::Status read = state.read(tried_, unreached_, missed_, begun, listed, stays, ordered_,
-                                       ordered_rounds_, reached_);
-        !read.ok())
+    if (orca::Status read = state.read(tried_, unreached_, missed_, begun, listed, stays); !read.ok())
       return read;
+    if (state.tag().version > 2)
+      if (orca::Status read = state.read(ordered_, ordered_rounds_, reached_); !read.ok()) return read;
     if (listed != listed_) return forget_orders();  // that was another list
     if (orca::Status again = take_orders_again(); !again.ok()) return again;
     agenda_.go_on_after(begun);
@@ -201,7 +202,9 @@ class Command final : public orca::Component {
   }
 
   [[nodiscard]] std::uint32_t state_version() const override { return 3; }
-  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Command", 1}}; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
+    return {{"orca.Command", 1}, {"orca.Command", 2}};
+  }
 
   // Asks the user for one goal; false when there will be no more. Typed letters stay when the lap is given up for an order.
   bool ask() {

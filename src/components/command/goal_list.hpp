@@ -33,8 +33,14 @@ class Agenda {
     trips_ = std::move(trips);
     begun_ = 0;
   }
-  /// Adds goals behind all others.
+  /// Adds goals behind all others of the round that is driven.
   void add(std::vector<Trip> trips) {
+    const std::size_t before = trips_.size();
+    if (begun_ > 0) {
+      const std::size_t rounds =
+          (begun_ - 1) / before;  // whole ones; all goals of the present one may be begun
+      begun_ += rounds * trips.size();
+    }
     trips_.insert(trips_.end(), std::make_move_iterator(trips.begin()), std::make_move_iterator(trips.end()));
   }
   [[nodiscard]] bool empty() const { return trips_.empty(); }

@@ -45,6 +45,9 @@ class Explorer final : public orca::Component {
     reached_.reset();
     left_out_.clear();
     explores_ = !goal->via() && goal->name() == *explore_at_;
+    mission_ = goal->mission();
+    began_ = now();
+    empty_looks_ = 0;
     turn_ = Turn::due;
     goal_ = goal;
     looked_ = {};
@@ -59,6 +62,7 @@ class Explorer final : public orca::Component {
         log_warning(taken.error().message);
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    if (is_over()) forget_goal();
     if (!goal_ || !explores_ || !senders_.accepts(*here)) return orca::again();
     if (!robot_.body() || known_area() <= 0.0 || now() < looked_ + kEvery) return orca::again();
     looked_ = now();
@@ -66,6 +70,12 @@ class Explorer final : public orca::Component {
     if (turn_ == Turn::due) turn(pose);
     if (turn_ == Turn::done) look(pose.position());
     return orca::again();
+  }
+
+  // Returns whether the time of the goal is over: who has sent it has given it up.
+  [[nodiscard]] bool is_over() const {
+    return goal_ && explores_ && goal_->time_limit() > 0.0 &&
+           now() > began_ + orca::from_seconds(goal_->time_limit());
   }
 
   void hear(const orca::idl::Arrived& arrived) {
@@ -86,7 +96,7 @@ class Explorer final : public orca::Component {
 
   // Returns whether it reports a goal that was replaced by another one meanwhile.
   [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
-    return !goal_ || goal_->mission() != result.mission();
+    return !goal_ || mission_ != result.mission();
   }
 
   void leave_out(const std::string& reason) {
@@ -103,7 +113,7 @@ class Explorer final : public orca::Component {
   // Lets the robot look behind itself: its laser may see the half of what is around it.
   void turn(const Pose2& pose) {
     turn_ = Turn::on;
-    auto point = orca::make_object(*goal_);
+    auto point = point_of_its_own();
     point->name() = "behind";
     point->coordinate().point().x(pose.x);
     point->coordinate().point().y(pose.y);
@@ -119,12 +129,14 @@ class Explorer final : public orca::Component {
     if (reached_ && now() < *reached_ + kSettle) return;
     std::vector<Vec2> places = frontiers_from(robot);
     if (towards_ && holds(places, *towards_, kSame)) {
-      if (!reached_ && now() < set_out_ + kPatience) return;
+      if (!reached_ && now() < patient_until_) return;
       leave_out(reached_ ? "from nearby nothing more is seen there" : "it takes too long");
       places = frontiers_from(robot);
     }
-    if (places.empty()) return conclude();
-    drive_to(places.front());
+    // One look may be wrong: a single echo beside the robot shuts it in.
+    empty_looks_ = places.empty() ? empty_looks_ + 1 : 0;
+    if (empty_looks_ == kEmptyLooks) return conclude();
+    if (!places.empty()) drive_to(places.front(), robot);
   }
 
   // Returns the places of those that are not left out, the nearest first.
@@ -143,18 +155,26 @@ class Explorer final : public orca::Component {
     return std::ranges::any_of(places, [&](Vec2 one) { return norm(one - place) < within; });
   }
 
-  void drive_to(Vec2 place) {
+  void drive_to(Vec2 place, Vec2 robot) {
     towards_ = place;
     reached_.reset();
-    set_out_ = now();
-    auto point = orca::make_object(*goal_);
+    patient_until_ = now() + kPatience + orca::from_seconds(norm(place - robot) / kSlow);
+    auto point = point_of_its_own();
     point->coordinate().point().x(place.x);
     point->coordinate().point().y(place.y);
     point->name() = "border_" + std::to_string(++drives_);
     point->reach_radius().distance(kNear);
     point->use_orientation(false);
-    point->time_limit(0.0);
     send(std::move(point));
+  }
+
+  // Returns a goal of another mission: a planner that has given up one takes nothing more of its mission.
+  orca::Loan<GoalPoint> point_of_its_own() {
+    mission_ = begin_mission();
+    auto point = orca::make_object(*goal_);
+    point->mission(mission_);
+    point->time_limit(0.0);
+    return point;
   }
 
   void conclude() {
@@ -166,6 +186,7 @@ class Explorer final : public orca::Component {
         (left_out_.empty() ? "" : ", and " + std::to_string(left_out_.size()) + " places were left out"));
     explores_ = false;
     towards_.reset();
+    mission_ = goal_->mission();
     send(orca::make_object(*goal_));
   }
 
@@ -179,6 +200,7 @@ class Explorer final : public orca::Component {
   void send(orca::Loan<GoalPoint> point) {
     if (const orca::Status sent = planner_.send(std::move(point)); !sent.ok()) {
       auto failed = undone_.loan();
+      failed->mission(goal_->mission());
       failed->name() = goal_->name();
       failed->kind(orca::idl::GOAL_REFUSED);
       failed->reason() = "refused: " + sent.error().text();
@@ -196,14 +218,16 @@ class Explorer final : public orca::Component {
   }
 
   void save_state(orca::StateWriter& state) const override {
-    state.write(goal_, turn_, explores_, drives_, left_out_);
+    state.write(goal_, mission_, began_, turn_, explores_, drives_, left_out_, floor_);
   }
   orca::Status load_state(orca::StateReader& state) override {
-    return state.read(goal_, turn_, explores_, drives_, left_out_);
+    return state.read(goal_, mission_, began_, turn_, explores_, drives_, left_out_, floor_);
   }
 
   static constexpr orca::Duration kEvery = std::chrono::seconds(1);      // it looks for frontiers
-  static constexpr orca::Duration kPatience = std::chrono::seconds(90);  // for the way to one of them
+  static constexpr orca::Duration kPatience = std::chrono::seconds(90);  // for the way to one of them, and
+  static constexpr double kSlow = 0.1;  // [m/s] for each metre of it straight on
+  static constexpr int kEmptyLooks = 3;
   static constexpr orca::Duration kSettle =
       std::chrono::seconds(2);            // for what is seen there to come into the map
   static constexpr double kTurned = 0.2;  // [rad] off the direction behind it
@@ -244,11 +268,14 @@ class Explorer final : public orca::Component {
 
   orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan, orca::planning::Floor::Edge::grows};
   orca::ObjectPtr<GoalPoint> goal_;  // the last point that came, until its result
+  std::uint64_t mission_ = 0;        // of the point that was sent last
+  orca::TimePoint began_{};
   Turn turn_ = Turn::due;
   bool explores_ = false;        // it has not seen everything
   std::uint32_t drives_ = 0;     // to frontiers
   std::optional<Vec2> towards_;  // the frontier that the robot drives to, world frame
-  orca::TimePoint set_out_{};
+  orca::TimePoint patient_until_{};
+  int empty_looks_ = 0;  // one after the other
   std::optional<orca::TimePoint> reached_;
   std::vector<Vec2> left_out_;  // world frame
   orca::TimePoint looked_{};

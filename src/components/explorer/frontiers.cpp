@@ -22,8 +22,10 @@ constexpr double kNowhere = -1.0;
 
 Cell beside(Cell cell, Cell step) { return {cell.column + step.column, cell.row + step.row}; }
 
-// Returns of each cell whether the robot's middle may be there: it is known to be free, and so far from what is occupied.
-std::vector<std::uint8_t> passable_cells(const FloorGrid& map, double clearance) {
+constexpr double kOwnRoom = 0.4;  // [m] around the robot: it is there, so it can leave
+
+// Returns of each cell whether the robot's middle may be there: it is known to be free, and so far from what is occupied, or near the robot.
+std::vector<std::uint8_t> passable_cells(const FloorGrid& map, double clearance, Vec2 robot) {
   const Lattice& lattice = map.lattice;
   std::vector<std::uint8_t> obstacles(lattice.size());
   for (std::size_t i = 0; i < obstacles.size(); ++i) obstacles[i] = map.occupied(lattice.cell_of(i)) ? 1 : 0;
@@ -33,7 +35,11 @@ std::vector<std::uint8_t> passable_cells(const FloorGrid& map, double clearance)
       transform(obstacles, lattice.columns, lattice.rows, static_cast<int>(std::ceil(cells)) + 1);
   std::vector<std::uint8_t> passable(lattice.size());
   for (std::size_t i = 0; i < passable.size(); ++i)
-    passable[i] = map.free(lattice.cell_of(i)) && squared[i] >= cells * cells ? 1 : 0;
+    passable[i] =
+        map.free(lattice.cell_of(i)) && (squared[i] >= cells * cells ||
+                                         norm(lattice.middle_of(lattice.cell_of(i)) - robot) < kOwnRoom)
+            ? 1
+            : 0;
   return passable;
 }
 
@@ -85,7 +91,7 @@ std::vector<Frontier> frontiers(const FloorGrid& map, double clearance, Vec2 rob
   const Lattice& lattice = map.lattice;
   const Cell here = lattice.cell_at(robot);
   if (!lattice.holds(here)) return {};
-  const std::vector<double> ways = ways_from(lattice, passable_cells(map, clearance), here);
+  const std::vector<double> ways = ways_from(lattice, passable_cells(map, clearance, robot), here);
 
   std::vector<std::uint8_t> is_border(lattice.size());
   for (std::size_t i = 0; i < is_border.size(); ++i)

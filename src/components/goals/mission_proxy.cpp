@@ -314,7 +314,7 @@ bool MissionProxy::find_other_way(const idl::GoalFailed& failed) {
                                         failed.reason() + ": " + routes_.text());
   host_.end_mission();
   drive_->mission = host_.begin_mission();
-  return send_due(std::max(to_seconds(drive_->limit - host_.now()), 0.1)).ok();
+  return send_due(std::max(to_seconds(drive_->limit - host_.now()), 0.1)).ok() || may_come_back();
 }
 
 bool MissionProxy::is_ours(const idl::OrcaObject& result) const {

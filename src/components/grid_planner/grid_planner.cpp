@@ -104,9 +104,9 @@ class GridPlanner final : public orca::go::GoalFollower {
     return read;
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
   [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
-    return {{"orca.Goto", 1}, {kType, 1}};
+    return {{"orca.Goto", 1}, {kType, 1}, {kType, 2}};
   }
 
   orca::Outcome work() override {

@@ -121,6 +121,7 @@ class Pilot final : public orca::go::GoalFollower {
 
   Status load_state(orca::StateReader& state) override {
     if (Status read = GoalFollower::load_state(state); !read.ok()) return read;
+    if (state.tag().version < state_version()) return orca::ok();
     auto [body] = robot_.state();
     bool has_driver = false;
     Status read = state.read(body, stretches_, at_, driven_for_, heard_at_, has_driver);
@@ -131,7 +132,8 @@ class Pilot final : public orca::go::GoalFollower {
     return std::apply([&](auto&... part) { return state.read(part...); }, driver_->state());
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Pilot", 2}}; }
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
@@ -177,6 +179,9 @@ class Pilot final : public orca::go::GoalFollower {
     if (takes_over(traverse_.latest(), now())) {
       motion().push(orca::dont_care());
       note_speed(0.0);
+      recoveries_.note(std::nullopt);
+      if (driver_) driver_->reset();
+      if (driver_) driver_->begin({now(), pose, twist_});  // it has waited for nobody
       return;
     }
     const bool hears = driver_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= kDeafAfter;

@@ -199,22 +199,6 @@ std::optional<Ways> read_document(const std::optional<xml::Document>& document,
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(ways));
 }
 
-std::string in_metres(double length) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f m", length);
-  return text;
-}
-
-std::string element_of(const WayPoint& point) {
-  std::string text = point.door ? "  <door name=\"" : "  <place name=\"";
-  text += point.name + "\" x=\"" + in_metres(point.place.x) + "\" y=\"" + in_metres(point.place.y) + "\"";
-  if (!point.door) return text + " in=\"" + point.rooms[0] + "\"/>\n";
-  char yaw[32];
-  std::snprintf(yaw, sizeof yaw, "%.0f deg", point.door->direction * 180.0 / std::numbers::pi);
-  return text + " yaw=\"" + yaw + "\" width=\"" + in_metres(point.door->width) + "\" from=\"" +
-         point.rooms[0] + "\" into=\"" + point.rooms[1] + "\"/>\n";
-}
-
 }  // namespace
 
 Result<Ways> read_ways(const std::string& file) {
@@ -227,19 +211,6 @@ Result<Ways> read_ways(const std::string& file) {
 std::optional<Ways> read_ways_text(std::string_view text, const std::string& file_name,
                                    xml::Diagnostics& diagnostics) {
   return read_document(xml::read_text(text, file_name, diagnostics), diagnostics);
-}
-
-std::string text_of(const Ways& ways) {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ways name=\"" + ways.name + "\" version=\"1\">\n";
-  for (const WayPoint& point : ways.points) text += element_of(point);
-  for (const WayLeg& leg : ways.legs) {
-    const WayPoint& from = ways.points[leg.from];
-    text += "  <leg from=\"" + from.name + "\" to=\"" + ways.points[leg.to].name + "\" in=\"" +
-            from.rooms[leg.from_side] + "\" length=\"" + in_metres(leg.cost) + "\"";
-    text += leg.one_way ? " one_way=\"true\"/>\n" : "/>\n";
-  }
-  return text + "</ways>\n";
 }
 
 }  // namespace orca::planning

@@ -42,6 +42,8 @@ class Porter final : public orca::Component {
   }
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
+    // Its points may be sent again, along another way, when the robot is there already.
+    if (errand_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
     errand_.reset();
     goal_ = goal;
     if (!kind_of(*goal)) return goto_.send(copy_value(goal));
@@ -82,7 +84,8 @@ class Porter final : public orca::Component {
   // Goto has done its part when the robot is as near as it was to bring it.
   void hear(const orca::idl::Arrived& arrived) {
     if (is_late(arrived)) return;
-    if (const auto kind = kind_of(*goal_)) {
+    if (const auto kind = kind_of(*goal_); kind || arrived.name() != goal_->name()) {
+      if (!kind) return;  // The points of another way are coming.
       errand_.emplace(*kind, place_of(*goal_));
       heard_ = now();
       return;

@@ -77,7 +77,8 @@ class RouteServer final : public orca::Component {
     if (!senders_.accepts(*pose)) return orca::again();
     X_WR_ = orca::plane_pose(*pose);
     forget();
-    if (orca::is_anywhere(pose->covariance())) {
+    knows_pose_ = !orca::is_anywhere(pose->covariance());
+    if (!knows_pose_) {
       history_.clear();
       return orca::again();
     }
@@ -109,8 +110,13 @@ class RouteServer final : public orca::Component {
     orca::nav::beams_of({scan->ranges(), scan->min_range(), scan->max_range(), scan->angle_start(),
                          scan->angle_increment(), *first * mount, *last * mount},
                         kSight, beams_);
-    for (const WayPoint& point : ways_.points)
-      if (point.door && norm(point.place - first->position()) < kSight) judge(point);
+    for (const WayPoint& point : ways_.points) {
+      if (!point.door) continue;
+      if (norm(point.place - first->position()) < kSight)
+        judge(point);
+      else
+        suspected_.erase(point.name);
+    }
   }
 
   void judge(const WayPoint& door) {
@@ -123,8 +129,10 @@ class RouteServer final : public orca::Component {
   }
 
   void note_open(const std::string& door) {
-    if (std::erase_if(shut_, [&](const Blockage& one) { return one.to == door; }) > 0)
-      push_door(door, true, "is open");
+    const auto is_it = [&](const Blockage& one) { return one.to == door; };
+    if (std::erase_if(shut_, is_it) == 0) return;
+    std::erase_if(blocked_, is_it);  // It was in vain because the door was shut.
+    push_door(door, true, "is open");
   }
 
   void note_shut(const std::string& door) {
@@ -219,7 +227,7 @@ class RouteServer final : public orca::Component {
   }
 
   orca::Result<orca::Loan<Route>> on_question(const ObjectPtr<GoalPoint>& goal) {
-    if (floor_.grid().cells.empty() || !localizer_.latest())
+    if (floor_.grid().cells.empty() || !knows_pose_)
       return orca::fail(orca::Code::unavailable,
                         "it does not know the world or the robot's pose yet; ask again later");
     const auto& place = goal->coordinate().point();
@@ -260,8 +268,7 @@ class RouteServer final : public orca::Component {
   orca::PushProxy<OccupancyGrid> world_{
       *this,
       "world",
-      {.text =
-           "The map with what was seen of late, by which it judges doors and finds what the robot gets to."}};
+      {.text = "The map with what was seen of late, by which it finds what the robot gets to."}};
   orca::PushProxy<orca::idl::LaserRangeReadings> laser_{
       *this, "laser", {.text = "Scans in which it sees whether doors are open.", .optional = true}};
   orca::QueryServer<GoalPoint, Route> question_{
@@ -296,6 +303,7 @@ class RouteServer final : public orca::Component {
 
   Ways ways_;  // in the frame of the goals
   orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
+  bool knows_pose_ = false;
   Pose2 X_WR_;
   orca::nav::PoseHistory history_;
   orca::WaitingScans scans_;

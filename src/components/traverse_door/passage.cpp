@@ -44,7 +44,7 @@ std::optional<Step> line_up(const Pose2& robot, double middle, double run_up, do
     if (std::fabs(yaw) <= kStraight) return std::nullopt;
     return Step{0.0, limited(-kSteering * yaw)};
   }
-  // It crosses the axis at the place of its run-up; a robot that is beside that place backs off along the axis first.
+  // It crosses the axis at the place of its run-up.
   const Vec2 way = Vec2{-run_up, middle} - robot.position();
   const double bearing = wrapped(portable::atan2(way.y, way.x) - robot.yaw);
   if (std::fabs(bearing) > kTurnFirst) return Step{0.0, limited(kSteering * bearing)};

@@ -103,11 +103,15 @@ class TraverseDoor final : public orca::Component {
 
   void begin(const Door& door, Vec2 middle, const Pose2& X_WR) {
     const double yaw = door.orientation().orientation().yaw();
-    const bool ahead = dot(middle - X_WR.position(), orca::direction(yaw)) >= 0.0;
+    // A robot in the doorway, of which a predecessor knew, goes on in its direction.
+    const bool inside = norm(middle - X_WR.position()) < 0.5 * kRunUp;
+    const Vec2 onward = inside ? orca::direction(X_WR.yaw) : middle - X_WR.position();
+    const bool ahead = dot(onward, orca::direction(yaw)) >= 0.0;
     passage_ = Passage{door.name(),
                        door.mission(),
                        {middle.x, middle.y, ahead ? yaw : orca::wrapped(yaw + std::numbers::pi)},
                        {0.0, door.door_width().distance()}};
+    passage_->lined_up = inside;
   }
 
   // Looks at the doorway, and takes note of the gap in it.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "command/goal_list.hpp"
 #include "orca/base/random.hpp"
@@ -122,4 +123,29 @@ TEST_CASE("whatever the text, a trip that is read has a name and finite numbers"
     CHECK(std::isfinite(trip->goal.x + trip->goal.y + trip->orientation));
   }
   CHECK(read > 100);
+}
+
+TEST_CASE("goals that are added come after the others of the round that is driven", "[command]") {
+  const auto trips = [](const std::vector<std::string>& names) {
+    std::vector<Trip> all;
+    for (const std::string& name : names) all.push_back(*parse_trip(name + ": 1 2"));
+    return all;
+  };
+  const auto next = [](const orca::command::Agenda& agenda) { return agenda.next(0)->name; };
+  orca::command::Agenda agenda;
+  agenda.set(trips({"a", "b"}));
+  for (int begun = 0; begun < 3; ++begun) agenda.begin();  // on the way to a for the second time
+  agenda.add(trips({"c"}));
+  std::string driven;
+  for (int i = 0; i < 5; ++i) {
+    driven += next(agenda);
+    agenda.begin();
+  }
+  CHECK(driven == "bcabc");
+
+  orca::command::Agenda last;
+  last.set(trips({"a", "b"}));
+  for (int begun = 0; begun < 2; ++begun) last.begin();  // on the way to b
+  last.add(trips({"c"}));
+  CHECK(next(last) == "c");
 }

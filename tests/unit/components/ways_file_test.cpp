@@ -86,14 +86,3 @@ TEST_CASE("another file, another version and no file are refused with what was e
              Contains("Y009"));
   CHECK_THAT(planning::read_ways("no.xml").error().message, Contains("no.xml"));
 }
-
-TEST_CASE("a topological map is written as it is read", "[ways_file]") {
-  const auto ways = planning::read_ways(ORCA_SOURCE_DIR "/sim/ways/office.xml");
-  REQUIRE(ways);
-  CHECK(ways->points.size() == 7);
-  xml::Diagnostics diagnostics;
-  const std::string text = planning::text_of(*ways);
-  const auto again = planning::read_ways_text(text, "again.xml", diagnostics);
-  REQUIRE(again);
-  CHECK(planning::text_of(*again) == text);
-}

@@ -122,7 +122,7 @@ class PathDriver {
 
  private:
   [[nodiscard]] Scene scene(const Moment& moment, const Pursuit& pursuit) const;
-  void watch(const Steer& steer, const Moment& moment, const Manner& manner);
+  void watch(const Steer& steer, const Moment& moment, const Manner& manner, double speed);
   void note_motion(const Moment& moment);
   void begin_recovery(const Moment& moment);
   [[nodiscard]] std::optional<Steer> go_on(const Moment& moment, const Pursuit& pursuit,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "orca/base/result.hpp"
 #include "orca/geometry/pose2.hpp"
@@ -46,6 +47,11 @@ class Floor {
   [[nodiscard]] const nav::FloorGrid& grid() const { return grid_; }
   /// Returns the pose in the world of the frame in which map() is: both have the same origin, but rows of cells lie along the frame's x axis.
   [[nodiscard]] Pose2 X_WM() const { return {0.0, 0.0, yaw_}; }
+  /// Names what a successor of the component goes on with, if nobody sends the map again.
+  [[nodiscard]] auto state() {
+    nav::Lattice& lattice = grid_.lattice;
+    return std::tie(name_, yaw_, lattice.corner, lattice.side, lattice.columns, lattice.rows, grid_.cells);
+  }
 
  private:
   bool take_tile(const idl::OccupancyGrid& grid);

@@ -21,7 +21,4 @@ namespace orca::planning {
 [[nodiscard]] std::optional<Ways> read_ways_text(std::string_view text, const std::string& file_name,
                                                  xml::Diagnostics& diagnostics);
 
-/// Returns a topological map as the text of a file that read_ways() reads.
-[[nodiscard]] std::string text_of(const Ways& ways);
-
 }  // namespace orca::planning
