@@ -121,7 +121,6 @@ class Pilot final : public orca::go::GoalFollower {
 
   Status load_state(orca::StateReader& state) override {
     if (Status read = GoalFollower::load_state(state); !read.ok()) return read;
-    if (state.tag().version < state_version()) return orca::ok();
     auto [body] = robot_.state();
     bool has_driver = false;
     Status read = state.read(body, stretches_, at_, driven_for_, heard_at_, has_driver);
@@ -133,7 +132,6 @@ class Pilot final : public orca::go::GoalFollower {
   }
 
   [[nodiscard]] std::uint32_t state_version() const override { return 3; }
-  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Pilot", 2}}; }
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
