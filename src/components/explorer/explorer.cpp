@@ -64,7 +64,7 @@ class Explorer final : public orca::Component {
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
     if (is_over()) forget_goal();
     if (!goal_ || !explores_ || !senders_.accepts(*here)) return orca::again();
-    if (!robot_.body() || known_area() <= 0.0 || now() < looked_ + kEvery) return orca::again();
+    if (!robot_.body() || now() < looked_ + kEvery || known_area() <= 0.0) return orca::again();
     looked_ = now();
     const orca::Pose2 pose = orca::plane_pose(*here);
     if (turn_ == Turn::due) turn(pose);
