@@ -11,9 +11,11 @@ namespace orca::nav {
 void OutlineGrid::look_at(const OccupancyMap& map, const Footprint& footprint, double margin) {
   lattice_ = map.lattice();
   cells_per_metre_ = 1.0 / lattice_.side;
-  footprint_ = {footprint.half_length, footprint.half_width, footprint.radius + margin};
-  if (!footprint.is_circle())
-    footprint_ = {footprint.half_length + margin, footprint.half_width + margin, footprint.radius};
+  footprint_ = {0.0, 0.0, footprint.outer_radius() + margin};
+  if (!footprint.is_circle()) {
+    footprint_.half_length = footprint.half_length + margin;
+    footprint_.half_width = footprint.half_width + margin;
+  }
   obstacles_.resize(lattice_.size());
   so_far_.resize(lattice_.size() + static_cast<std::size_t>(lattice_.rows));
   std::size_t at = 0;
@@ -62,15 +64,19 @@ OutlineGrid::Stretch OutlineGrid::stretch(std::span<const Vec2, 4> corners, doub
   return stretch;
 }
 
+OutlineGrid::Stretch OutlineGrid::stretch_of_circle(Vec2 middle, double low, double high) const {
+  const double off = middle.y - std::clamp(middle.y, low, high);
+  const double half = std::sqrt(std::max(0.0, footprint_.radius * footprint_.radius - off * off));
+  return {middle.x - half, middle.x + half};
+}
+
 int OutlineGrid::touched_by_circle(Vec2 middle) const {
   int count = 0;
   const Cell low = lattice_.cell_at(middle - Vec2{footprint_.radius, footprint_.radius});
   const Cell high = lattice_.cell_at(middle + Vec2{footprint_.radius, footprint_.radius});
   for (int row = std::max(low.row, 0); row <= std::min(high.row, lattice_.rows - 1); ++row) {
     const double y = lattice_.corner.y + row * lattice_.side;
-    const double off = middle.y - std::clamp(middle.y, y, y + lattice_.side);
-    const double half = std::sqrt(std::max(0.0, footprint_.radius * footprint_.radius - off * off));
-    count += occupied_in(row, {middle.x - half, middle.x + half});
+    count += occupied_in(row, stretch_of_circle(middle, y, y + lattice_.side));
   }
   return count;
 }
@@ -85,12 +91,16 @@ int OutlineGrid::touched(const Pose2& pose) const {
   const Vec2 middle = pose.position();
   const std::array<Vec2, 4> corners{middle + ahead + left, middle - ahead + left, middle - ahead - left,
                                     middle + ahead - left};
-  const auto [low, high] = std::ranges::minmax_element(corners, {}, &Vec2::y);
-  const int last = std::min(lattice_.cell_at(*high).row, lattice_.rows - 1);
+  const auto [lowest, highest] = std::ranges::minmax(corners, {}, &Vec2::y);
+  const double low = std::max(lowest.y, middle.y - footprint_.radius);
+  const double high = std::min(highest.y, middle.y + footprint_.radius);
+  const int last = std::min(lattice_.cell_at({middle.x, high}).row, lattice_.rows - 1);
   int count = 0;
-  for (int row = std::max(lattice_.cell_at(*low).row, 0); row <= last; ++row) {
+  for (int row = std::max(lattice_.cell_at({middle.x, low}).row, 0); row <= last; ++row) {
     const double y = lattice_.corner.y + row * lattice_.side;
-    count += occupied_in(row, stretch(corners, y, y + lattice_.side));
+    const Stretch within = stretch(corners, y, y + lattice_.side);
+    const Stretch round = stretch_of_circle(middle, y, y + lattice_.side);
+    count += occupied_in(row, {std::max(within.low, round.low), std::min(within.high, round.high)});
   }
   return count;
 }

@@ -14,7 +14,8 @@ constexpr double kBackTime = 1.8;        // [s] of backing off, times the number
 constexpr int kMostRetreats = 5;         // up to this
 constexpr double kClearTime = 0.3;       // [s] until a scan has come
 constexpr double kWaitTime = 4.0;        // [s]
-constexpr double kLookTime = 10.0;       // [s] at most, for a turn
+constexpr double kLookPatience = 1.0;    // [s] and the time that its turn so far takes
+constexpr double kLeastPace = 0.15;      // [rad/s] at this rate: it ends where something holds the robot
 constexpr double kLookAngle = 0.8;       // [rad] ahead for which its corners must find room
 constexpr double kMovedOn = 0.1;         // [m] or
 constexpr double kTurnedOn = 0.3;        // [rad] that count as motion
@@ -64,7 +65,8 @@ std::optional<Steer> PathDriver::go_on(const Moment& moment, const Pursuit& purs
       const bool goes_on = !back.blocked && time < kBackTime * std::min(retreats_, kMostRetreats);
       return goes_on ? std::optional(back) : std::nullopt;
     }
-    case Recovery::look_around: return time < kLookTime ? look_around(moment, pursuit) : std::nullopt;
+    case Recovery::look_around:
+      return time < kLookPatience + turned_ / kLeastPace ? look_around(moment, pursuit) : std::nullopt;
     case Recovery::clear: return time < kClearTime ? std::optional(Steer{}) : std::nullopt;
     case Recovery::wait: return time < kWaitTime ? std::optional(Steer{}) : std::nullopt;
   }

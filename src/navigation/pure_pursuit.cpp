@@ -14,7 +14,8 @@ constexpr std::array kShares{1.0, 0.75, 0.55, 0.4, 0.28};  // of the look-ahead
 constexpr double kShortestLook = 0.15;                     // [m]
 constexpr double kStep = 0.05;                             // [m] at which arcs are looked at
 constexpr double kTurnStep = 0.1;                          // [rad] at which turns are looked at
-constexpr double kTurnMargin = 0.01;      // [m] kept free while turning: the robot moves slowly
+constexpr double kTurnMargin =
+    0.02;  // [m] kept free while turning: corners are fast, and places of echoes err by 1 cm
 constexpr double kTurnGain = 3.0;         // [1/s] turn rate per angle left
 constexpr double kLeastTurnRate = 0.2;    // [rad/s]
 constexpr double kSqueezeMargin = 0.005;  // [m] kept free where the margin finds no way,

@@ -32,8 +32,10 @@ template <typename Visit>
 bool walk_outline(const Footprint& footprint, const Pose2& pose, Visit visit) {
   const auto along = [&](Vec2 from, Vec2 to) {
     const int parts = std::max(1, static_cast<int>(std::ceil(norm(to - from) / kOutlineStep)));
-    for (int i = 0; i < parts; ++i)
-      if (!visit(pose * (from + (static_cast<double>(i) / parts) * (to - from)))) return false;
+    for (int i = 0; i < parts; ++i) {
+      const Vec2 corner = from + (static_cast<double>(i) / parts) * (to - from);
+      if (!visit(pose * shortened(corner, footprint.outer_radius()))) return false;
+    }
     return true;
   };
   if (!footprint.is_circle()) {

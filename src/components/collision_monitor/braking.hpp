@@ -37,7 +37,8 @@ struct Rules {
   Brakes gentle;          ///< Those of the base on any command.
   Brakes hard;            ///< Those of its emergency stop.
   double reaction = 0.3;  ///< [s] from an echo until the base brakes.
-  double margin = 0.02;   ///< [m] to keep from what was seen.
+  double margin =
+      0.02;  ///< [m] to keep from what was seen, at 0.2 m/s and more; less in proportion, at least a third.
 };
 
 /// The decision about a command.
@@ -49,7 +50,7 @@ struct Verdict {
 };
 
 /// Decides how fast the body may obey a command: so that it can stop, as on any command, before the body comes nearer to a post than
-/// the margin. If on its present arc even an emergency stop would only just do, it asks for that.
+/// the margin. Where nothing may pass otherwise, the slowest motion may whose own margin is free: 0.08 m/s. If on its present arc even an emergency stop would only just do, it asks for that.
 [[nodiscard]] Verdict judge(const collision::SweptBody& body, std::span<const collision::Post> posts,
                             const Intent& intent, const Rules& rules);
 

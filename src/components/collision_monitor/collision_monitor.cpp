@@ -406,7 +406,11 @@ class CollisionMonitor final : public orca::Component {
       *this,
       "margin",
       0.03,
-      {.unit = "m", .min = 0.001, .max = 0.3, .text = "Distance to keep from what is seen."}};
+      {.unit = "m",
+       .min = 0.001,
+       .max = 0.3,
+       .text =
+           "Distance to keep from what is seen at 0.2 m/s and more; less in proportion, at least a third."}};
   orca::Param<double> reaction_time_{*this,
                                      "reaction_time",
                                      0.15,

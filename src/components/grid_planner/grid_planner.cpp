@@ -297,8 +297,9 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   [[nodiscard]] orca::nav::Footprint footprint() const {
-    const Body body = robot_.body().value_or(Body{*robot_radius_, *robot_length_, *robot_width_});
-    return {0.5 * body.length, 0.5 * body.width, body.radius};
+    if (robot_.body()) return robot_.body()->outline();
+    const bool is_round = *robot_length_ <= 0.0 || *robot_width_ <= 0.0;
+    return Body{is_round ? *robot_radius_ : 0.0, *robot_length_, *robot_width_}.outline();
   }
 
   [[nodiscard]] double deceleration() const {

@@ -82,8 +82,7 @@ class PathPlanner final : public orca::Component {
   }
 
   [[nodiscard]] orca::nav::Footprint footprint() const {
-    const orca::planning::Body body = robot_.body().value_or(orca::planning::Body{});
-    return {0.5 * body.length, 0.5 * body.width, body.radius};
+    return robot_.body().value_or(orca::planning::Body{}).outline();
   }
 
   // Returns a goal in the frame of the cells.

@@ -324,8 +324,7 @@ class Pilot final : public orca::go::GoalFollower {
   [[nodiscard]] bool steers() const { return *turning_radius_ > 0.0; }
 
   [[nodiscard]] orca::nav::Footprint footprint() const {
-    const orca::planning::Body body = robot_.body().value_or(orca::planning::Body{});
-    return {0.5 * body.length, 0.5 * body.width, body.radius};
+    return robot_.body().value_or(orca::planning::Body{}).outline();
   }
 
   [[nodiscard]] double deceleration() const {

@@ -178,7 +178,8 @@ class WorldModel final : public orca::Component {
     return heard;
   }
 
-  // Notes what bumpers touch, which lasers and sonars may overlook: a place as wide as a switch, a little nearer than that.
+  // Notes what bumpers touch, which lasers and sonars may overlook: a place as wide as a robot, for a step or a kerb is seldom narrower
+  // than the switch that feels it, and a little nearer than that.
   bool feel_bumpers() {
     constexpr double kNearer = 0.05;  // [m]
     if (!bumper_.new_data_arrived()) return false;
@@ -189,7 +190,7 @@ class WorldModel final : public orca::Component {
     for (std::size_t i = 0; i < std::min(touch->pressed().size(), touch->poses().size()); ++i) {
       if (touch->pressed()[i] == 0) continue;
       feels = true;
-      for (const double aside : {-0.1, -0.05, 0.0, 0.05, 0.1})
+      for (const double aside : {-0.25, -0.2, -0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15, 0.2, 0.25})
         note_touch(then * (orca::plane_pose(touch->poses()[i]) * Vec2{-kNearer, aside}));
     }
     if (feels) hold_touched();

@@ -38,9 +38,10 @@ std::optional<std::string> Obstruction::take_hindrance(Hindrance by) {
   return felt;
 }
 
-// A base that only turned when it was stalled goes on when it turns the same way.
+// A base that only turned when it was stalled goes on when it only turns the same way: one that backs off may turn as it does.
 bool Obstruction::goes_on(const Twist2& velocity) const {
-  if (translation(*met_while_) == Vec2{}) return velocity.turn_rate * met_while_->turn_rate > 0.0;
+  if (translation(*met_while_) == Vec2{})
+    return translation(velocity) == Vec2{} && velocity.turn_rate * met_while_->turn_rate > 0.0;
   return dot(translation(velocity), translation(*met_while_)) > 0.0;
 }
 

@@ -87,3 +87,15 @@ TEST_CASE("where only an emergency stop helps it is asked for, whatever the comm
   }
   CHECK_FALSE(judge_ahead(0.01, {{-0.3, 0.0, 0.0}, {}}).at_once);
 }
+
+TEST_CASE("a slow robot passes nearer to things than a fast one", "[gate]") {
+  // A gap that leaves 1 cm on either side, and one that leaves 5 mm.
+  const auto between = [](double room, double speed) {
+    const std::array posts{Post{{0.26, 0.2 + room}}, Post{{0.26, -0.2 - room}}};
+    return speed * judge(SweptBody(kBox), posts, {{speed, 0.0, 0.0}, {}}, kRules).share;
+  };
+  CHECK(between(0.021, 0.6) == Approx(0.6));
+  CHECK(between(0.01, 0.6) == Approx(0.08));
+  CHECK(between(0.01, 0.05) == Approx(0.05));
+  CHECK(between(0.005, 0.6) < 0.05);
+}

@@ -76,6 +76,8 @@ TEST_CASE("a base that is stalled while it turns on the spot may turn the other 
   CHECK_FALSE(base.drive(0.0, 0.2).ok());
   CHECK(base.drive(0.0, -0.2).ok());
   CHECK(base.drive(0.0, 0.2).ok());
+  base.motion.obstruct("its motors are stalled");
+  CHECK(base.drive(-0.15, 0.1).ok());
 }
 
 TEST_CASE("what comes to a standing base obstructs nothing", "[hw][obstruction]") {

@@ -43,6 +43,27 @@ TEST_CASE("the clearance of a rectangle is the distance to its outline, and not 
   }
 }
 
+TEST_CASE("the circle that holds a robot cuts the corners of the rectangle that holds it", "[navigation]") {
+  constexpr Footprint kCut{0.3, 0.2, 0.31};
+  CHECK(kCut.outer_radius() == 0.31);
+  CHECK(kCut.inner_radius() == 0.2);
+  CHECK(std::abs(clearance(kCut, Vec2{0.35, 0.0}) - 0.05) < 1e-12);
+  CHECK(std::abs(clearance(kCut, Vec2{0.0, 0.25}) - 0.05) < 1e-12);
+  const Vec2 corner{0.3, 0.2};
+  CHECK(std::abs(clearance(kCut, corner) - (norm(corner) - 0.31)) < 1e-12);
+  const std::array beside{Vec2{0.0, 0.33}};
+  CHECK(room_along(kCut, {}, {0.0, 0.0, 3.0}, 30, beside, 0.01).share == 1.0);
+  CHECK(room_along({0.3, 0.2, 0.0}, {}, {0.0, 0.0, 3.0}, 30, beside, 0.01).share < 0.5);
+}
+
+TEST_CASE("a robot beside something may drive along it, and comes no nearer step by step", "[navigation]") {
+  const std::array wall{Vec2{0.1, 0.21}, Vec2{0.3, 0.21}, Vec2{0.5, 0.21}, Vec2{0.7, 0.21}};
+  constexpr double kMargin = 0.02;
+  CHECK(room_along(kBody, {}, {0.4, 0.0, 0.0}, 8, wall, kMargin).share == 1.0);
+  for (const double skew : {0.02, 0.05})
+    CHECK(room_along(kBody, {0.0, 0.0, skew}, {0.4, 0.0, 0.0}, 80, wall, kMargin).share < 1.0);
+}
+
 TEST_CASE("a robot without length and width is a circle", "[navigation]") {
   constexpr Footprint kRound{0.0, 0.0, 0.3};
   CHECK(kRound.inner_radius() == 0.3);

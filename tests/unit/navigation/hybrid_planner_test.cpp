@@ -64,6 +64,32 @@ TEST_CASE("the outline is tried as exactly as by separating axes", "[navigation]
   CHECK(touching < 18'000);
 }
 
+TEST_CASE("a circle cuts the corners of the outline that is tried, and nothing that the robot covers",
+          "[navigation][hybrid]") {
+  RandomStream random(2, "test", "poses");
+  Trial trial(two_rooms_grid());
+  OutlineGrid cut;
+  OutlineGrid circle;
+  const double radius = 0.5 * (kCar.inner_radius() + kCar.outer_radius());
+  cut.look_at(trial.map, {kCar.half_length, kCar.half_width, radius}, 0.0);
+  circle.look_at(trial.map, {0.0, 0.0, radius}, 0.0);
+  int freed = 0;
+  for (int i = 0; i < 5'000; ++i) {
+    const Pose2 pose{random.uniform(0.0, 10.0), random.uniform(0.0, 6.0), random.uniform(-3.1, 3.1)};
+    CAPTURE(pose.x, pose.y, pose.yaw);
+    const bool whole = touches(trial.grid, kCar, pose);
+    if (cut.touched(pose) > 0) REQUIRE((whole && circle.touched(pose) > 0));
+    if (whole && cut.touched(pose) == 0) ++freed;
+    for (int k = 0; k < 20; ++k) {
+      const Vec2 point = radius * random.uniform(0.0, 1.0) * direction(random.uniform(-3.1, 3.1));
+      if (std::abs(point.x) > kCar.half_length || std::abs(point.y) > kCar.half_width) continue;
+      const Cell cell = trial.map.lattice().cell_at(pose * point);
+      if (trial.map.lattice().holds(cell) && trial.map.occupied(cell)) REQUIRE(cut.touched(pose) > 0);
+    }
+  }
+  CHECK(freed > 50);
+}
+
 TEST_CASE("a robot that steers drives through a door into the other room, and its outline stays free",
           "[navigation][hybrid]") {
   Trial trial(two_rooms_grid());

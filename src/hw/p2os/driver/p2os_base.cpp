@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/base_driver.hpp"
@@ -108,8 +109,10 @@ class P2osBase final : public BaseDriver {
   void describe(idl::Robot& robot) const override {
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
-    robot.radius(model_->radius);
-    robot.bumper_radius(model_->radius);
+    // The radius of the maker's files does not hold the corners.
+    const double radius = std::max(model_->radius, 0.5 * portable::hypot(model_->length, model_->width));
+    robot.radius(radius);
+    robot.bumper_radius(radius);
     robot.length(model_->length);
     robot.width(model_->width);
     figures().describe(robot);

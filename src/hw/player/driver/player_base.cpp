@@ -279,7 +279,7 @@ class PlayerBase final : public BaseDriver {
        .text = "Longest time in which a device opens, and in which its driver says where it is; a laser may "
                "need half a minute. The deployer gives up after 10 s."}};
   Param<double> radius_{
-      *this, "radius", 0.26, {.unit = "m", .min = 0.0, .text = "Of the circle that holds the body."}};
+      *this, "radius", 0.3, {.unit = "m", .min = 0.0, .text = "Of the circle that holds the body."}};
   Param<double> length_{
       *this, "length", 0.44, {.unit = "m", .min = 0.0, .text = "Of the body; 0: it is round."}};
   Param<double> width_{

@@ -9,13 +9,14 @@
 
 namespace orca::nav {
 
-/// The outline of a robot: a rectangle around its frame's origin, or a circle (length and width 0).
+/// The outline of a robot: a rectangle around its frame's origin whose corners are cut by the circle that holds the robot, or that
+/// circle (length and width 0).
 ///
 /// A plain value; its functions may be called from any thread.
 struct Footprint {
   double half_length = 0.0;  ///< [m] along x.
   double half_width = 0.0;   ///< [m] along y.
-  double radius = 0.0;       ///< [m] of the circle that holds the robot.
+  double radius = 0.0;  ///< [m] of the circle that holds the robot; 0 beside a rectangle: it cuts nothing.
 
   [[nodiscard]] bool is_circle() const { return half_length <= 0.0 || half_width <= 0.0; }
   /// Returns the radius [m] of the largest circle around the origin within the outline.
@@ -24,7 +25,8 @@ struct Footprint {
   [[nodiscard]] double outer_radius() const;
 };
 
-/// Returns the exact distance [m] from the outline to a point given in the robot's frame: negative or 0 within.
+/// Returns the distance [m] from the outline to a point given in the robot's frame: negative or 0 within. It is exact but beside a
+/// corner that the circle cuts: there it is the larger of the distances of rectangle and circle, which is never more than the exact one.
 /// @thread  pure function, as all of this file; any thread.
 [[nodiscard]] double clearance(const Footprint& footprint, Vec2 point);
 

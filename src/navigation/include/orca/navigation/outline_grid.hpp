@@ -41,6 +41,7 @@ class OutlineGrid {
     double low, high;
   };
   [[nodiscard]] Stretch stretch(std::span<const Vec2, 4> corners, double low, double high) const;
+  [[nodiscard]] Stretch stretch_of_circle(Vec2 middle, double low, double high) const;
   [[nodiscard]] int occupied_in(int row, const Stretch& stretch) const;
   [[nodiscard]] int touched_by_circle(Vec2 middle) const;
 

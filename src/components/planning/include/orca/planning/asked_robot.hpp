@@ -8,6 +8,7 @@
 #include "orca/component.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/navigation/footprint.hpp"
 
 namespace orca::planning {
 
@@ -19,6 +20,9 @@ struct Body {
   double max_speed = 0.0;     ///< [m/s]
   double max_rate = 0.0;      ///< [rad/s]
   double acceleration = 0.0;  ///< [m/s2]
+
+  /// Returns its outline: the circle cuts the corners of the rectangle, as both hold the body.
+  [[nodiscard]] nav::Footprint outline() const { return {0.5 * length, 0.5 * width, radius}; }
 };
 
 /// The port by which a planner asks the base about the robot, and the answer.
