@@ -144,6 +144,10 @@ TEST_CASE(
   CHECK(inherited({speed}, {{"speed", std::string("fast")}}, {{"speed", "0.3"}}).value() ==
         ParamValues{{"speed", 0.3}});
   CHECK_FALSE(inherited({speed}, {}, {{"speed", "1.3"}}));
+  ParamContract size = speed;
+  size.name = "size";
+  size.fixed = true;  // while an object runs
+  CHECK(inherited({size}, {{"size", 0.8}}, {{"size", "0.3"}}).value() == ParamValues{{"size", 0.3}});
   const Result<ParamValues> wrong =
       inherited({speed, mode}, {{"speed", 1.2}, {"mode", std::string("wild")}}, {});
   REQUIRE_FALSE(wrong);

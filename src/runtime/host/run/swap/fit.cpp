@@ -101,7 +101,9 @@ Result<ParamValues> inherited(const std::vector<ParamContract>& offered, ParamVa
     kept.insert(*value);
   }
   if (!faults.empty()) return fail(Code::invalid_argument, joined(faults, "; ") + "; give it another value");
-  const Result<graph::Params> read = graph::read_settings(offered, given);
+  std::vector<ParamContract> at_start = offered;  // Nothing is fixed before the new object runs.
+  for (ParamContract& contract : at_start) contract.fixed = false;
+  const Result<graph::Params> read = graph::read_settings(at_start, given);
   if (!read) return read.error();
   for (const auto& [name, value] : *read) kept[name] = value;
   return kept;
