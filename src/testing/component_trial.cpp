@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/testing/component_trial.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "orca/host/catalogue.hpp"
 #include "orca/host/run_system.hpp"
 #include "orca/plugin/describe.hpp"
+#include "orca/plugin/index.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 
@@ -85,12 +87,26 @@ std::string default_folder() {
   return (fs::read_symlink("/proc/self/exe").parent_path().parent_path() / "plugins").string();
 }
 
-host::RunOptions options_of(const Trial& trial) {
+std::vector<std::string> folders_of(const Trial& trial) {
+  return trial.plugins.empty() ? std::vector<std::string>{default_folder()} : trial.plugins;
+}
+
+host::TimedChange swap_of(const Trial& trial, const graph::Graph& graph) {
+  const Result<std::string> plugin = plugin::PluginIndex(folders_of(trial)).file_of(trial.type);
+  if (!plugin) throw std::runtime_error(plugin.error().text());
+  const auto subject = std::ranges::find(graph.components, kSubject, &graph::ComponentNode::name);
+  host::TimedChange change{"another object", trial.swap_at, {}, {{trial.type, *plugin}}};
+  change.plan.exchanges = {{kSubject, trial.type, subject->params}};
+  return change;
+}
+
+host::RunOptions options_of(const Trial& trial, const graph::Graph& graph) {
   host::RunOptions options;
   options.executive = {ClockKind::virtual_time, Backend::baton};
   options.seed = trial.seed;
   options.until = trial.limit;
   options.log_name = "trial";
+  if (trial.swap_at > Duration{0}) options.changes = {swap_of(trial, graph)};
   return options;
 }
 
@@ -137,13 +153,11 @@ void detail::try_component(const Trial& trial, void* (*make)(PluginHost&),
                        [](void* object) { delete static_cast<Component*>(object); }};
   Script running{script, {}};
   const ScriptInUse in_use(running);
-  const std::vector<std::string> folders =
-      trial.plugins.empty() ? std::vector<std::string>{default_folder()} : trial.plugins;
-  host::PluginCatalogue catalogue(plugin::PluginIndex(folders), ClockKind::virtual_time);
+  host::PluginCatalogue catalogue(plugin::PluginIndex(folders_of(trial)), ClockKind::virtual_time);
   const graph::Graph graph = load(trial, test, catalogue);
   host::StopSignal stop(EXIT_SUCCESS);
   Listener listener;
-  const host::RunResult result = host::run_system(graph, catalogue, options_of(trial), stop, listener);
+  const host::RunResult result = host::run_system(graph, catalogue, options_of(trial, graph), stop, listener);
   if (running.thrown) std::rethrow_exception(running.thrown);
   refuse(trial, running, result, listener.lines());
 }

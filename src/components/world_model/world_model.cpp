@@ -47,7 +47,7 @@ struct Heard {
 
 /// A place at which something was touched.
 struct Touched {
-  Vec2 place;  // in the grid's frame
+  Vec2 place;  // in the world
   orca::TimePoint at{};
 };
 
@@ -85,6 +85,10 @@ class WorldModel final : public orca::Component {
     laser_.unsubscribe_all();
     sonar_.unsubscribe_all();
   }
+
+  // A successor sees again what this object has seen, but not what bumpers have felt.
+  void save_state(orca::StateWriter& state) const override { state.write(touched_); }
+  orca::Status load_state(orca::StateReader& state) override { return state.read(touched_); }
 
   orca::Outcome work() override {
     const auto pose = localizer_.get_update();
@@ -191,7 +195,7 @@ class WorldModel final : public orca::Component {
       if (touch->pressed()[i] == 0) continue;
       feels = true;
       for (const double aside : {-0.25, -0.2, -0.15, -0.1, -0.05, 0.0, 0.05, 0.1, 0.15, 0.2, 0.25})
-        note_touch(then * (orca::plane_pose(touch->poses()[i]) * Vec2{-kNearer, aside}));
+        note_touch(X_WG_ * then * orca::plane_pose(touch->poses()[i]) * Vec2{-kNearer, aside});
     }
     if (feels) hold_touched();
     return feels;
@@ -208,7 +212,7 @@ class WorldModel final : public orca::Component {
     if (*forget_after_ > 0.0)
       std::erase_if(touched_,
                     [&](const Touched& t) { return orca::to_seconds(now() - t.at) > *forget_after_; });
-    for (const Touched& touched : touched_) seen_->hold(touched.place);
+    for (const Touched& touched : touched_) seen_->hold(seen_from(X_WG_, touched.place));
   }
 
   // An echo is taken to come from the middle of its cone; the cone is free on both sides up to nine tenths of the way.
@@ -392,13 +396,13 @@ class WorldModel final : public orca::Component {
 
   orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan};
   Pose2 X_WG_;                                   // the grid's frame in the world
-  std::optional<orca::nav::OccupancyMap> seen_;  // in the grid's frame, as all below
+  std::optional<orca::nav::OccupancyMap> seen_;  // in the grid's frame, as all down to robot_
   orca::nav::PoseHistory history_;
   std::vector<Heard<LaserRangeReadings>> lasers_;
   std::vector<Heard<SonarRangeReadings>> rings_;
   std::vector<Beam> beams_;
-  std::vector<Touched> touched_;
   Vec2 robot_;
+  std::vector<Touched> touched_;
   bool begun_ = false;                       // something was seen
   bool doubts_ = false;                      // what the next scan looks through is free
   std::optional<orca::TimePoint> whole_at_;  // when the whole map went out; none: not since all was forgotten

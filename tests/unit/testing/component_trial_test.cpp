@@ -359,3 +359,16 @@ TEST_CASE("a component that fails fails its trial, with its reason", "[testing]"
   const Trial throws{.type = "test.Misbehaving", .params = {{"where", "configure"}}, .plugins = kTestPlugins};
   CHECK_THROWS_WITH(try_for_nothing<NoPorts>(throws), Contains("configure() threw"));
 }
+
+TEST_CASE("a trial exchanges the component for another object of its code, which goes on", "[testing]") {
+  bool drove = false;
+  try_component<GotoPorts>({.type = "orca.Goto", .swap_at = 200ms}, [&](GotoPorts& test) {
+    send_goal(test, 2.0);
+    push_pose(test, 0.0);
+    test.sleep(500ms);
+    (void)test.motion.get_update();
+    push_pose(test, 1.0);
+    drove = test.motion.get_update_wait()->kind() == idl::NORMAL;
+  });
+  CHECK(drove);
+}

@@ -32,7 +32,7 @@ std::size_t index_of(double x, double y) {
   return static_cast<std::size_t>(y / kCell) * 600 + static_cast<std::size_t>(x / kCell);
 }
 
-struct Senses final : Partner {
+struct Senses : Partner {
   using Partner::Partner;
   PushServer<idl::RobotPose> localizer{*this, "localizer"};
   PushServer<idl::LaserRangeReadings> laser{*this, "laser"};
@@ -67,6 +67,32 @@ struct Senses final : Partner {
     while (pushed.new_data_arrived()) all.push_back(pushed.get_update());
     return all;
   }
+};
+
+// The same with a bumper switch ahead, 0.28 m before the robot's middle.
+struct Touching final : Senses {
+  using Senses::Senses;
+  PushServer<idl::BumperReadings> bumper{*this, "bumper"};
+
+  void touch() {
+    auto touched = bumper.loan();
+    touched->stamp(to_time_value(now()));
+    touched->pressed() = {1};
+    touched->poses().resize(1);
+    touched->poses()[0].position().x(0.28);
+    bumper.push(std::move(touched));
+    stand(3.0);
+  }
+  /// Returns the state of the cell at a place in the grid that was pushed last.
+  int last_at(double x, double y) {
+    for (const auto& grid : take()) last_ = grid;
+    REQUIRE(last_);
+    const auto cell = [&](double offset) { return static_cast<std::size_t>(offset / kCell + 1e-6); };
+    return last_->cells()[cell(y - last_->corner().y()) * last_->columns() + cell(x - last_->corner().x())];
+  }
+
+ private:
+  ObjectPtr<idl::OccupancyGrid> last_;
 };
 
 bool is_whole(const ObjectPtr<idl::OccupancyGrid>& grid) { return grid->columns() == 600; }
@@ -130,5 +156,24 @@ TEST_CASE("a map of more cells than can be searched is refused, and what is seen
     const auto grids = robot.take();
     REQUIRE_FALSE(grids.empty());
     CHECK(grids.back()->name() == "seen");
+  });
+}
+
+TEST_CASE("a WorldModel that takes another one's place knows what bumpers have touched",
+          "[testing][world_model]") {
+  try_component<Touching>({.type = "orca.WorldModel", .limit = 120s, .swap_at = 2s}, [](Touching& robot) {
+    robot.map.push(hall());
+    robot.look(3.0, 4.0);
+    robot.touch();
+    for (int i = 0; i < 4; ++i) robot.look(3.0, 4.0);
+    CHECK(robot.last_at(3.23, 3.0) == 100);
+    robot.sleep(3s);
+    (void)robot.take();
+    robot.look(3.0, 4.0);
+    CHECK(robot.last_at(3.23, 3.0) == 100);
+    CHECK(robot.last_at(3.5, 3.0) == 0);
+    for (int i = 0; i < 1260; ++i) robot.stand(3.0);  // 63 s
+    robot.look(3.0, 4.0);
+    CHECK(robot.last_at(3.23, 3.0) == 0);  // forgotten
   });
 }

@@ -34,6 +34,8 @@ struct Trial {
   std::vector<std::string> plugins{};  ///< Folders with plugins; none: ../plugins, seen from the program.
   Duration limit = std::chrono::seconds(60);  ///< Longest run [s of virtual time].
   std::uint64_t seed = 1;                     ///< Of all random streams.
+  /// When another object of the same code takes the component's place, as by `orcactl swap` [s of virtual time]; 0: never.
+  Duration swap_at{0};
 };
 
 namespace detail {
