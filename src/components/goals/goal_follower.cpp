@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -110,12 +111,16 @@ Status GoalFollower::start() {
   return ok();
 }
 
-// Leaves out the legs of a door: they are laid out again from where the robot is.
+// The places of a door belong to it: in a doorway nobody sees from which side the robot has come.
 void GoalFollower::save_state(StateWriter& state) const {
   state.write(route_, patience_, before_, posed_at_, doubts_);
+  state.write(route_.empty() ? std::deque<Target>{} : legs_.left_for(route_.point()));
 }
 Status GoalFollower::load_state(StateReader& state) {
-  return state.read(route_, patience_, before_, posed_at_, doubts_);
+  std::deque<Target> left;
+  Status read = state.read(route_, patience_, before_, posed_at_, doubts_, left);
+  if (read.ok() && !route_.empty()) legs_.take(route_.point(), std::move(left));
+  return read;
 }
 
 Status GoalFollower::on_goal(const ObjectPtr<idl::GoalPoint>& goal) {

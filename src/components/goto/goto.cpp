@@ -18,6 +18,8 @@ class Goto final : public orca::go::GoalFollower {
     take(step_towards(target, pose, limits(), before()), pose, target);
   }
 
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+
   [[nodiscard]] orca::go::Limits limits() const {
     return {*max_speed_, *slow_down_, *min_speed_, *turn_in_place_, *deceleration_, *circle_radius_};
   }

@@ -90,7 +90,7 @@ class GridPlanner final : public orca::go::GoalFollower {
 
   Status load_state(orca::StateReader& state) override {
     if (Status read = GoalFollower::load_state(state); !read.ok()) return read;
-    if (state.tag().version < state_version() || state.tag().type != kType) return orca::ok();
+    if (state.tag().type != kType) return orca::ok();
     auto [body] = robot_.state();
     bool has_navigator = false;
     Status read = state.read(body, history_, X_MO_, scans_, twist_, heard_at_, wants_fix_, has_navigator);
@@ -104,10 +104,8 @@ class GridPlanner final : public orca::go::GoalFollower {
     return read;
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
-  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
-    return {{"orca.Goto", 1}, {kType, 1}, {kType, 2}};
-  }
+  [[nodiscard]] std::uint32_t state_version() const override { return 4; }
+  [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override { return {{"orca.Goto", 2}}; }
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());

@@ -131,7 +131,7 @@ class Pilot final : public orca::go::GoalFollower {
     return std::apply([&](auto&... part) { return state.read(part...); }, driver_->state());
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
+  [[nodiscard]] std::uint32_t state_version() const override { return 4; }
 
   orca::Outcome work() override {
     if (const Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());

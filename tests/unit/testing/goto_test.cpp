@@ -2,6 +2,7 @@
 // What Goto says of goals where it cannot be sure to have arrived.
 #include <catch2/catch.hpp>
 
+#include <numbers>
 #include <string>
 
 #include "orca/idl/navigation.hpp"
@@ -52,7 +53,54 @@ std::string reason_at_goal(double covariance) {
   return reason;
 }
 
+struct Driver final : Partner {
+  using Partner::Partner;
+  PushServer<idl::RobotPose> localizer{*this, "localizer"};
+  PushProxy<idl::GoalPoint> place{*this, "GoalPush", {.depth = 16}};
+  SendProxy<idl::GoalPoint> goal{*this, "GotoCoordinateSend"};
+
+  // Stands at x = 2 m, and returns the y of the place to which the robot drives then [m].
+  double place_from(double y) {
+    auto here = localizer.loan();
+    here->x(2.0);
+    here->y(y);
+    here->stamp(to_time_value(now()));
+    localizer.push(std::move(here));
+    sleep(100ms);
+    double to = 0.0;
+    while (place.new_data_arrived()) to = place.get_update()->coordinate().point().y();
+    return to;
+  }
+};
+
+// Returns a door at (2 m, 4.5 m) that leads north.
+Loan<idl::GoalPoint> door() {
+  auto made = make_object<idl::Door>();
+  made->name("door");
+  made->coordinate().point().x(2.0);
+  made->coordinate().point().y(4.5);
+  made->orientation().orientation().yaw(std::numbers::pi / 2.0);
+  made->reach_radius().distance(0.3);
+  made->via(true);
+  made->passable(true);
+  return made;
+}
+
 }  // namespace
+
+TEST_CASE("a Goto that takes another one's place in a doorway drives on to the side where that drove",
+          "[testing][goto]") {
+  try_component<Driver>({.type = "orca.Goto", .swap_at = 1s}, [](Driver& robot) {
+    robot.place.subscribe();
+    CHECK(robot.place_from(3.0) == 0.0);
+    REQUIRE(robot.goal.send(door()).ok());
+    CHECK(robot.place_from(3.0) == Approx(3.8));
+    CHECK(robot.place_from(3.8) == Approx(5.2));
+    CHECK(robot.place_from(4.6) == Approx(5.2));  // beyond its middle
+    robot.sleep(1500ms);
+    CHECK(robot.place_from(4.6) == Approx(5.2));
+  });
+}
 
 TEST_CASE("a goal that is not reached for sure is given up with what is known of the place",
           "[testing][goto]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <utility>
 
 #include "orca/goals/route.hpp"
 #include "orca/goals/target.hpp"
@@ -33,6 +34,16 @@ class Legs {
   /// @pre  next() has been called since the last pop().
   [[nodiscard]] bool at_last() const { return legs_.size() == 1; }
   void pop() { legs_.pop_front(); }
+
+  /// Returns the places that are left for a point; none if they are not laid out.
+  [[nodiscard]] std::deque<Target> left_for(const Route::Point& point) const {
+    return point == point_ ? legs_ : std::deque<Target>{};
+  }
+  /// Takes over places that were left for a point.
+  void take(const Route::Point& point, std::deque<Target> left) {
+    point_ = point;
+    legs_ = std::move(left);
+  }
 
  private:
   Route::Point point_;
