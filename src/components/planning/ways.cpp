@@ -159,17 +159,28 @@ std::vector<std::uint16_t> cut_costs(const FloorGrid& grid, const Ways& ways, Ve
   return costs;
 }
 
-// Returns the least cost of the cells around a place [m].
-double cost_around(const GridSearch& search, const Lattice& lattice, Vec2 place) {
-  constexpr int kAround = 3;  // [cells]
+// Returns the least cost of those cells around a place [m] that `counts(middle of the cell)`.
+template <typename Counts>
+double cost_around(const GridSearch& search, const Lattice& lattice, Vec2 place, Counts counts) {
+  constexpr double kAround = 0.15;  // [m], but at least a cell
+  const int around = std::max(1, static_cast<int>(std::lround(kAround / lattice.side)));
   const Cell middle = lattice.cell_at(place);
   std::uint32_t least = UINT32_MAX;
-  for (int row = -kAround; row <= kAround; ++row)
-    for (int column = -kAround; column <= kAround; ++column)
-      if (const Cell cell{middle.column + column, middle.row + row}; lattice.holds(cell))
+  for (int row = -around; row <= around; ++row)
+    for (int column = -around; column <= around; ++column)
+      if (const Cell cell{middle.column + column, middle.row + row};
+          lattice.holds(cell) && counts(lattice.middle_of(cell)))
         least = std::min(least, search.cost_from(lattice.index(cell)));
   if (least == UINT32_MAX) return kNoWay;
   return lattice.side * least / (static_cast<double>(kShortest.straight) * kPlainCost);
+}
+
+// Returns the cost of a door on one of its sides: 1 where its direction points, otherwise 0. Large cells lie on both sides of it.
+double cost_beside(const GridSearch& search, const Lattice& lattice, const WayPoint& door, int side) {
+  const double sign = side == 1 ? 1.0 : -1.0;
+  const Pose2 X_MD{door.place.x, door.place.y, door.door->direction};
+  const auto is_on_side = [&](Vec2 middle) { return sign * seen_from(X_MD, middle).x > 0.0; };
+  return kInDoor + cost_around(search, lattice, beside(door, sign * kInDoor, 0.0), is_on_side);
 }
 
 }  // namespace
@@ -198,12 +209,12 @@ std::vector<double> costs_from(const FloorGrid& grid, const Ways& ways, Vec2 pla
   for (std::size_t i = 0; i < ways.points.size(); ++i) {
     const WayPoint& point = ways.points[i];
     if (!point.door) {
-      result[2 * i] = cost_around(search, grid.lattice, point.place);
+      result[2 * i] = cost_around(search, grid.lattice, point.place, [](Vec2) { return true; });
     } else if (norm(point.place - place) <= kInDoor) {
       result[2 * i] = result[2 * i + 1] = norm(point.place - place);
     } else {
-      result[2 * i] = kInDoor + cost_around(search, grid.lattice, beside(point, -kInDoor, 0.0));
-      result[2 * i + 1] = kInDoor + cost_around(search, grid.lattice, beside(point, kInDoor, 0.0));
+      result[2 * i] = cost_beside(search, grid.lattice, point, 0);
+      result[2 * i + 1] = cost_beside(search, grid.lattice, point, 1);
     }
   }
   return result;

@@ -126,23 +126,18 @@ double cost_of(const WayTrial& trial, const std::vector<std::size_t>& points) {
                   here[1] + trial.to_goal[2 * last + out(last, 1)]);
 }
 
-/// A floor of cells of 10 cm, drawn by rows from the south: # occupied, . free, ? not known.
-FloorGrid floor_of(const std::vector<std::string>& rows) {
-  FloorGrid grid{{{0.0, 0.0}, 0.1, static_cast<int>(rows[0].size()), static_cast<int>(rows.size())}, {}};
-  for (const std::string& row : rows)
-    for (const char c : row)
-      grid.cells.push_back(c == '#' ? FloorGrid::kMost : c == '.' ? std::uint8_t{0} : FloorGrid::kUnknown);
-  return grid;
-}
-
-/// Two rooms of 3 m by 2 m side by side, with a door of 0.8 m in the wall between them at x = 3.05 m, y = 1 m.
-FloorGrid two_rooms() {
-  std::vector<std::string> rows;
-  for (int row = 0; row < 20; ++row) {
-    const bool is_door = row >= 6 && row < 14;
-    rows.push_back(std::string(30, '.') + (is_door ? '.' : '#') + std::string(30, '.'));
+/// Two rooms of 3 m by 2 m side by side, with a door of 0.8 m in the wall between them at x = 3.05 m, y = 1 m. A cell is occupied if the
+/// wall, 0.1 m thick, is somewhere in it.
+FloorGrid two_rooms(double side = 0.1) {
+  const auto count = [side](double length) { return static_cast<int>(std::ceil(length / side - 1e-9)); };
+  FloorGrid grid{{{0.0, 0.0}, side, count(6.1), count(2.0)}, {}};
+  for (std::size_t i = 0; i < grid.lattice.size(); ++i) {
+    const Vec2 off = grid.lattice.middle_of(grid.lattice.cell_of(i)) - Vec2{3.05, 1.0};
+    const bool is_wall = std::fabs(off.x) < 0.5 * side + 0.05 - 1e-9;
+    const bool is_door = std::fabs(off.y) < 0.4 - 0.5 * side + 1e-9;
+    grid.cells.push_back(is_wall && !is_door ? FloorGrid::kMost : std::uint8_t{0});
   }
-  return floor_of(rows);
+  return grid;
 }
 
 Ways two_rooms_ways() {
@@ -208,6 +203,21 @@ TEST_CASE("a place costs what the way to it is long, and none leads through a do
   CHECK(costs[2] == Approx(2.55).margin(0.35));
   CHECK(costs[3] == kNoWay);  // the door's other side
   CHECK(costs[4] == kNoWay);
+}
+
+TEST_CASE("cells may be large: no way leads through a door by cells that lie on both of its sides",
+          "[ways]") {
+  for (const double side : {0.05, 0.1, 0.17, 0.2, 0.25, 0.33}) {
+    CAPTURE(side);
+    const auto costs = costs_from(two_rooms(side), two_rooms_ways(), {0.5, 1.0});
+    CHECK(costs[0] == Approx(0.5).margin(0.1 + 1.5 * side));
+    CHECK(costs[2] == Approx(2.55).margin(0.1 + 2.5 * side));
+    CHECK(costs[3] == kNoWay);
+    CHECK(costs[4] == kNoWay);
+    const auto back = costs_from(two_rooms(side), two_rooms_ways(), {5.5, 1.0});
+    CHECK(back[2] == kNoWay);
+    CHECK(back[3] == Approx(2.45).margin(0.1 + 2.5 * side));
+  }
 }
 
 TEST_CASE("a robot in a doorway gets to both sides", "[ways]") {
