@@ -47,7 +47,12 @@ Status RouteProxy::report_blocked(const Trip& trip, std::size_t left) {
   const std::size_t at = names_.size() + 1 - std::min(left, names_.size() + 1);
   auto route = blocked_.loan();
   if (at > 0) route->name() = names_[at - 1];
-  route->legs().emplace_back().name() = at < names_.size() ? names_[at] : trip.name;
+  idl::RouteLeg& leg = route->legs().emplace_back();
+  const bool is_last = at >= names_.size();
+  if (!is_last) leg.name() = names_[at];
+  const Place& place = is_last ? trip.goal : trip.via[at];
+  leg.x(place.x);
+  leg.y(place.y);
   names_.erase(names_.begin(), names_.begin() + static_cast<std::ptrdiff_t>(at));
   is_blocked_ = true;
   return blocked_.send(std::move(route));

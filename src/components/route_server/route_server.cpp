@@ -40,13 +40,23 @@ using orca::planning::Ways;
 
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
-/// Something that is in the way. Its end is when it is forgotten, unless it is seen open before.
-struct Blockage {
-  std::string from;  // of a leg; empty: wherever the robot was
-  std::string to;    // of a leg, or a door
+/// A door that is shut. Its end is when that is forgotten, unless it is seen open before.
+struct ShutDoor {
+  std::string name;
   TimePoint end{};
 
-  auto state() { return std::tie(from, to, end); }
+  auto state() { return std::tie(name, end); }
+};
+
+/// A leg that a robot could not drive.
+struct Blockage {
+  std::string from;  // its place; empty: wherever the robot was
+  std::string to;    // its place; empty: a goal that is none
+  Vec2 goal;         // that goal
+  Vec2 robot;        // where the robot was
+  TimePoint end{};   // when it is forgotten
+
+  auto state() { return std::tie(from, to, goal, robot, end); }
 };
 
 /// A server of routes through a topological map (thesis 8.3: GoalPoint, Door). It sees which doors are shut, hears which legs are blocked, and
@@ -68,6 +78,7 @@ class RouteServer final : public orca::Component {
 
   void save_state(orca::StateWriter& state) const override { state.write(shut_, blocked_); }
   orca::Status load_state(orca::StateReader& state) override { return state.read(shut_, blocked_); }
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
 
   orca::Outcome work() override {
     const auto pose = localizer_.get_update();
@@ -88,11 +99,10 @@ class RouteServer final : public orca::Component {
   }
 
   void forget() {
-    const auto is_over = [this](const Blockage& one) { return one.end <= now(); };
-    std::erase_if(blocked_, is_over);
+    std::erase_if(blocked_, [this](const Blockage& one) { return one.end <= now(); });
     for (auto one = shut_.begin(); one != shut_.end();) {
-      const bool over = is_over(*one);
-      if (over) push_door(one->to, true, "may be open again: that it was shut is forgotten");
+      const bool over = one->end <= now();
+      if (over) push_door(one->name, true, "may be open again: that it was shut is forgotten");
       one = over ? shut_.erase(one) : one + 1;
     }
   }
@@ -129,20 +139,20 @@ class RouteServer final : public orca::Component {
   }
 
   void note_open(const std::string& door) {
-    const auto is_it = [&](const Blockage& one) { return one.to == door; };
-    if (std::erase_if(shut_, is_it) == 0) return;
-    std::erase_if(blocked_, is_it);  // It was in vain because the door was shut.
+    if (std::erase_if(shut_, [&](const ShutDoor& one) { return one.name == door; }) == 0) return;
+    // It was in vain because the door was shut.
+    std::erase_if(blocked_, [&](const Blockage& one) { return one.to == door; });
     push_door(door, true, "is open");
   }
 
   void note_shut(const std::string& door) {
     const TimePoint end = now() + orca::from_seconds(*forget_after_);
-    const auto known = std::ranges::find(shut_, door, &Blockage::to);
+    const auto known = std::ranges::find(shut_, door, &ShutDoor::name);
     if (known != shut_.end()) {
       known->end = end;
       return;
     }
-    shut_.push_back({"", door, end});
+    shut_.push_back({door, end});
     push_door(door, false, "is shut");
   }
 
@@ -165,11 +175,26 @@ class RouteServer final : public orca::Component {
   orca::Status on_blocked(const ObjectPtr<Route>& route) {
     if (route->legs().empty())
       return orca::fail(orca::Code::invalid_argument, "it has no leg; its first one is what is blocked");
-    const std::string& to = route->legs().front().name();
-    blocked_.push_back({route->name(), to, now() + orca::from_seconds(*forget_after_)});
-    log_info("the leg from " + (route->name().empty() ? "here" : orca::in_quotes(route->name())) + " to " +
-             orca::in_quotes(to) + " is blocked");
+    const auto& leg = route->legs().front();
+    Blockage blockage{route->name(),
+                      leg.name(),
+                      {leg.x(), leg.y()},
+                      X_WR_.position(),
+                      now() + orca::from_seconds(*forget_after_)};
+    if (const auto place = place_at(ways_, blockage.goal); blockage.to.empty() && place)
+      blockage.to = ways_.points[*place].name;
+    log_info("the leg from " + (blockage.from.empty() ? "here" : orca::in_quotes(blockage.from)) + " to " +
+             (blockage.to.empty() ? "the goal" : orca::in_quotes(blockage.to)) + " is blocked");
+    blocked_.push_back(std::move(blockage));
     return orca::ok();
+  }
+
+  // Returns the index of the place where something is, of a map in the same frame.
+  [[nodiscard]] static std::optional<std::size_t> place_at(const Ways& ways, Vec2 place) {
+    const auto is_there = [&](const WayPoint& point) { return norm(point.place - place) < kSame; };
+    const auto found = std::ranges::find_if(ways.points, is_there);
+    if (found == ways.points.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - ways.points.begin());
   }
 
   // Returns the topological map in the frame of the cells.
@@ -183,26 +208,37 @@ class RouteServer final : public orca::Component {
     return ways;
   }
 
-  [[nodiscard]] bool is_blocked(const std::string& from, const std::string& to) const {
-    return std::ranges::any_of(blocked_,
-                               [&](const Blockage& one) { return one.from == from && one.to == to; });
+  // Returns whether a leg that is blocked leads to a point of the map, or to the goal.
+  [[nodiscard]] bool leads_to(const Blockage& one, const WayPoint& point) const {
+    return one.to.empty() ? norm(floor_.X_WM() * point.place - one.goal) < kSame : one.to == point.name;
   }
 
   // Returns whether a door is shut, or was tried in vain: from another side it is the same door.
   [[nodiscard]] bool is_closed(const WayPoint& point) const {
-    const auto is_it = [&](const Blockage& one) { return one.to == point.name; };
-    return point.door && (std::ranges::any_of(shut_, is_it) || std::ranges::any_of(blocked_, is_it));
+    return point.door &&
+           (std::ranges::any_of(shut_, [&](const auto& one) { return one.name == point.name; }) ||
+            std::ranges::any_of(blocked_, [&](const auto& one) { return one.to == point.name; }));
   }
 
-  [[nodiscard]] double toll_between(const std::string& from, const std::string& to) const {
-    return is_blocked(from, to) || is_blocked(to, from) ? *blocked_cost_ : 0.0;
+  [[nodiscard]] double toll_between(const WayPoint& a, const WayPoint& b) const {
+    const bool is_blocked = std::ranges::any_of(blocked_, [&](const Blockage& one) {
+      return (one.from == a.name && leads_to(one, b)) || (one.from == b.name && leads_to(one, a));
+    });
+    return is_blocked ? *blocked_cost_ : 0.0;
+  }
+
+  // Returns the toll of driving straight to a point from where the robot is: about there it was blocked.
+  [[nodiscard]] double toll_from_here(const WayPoint& to) const {
+    constexpr double kAbout = 2.0;  // [m]
+    const bool is_blocked = std::ranges::any_of(blocked_, [&](const Blockage& one) {
+      return leads_to(one, to) && norm(one.robot - X_WR_.position()) < kAbout;
+    });
+    return is_blocked && !to.door ? *blocked_cost_ : 0.0;
   }
 
   // Returns the index of the goal among the points; one that is no point of the map becomes one, with legs to those around it.
   [[nodiscard]] std::size_t add_goal(Ways& ways, const std::string& name, Vec2 place) const {
-    constexpr double kSame = 0.3;  // [m]
-    for (std::size_t i = 0; i < ways.points.size(); ++i)
-      if (norm(ways.points[i].place - place) < kSame) return i;
+    if (const auto known = place_at(ways, place)) return *known;
     const std::vector<double> costs = costs_from(floor_.grid(), ways, place);
     const std::size_t goal = ways.points.size();
     ways.points.push_back({.name = name, .place = place});
@@ -212,17 +248,17 @@ class RouteServer final : public orca::Component {
   }
 
   [[nodiscard]] std::optional<FoundWay> find(const Ways& ways, std::size_t goal) const {
-    const std::vector<double> start =
-        costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
+    std::vector<double> start = costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
     std::vector<double> end(2 * ways.points.size(), kNoWay);
     std::vector<double> points(ways.points.size(), 0.0);
     std::vector<double> legs;
     end[2 * goal] = end[2 * goal + 1] = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (is_closed(ways.points[i])) points[i] = *blocked_cost_;
+      for (const std::size_t side : {2 * i, 2 * i + 1}) start[side] += toll_from_here(ways.points[i]);
     }
     for (const orca::planning::WayLeg& leg : ways.legs)
-      legs.push_back(toll_between(ways.points[leg.from].name, ways.points[leg.to].name));
+      legs.push_back(toll_between(ways.points[leg.from], ways.points[leg.to]));
     return cheapest_way(ways, {start, end, points, legs});
   }
 
@@ -260,6 +296,7 @@ class RouteServer final : public orca::Component {
     return route;
   }
 
+  static constexpr double kSame = 0.3;   // [m] within which a goal is a place of the map
   static constexpr double kSight = 5.0;  // [m] from which it judges a door
   static constexpr double kSure = 1.0;   // [s] for which a door must look shut: people walk through
 
@@ -281,7 +318,7 @@ class RouteServer final : public orca::Component {
                                      &RouteServer::on_blocked,
                                      {.text = "A leg that cannot be driven: from the place in name, empty "
                                               "for where the robot is, to that of the first "
-                                              "leg."}};
+                                              "leg, or to its coordinates without a name."}};
   orca::PushServer<orca::idl::Door> doors_{
       *this, "DoorPush", {.text = "A door that is seen to be shut, or is not any more."}};
   orca::Param<std::string> ways_file_{
@@ -307,9 +344,9 @@ class RouteServer final : public orca::Component {
   Pose2 X_WR_;
   orca::nav::PoseHistory history_;
   orca::WaitingScans scans_;
-  std::vector<orca::nav::Beam> beams_;          // of the last scan
-  std::vector<Blockage> shut_;                  // doors
-  std::vector<Blockage> blocked_;               // legs
+  std::vector<orca::nav::Beam> beams_;  // of the last scan
+  std::vector<ShutDoor> shut_;
+  std::vector<Blockage> blocked_;
   std::map<std::string, TimePoint> suspected_;  // doors that look shut, and since when
   orca::SenderWatch senders_{host()};
 };

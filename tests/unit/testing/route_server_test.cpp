@@ -103,10 +103,10 @@ struct WayRobot final : Partner {
   }
 };
 
-void try_routes(const std::function<void(WayRobot&)>& check) {
+void try_routes(const std::function<void(WayRobot&)>& check, const std::string& ways = kWays) {
   const test::TempFolder folder;
   try_component<WayRobot>({.type = "orca.RouteServer",
-                           .params = {{"ways", folder.write("ways.xml", kWays)}, {"forget_after", "20 s"}}},
+                           .params = {{"ways", folder.write("ways.xml", ways)}, {"forget_after", "20 s"}}},
                           check);
 }
 
@@ -189,6 +189,55 @@ TEST_CASE("a leg that is reported as blocked is avoided", "[testing][routes]") {
     REQUIRE(robot.blocked.send(std::move(leg)).ok());
     CHECK(robot.way_to(1.0, 9.0) == Names{"east"});
   });
+}
+
+namespace {
+
+// Reports that the last leg to a goal is blocked, where the robot stands.
+void report_last_leg(WayRobot& robot, const std::string& from, double x, double y) {
+  auto leg = robot.blocked.loan();
+  leg->name(from);
+  idl::RouteLeg& last = leg->legs().emplace_back();
+  last.x(x);
+  last.y(y);
+  REQUIRE(robot.blocked.send(std::move(leg)).ok());
+}
+
+}  // namespace
+
+TEST_CASE("a last leg that is blocked is avoided on the way to that goal, whatever its name, and to no other",
+          "[testing][routes]") {
+  try_routes([](WayRobot& robot) {
+    robot.world.push(rooms_with_doors());
+    robot.stand(1.0, 5.0);
+    CHECK(robot.way_to(2.0, 9.0) == Names{"west"});
+    robot.stand(1.0, 7.0);  // It has passed the door.
+    CHECK(robot.way_to(2.0, 9.0) == Names{});
+    report_last_leg(robot, "west", 2.0, 9.0);
+    robot.stand(1.0, 3.0);
+    CHECK(robot.way_to(2.0, 9.0) == Names{"east"});
+    CHECK(robot.way_to(2.0, 8.0) == Names{"west"});
+    robot.sleep(25s);
+    robot.stand(1.0, 3.0);
+    CHECK(robot.way_to(2.0, 9.0) == Names{"west"});  // forgotten
+  });
+}
+
+TEST_CASE("a robot that is blocked before its goal gets another way, over a place in the same room",
+          "[testing][routes]") {
+  const std::string ways = std::string(kWays).insert(
+      std::string(kWays).find("  <leg"), R"(  <place name="corner" x="5 m" y="9 m" in="north"/>)");
+  try_routes(
+      [](WayRobot& robot) {
+        robot.world.push(rooms_with_doors());
+        robot.stand(1.0, 7.5);
+        CHECK(robot.way_to(2.0, 9.0) == Names{});
+        report_last_leg(robot, "west", 2.0, 9.0);
+        CHECK(robot.way_to(2.0, 9.0) == Names{"corner"});
+        robot.stand(5.0, 9.0);
+        CHECK(robot.way_to(2.0, 9.0) == Names{});
+      },
+      ways);
 }
 
 TEST_CASE("with all doors shut the route leads to the best one: the robot waits there", "[testing][routes]") {
