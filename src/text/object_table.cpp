@@ -210,4 +210,16 @@ std::vector<std::string> field_names(const ObjectType& type, const void* object)
   return names;
 }
 
+std::vector<std::string> field_words(const ObjectType& type, const void* object, std::string_view field) {
+  std::set<std::string> lists;
+  std::vector<std::string> words;
+  look_at(type, object, lists, [&](const std::string& name, const Value& value) {
+    if (name != field) return;
+    if (const auto* const choice = std::get_if<EnumValue>(&value.of))
+      words.assign(choice->names.begin(), choice->names.end());
+    if (std::holds_alternative<bool*>(value.of)) words = {"true", "false"};
+  });
+  return words;
+}
+
 }  // namespace orca

@@ -430,6 +430,9 @@ TEST_CASE("all faults of a task file are reported with their places before the r
   <Drive to="library"/>
   <Drive to="hall > libary"/>
 </task>)");
+  const std::string never = folder.write("never.xml", R"(<task name="never" version="1">
+  <Check when="localization.state is LOCALIZATION_LOCALISED" within="5 s"/>
+</task>)");
   const Words check{"--check", source_file("graphs/pioneer_tasks.xml"), "--set"};
   const Run faults = run_deployer(check + Words{"task=" + task});
   CHECK(faults.exit_code() == kRefusedByComponent);
@@ -438,4 +441,8 @@ TEST_CASE("all faults of a task file are reported with their places before the r
   const Run places = run_deployer(check + Words{"task=" + lost});
   CHECK_THAT(places.err, Contains(lost + ":2:3: error K010") && Contains("did you mean \"kitchen\""));
   CHECK_THAT(places.err, Contains(lost + ":4:3: error K010"));
+  const Run words = run_deployer(check + Words{"task=" + never});
+  CHECK(words.exit_code() == kRefusedByComponent);
+  CHECK_THAT(words.err,
+             Contains(never + ":2:16: error K009") && Contains("did you mean \"LOCALIZATION_LOCALIZED\""));
 }

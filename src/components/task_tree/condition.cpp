@@ -60,15 +60,27 @@ Status set_field(std::string_view word, std::span<const Sight> sights, Condition
   return ok();
 }
 
+// Returns the words that the field of a condition can be; none: anything.
+std::vector<std::string> words_of(const Condition& condition, std::span<const Sight> sights) {
+  const auto sight = std::ranges::find(sights, condition.subject, &Sight::port);
+  const auto found = sight->words.find(condition.detail);
+  return found == sight->words.end() ? std::vector<std::string>{} : found->second;
+}
+
 Result<Condition> parse_field(const Words& words, std::span<const Sight> sights, Condition condition) {
   if (words.size() != 3) return bad("this is no condition");
   if (Status set = set_field(words[0], sights, condition); !set.ok()) return set.error();
+  const std::vector<std::string> choices = words_of(condition, sights);
   if (words[1] == "is") {
     condition.relation = Condition::Relation::is;
     condition.value = words[2];
+    if (!choices.empty() && std::ranges::find(choices, words[2]) == choices.end())
+      return bad(in_quotes(words[0]) + " is never " + in_quotes(words[2]) + "; it is one of: " +
+                 listed(choices) + xml::did_you_mean(xml::nearest_name(words[2], choices)));
     return condition;
   }
   if (words[1] != "below" && words[1] != "above") return bad(in_quotes(words[1]) + " compares nothing");
+  if (!choices.empty()) return bad(in_quotes(words[0]) + " is no number; it is one of: " + listed(choices));
   const Result<double> limit = xml::parse_number(words[2]);
   if (!limit) return bad(limit.error().message);
   condition.relation = words[1] == "below" ? Condition::Relation::below : Condition::Relation::above;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,6 +34,8 @@ struct Sight {
   std::string port;
   std::vector<std::string>
       fields;  ///< Names as field_names() returns them. Elements of lists need not be among them.
+  /// The words that a field can be, of enumerations and fields that are true or false, by its name.
+  std::map<std::string, std::vector<std::string>> words{};
 };
 
 /// Reads a condition.

@@ -63,12 +63,21 @@ class TaskTree final : public orca::Component, private Actor {
   template <class T>
   void watch(orca::PushProxy<T>& port) {
     if (!port.connected()) return;
-    const auto example = orca::make_object<T>();
-    watched_.push_back({{port.name(), orca::field_names(orca::object_type<T>(), &*example)},
+    watched_.push_back({sight_of<T>(port.name()),
                         [&port] {
                           while (port.new_data_arrived()) (void)port.get_update();
                         },
                         [&port](const std::string& field) { return field_of<T>(port.latest(), field); }});
+  }
+
+  template <class T>
+  static Sight sight_of(const std::string& port) {
+    const auto example = orca::make_object<T>();
+    Sight sight{port, orca::field_names(orca::object_type<T>(), &*example)};
+    for (const std::string& field : sight.fields)
+      if (auto words = orca::field_words(orca::object_type<T>(), &*example, field); !words.empty())
+        sight.words[field] = std::move(words);
+    return sight;
   }
 
   template <class T>

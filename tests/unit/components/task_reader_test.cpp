@@ -17,9 +17,10 @@ using Catch::Contains;
 namespace {
 
 const std::vector<Sight>& sights() {
-  static const std::vector<Sight> all{{"battery", {"name", "voltage", "charge", "charging"}},
-                                      {"gripper", {"open", "holds"}},
-                                      {"localization", {"state", "share", "places"}}};
+  static const std::vector<Sight> all{
+      {"battery", {"name", "voltage", "charge", "charging"}},
+      {"gripper", {"open", "holds"}, {{"open", {"true", "false"}}, {"holds", {"true", "false"}}}},
+      {"localization", {"state", "share", "places"}, {{"state", {"LOST", "LOCALIZED"}}}}};
   return all;
 }
 
@@ -110,6 +111,11 @@ const std::array kCases{
     Case{R"(<Check when="battery.charge under 0.3"/>)", "2:14: error K009", "compares nothing"},
     Case{R"(<Check when="battery.charge below 30 %"/>)", "2:14: error K009", "no condition"},
     Case{R"(<Check when="battery.charge below low"/>)", "2:14: error K009", "low"},
+    Case{R"(<Check when="localization.state is LOCALISED"/>)", "2:14: error K009",
+         "never \"LOCALISED\"; it is one of: LOST, LOCALIZED; did you mean \"LOCALIZED\""},
+    Case{R"(<Check when="not localization.state is lost"/>)", "2:14: error K009", "did you mean \"LOST\""},
+    Case{R"(<Check when="gripper.holds is yes"/>)", "2:14: error K009", "one of: true, false"},
+    Case{R"(<Check when="localization.state above 0.5"/>)", "2:14: error K009", "is no number"},
     Case{R"(<Drive to=""/>)", "2:12: error K010", "name"},
     Case{R"(<Drive to="3.1 2"/>)", "2:12: error K010", "a goal looks like"},
     Case{R"(<Drive to="a > door 1 2"/>)", "2:12: error K010", "door"},

@@ -179,3 +179,15 @@ TEST_CASE("whatever objects contain, each is one line with one cell per column",
     CHECK(row.find('\r') == std::string::npos);
   }
 }
+
+TEST_CASE("an enumeration and a field that is true or false say which words they can be, others do not",
+          "[text]") {
+  const idl::MotionCommand command;
+  const ObjectType& type = object_type<idl::MotionCommand>();
+  CHECK(field_words(type, &command, "kind") == std::vector<std::string>{"NORMAL", "DONTCARE", "FULLSTOP"});
+  CHECK(field_words(type, &command, "speed").empty());
+  CHECK(field_words(type, &command, "kin").empty());
+  const idl::GoalPoint goal;
+  CHECK(field_words(object_type<idl::GoalPoint>(), &goal, "use_orientation") ==
+        std::vector<std::string>{"true", "false"});
+}

@@ -68,5 +68,9 @@ struct FieldText {
                                                                 std::string_view field);
 /// Returns the names of all fields that an object has now, those of lists and their elements included.
 [[nodiscard]] std::vector<std::string> field_names(const ObjectType& type, const void* object);
+/// Returns the words that a field of an object can be: the enumerators of an enumeration, or true and false.
+/// @return nothing for other fields, and if the object has no such field now.
+[[nodiscard]] std::vector<std::string> field_words(const ObjectType& type, const void* object,
+                                                   std::string_view field);
 
 }  // namespace orca
