@@ -32,6 +32,7 @@ Result<bool> RouteProxy::lay(Trip& trip) {
   const auto answer = routes_.query(point_of(trip, trip.goal, {}));
   if (!answer) return answer.error();
   const idl::Route& route = **answer;
+  if (!route.known()) return fail(Code::unavailable, "the world or the robot's pose is not known yet");
   std::vector<std::string> names;
   for (const idl::RouteLeg& leg : route.legs()) names.push_back(leg.name());
   if (std::exchange(is_blocked_, false) ? names == names_ : is_rest_of(names_, names)) return false;

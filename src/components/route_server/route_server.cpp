@@ -263,9 +263,7 @@ class RouteServer final : public orca::Component {
   }
 
   orca::Result<orca::Loan<Route>> on_question(const ObjectPtr<GoalPoint>& goal) {
-    if (floor_.grid().cells.empty() || !knows_pose_)
-      return orca::fail(orca::Code::unavailable,
-                        "it does not know the world or the robot's pose yet; ask again later");
+    if (floor_.grid().cells.empty() || !knows_pose_) return route_of({}, goal->name(), false);
     const auto& place = goal->coordinate().point();
     Ways ways = ways_in_map();
     const std::size_t end =
@@ -274,12 +272,13 @@ class RouteServer final : public orca::Component {
     if (!way)
       return orca::fail(orca::Code::not_found, "no way of " + *ways_file_ + " leads from here to \"" +
                                                    goal->name() + "\"; give it the legs that are lacking");
-    return route_of(*way, goal->name());
+    return route_of(*way, goal->name(), true);
   }
 
-  [[nodiscard]] orca::Loan<Route> route_of(const FoundWay& way, const std::string& goal) const {
+  [[nodiscard]] orca::Loan<Route> route_of(const FoundWay& way, const std::string& goal, bool known) const {
     auto route = orca::make_object<Route>();
     route->name() = goal;
+    route->known(known);
     route->cost(way.cost);
     for (std::size_t i = 0; i + 1 < way.points.size(); ++i) {
       const WayPoint& point =
