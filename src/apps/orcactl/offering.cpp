@@ -143,15 +143,6 @@ Result<ObjectLoan> ask_port(Client& client, const std::string& port, const Objec
   return reply_in(*outcome);
 }
 
-Status send_to_port(Client& client, const std::string& port, const ObjectLoan& object, Duration limit) {
-  Result<LineAnswer> answer = client.open_line(port, {});
-  if (!answer) return answer.error();
-  if (!answer->reply.empty()) return fail(Code::invalid_argument, port + " is asked, not sent to");
-  Channel line(std::move(answer->line));
-  const Result<OfferOutcome> outcome = exchange(line, object, limit);
-  return outcome ? outcome->outcome : Status(outcome.error());
-}
-
 ExitCode offer(const apps::Call& call) {
   std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);

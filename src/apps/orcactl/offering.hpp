@@ -32,11 +32,6 @@ inline constexpr Duration kAnswerLimit =
 [[nodiscard]] Result<ObjectLoan> ask_port(Client& client, const std::string& port, const ObjectLoan& question,
                                           Duration limit);
 
-/// Sends an object to a SendServer.
-/// @errors  as ask_port(); invalid_argument if the port is asked instead.
-[[nodiscard]] Status send_to_port(Client& client, const std::string& port, const ObjectLoan& object,
-                                  Duration limit);
-
 /// Carries out send or query: hands an object to a port, and prints the reply.
 [[nodiscard]] ExitCode offer(const apps::Call& call);
 

@@ -20,7 +20,7 @@ namespace orca::orcactl {
 namespace {
 
 constexpr std::string_view kShows = ".TaskStateQuery";
-constexpr std::string_view kObeys = ".TaskOrderSend";
+constexpr std::string_view kObeys = ".TaskOrderQuery";
 
 constexpr std::array<std::pair<std::string_view, idl::TaskOrderKind>, 7> kOrders{
     {{"pause", idl::TASK_ORDER_PAUSE},
@@ -84,8 +84,9 @@ Status order(Client& client, const std::vector<std::string>& components, const a
                                             meant.front());
   auto object = make_object<idl::TaskOrder>();
   object->kind(found->second);
-  return send_to_port(client, meant.front() + std::string(kObeys), std::move(object),
-                      call.duration("--timeout").value_or(kAnswerLimit));
+  const auto obeyed = ask_port(client, meant.front() + std::string(kObeys), std::move(object),
+                               call.duration("--timeout").value_or(kAnswerLimit));
+  return obeyed ? ok() : Status(obeyed.error());
 }
 
 }  // namespace

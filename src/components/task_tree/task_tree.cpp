@@ -183,31 +183,38 @@ class TaskTree final : public orca::Component, private Actor {
         ending->reached ? "" : ending->reason + " (mission " + std::to_string(ending->mission) + ")"};
   }
 
-  orca::Status on_order(const orca::ObjectPtr<orca::idl::TaskOrder>& order) {
+  orca::Result<orca::Loan<orca::idl::TaskState>> on_order(
+      const orca::ObjectPtr<orca::idl::TaskOrder>& order) {
+    if (const orca::Status obeyed = obey(*order); !obeyed.ok()) return obeyed.error();
+    return state_now();
+  }
+
+  orca::Status obey(const orca::idl::TaskOrder& order) {
     if (!is_on()) return orca::fail(orca::Code::failed_precondition, "the task has ended");
-    switch (order->kind()) {
-      case orca::idl::TASK_ORDER_PAUSE: return pause();
-      case orca::idl::TASK_ORDER_RESUME: resume_task(); break;
+    switch (order.kind()) {
+      case orca::idl::TASK_ORDER_PAUSE: pause(); break;
+      case orca::idl::TASK_ORDER_RESUME: return resume_task();
       case orca::idl::TASK_ORDER_SKIP: return skip();
-      case orca::idl::TASK_ORDER_END: run_->end(*this, "ended: by \"" + order->origin() + "\""); break;
-      case orca::idl::TASK_ORDER_BEGIN: return begin_anew();
+      case orca::idl::TASK_ORDER_END: run_->end(*this, "ended: by \"" + order.origin() + "\""); break;
+      case orca::idl::TASK_ORDER_BEGIN: begin_anew(); break;
       case orca::idl::TASK_ORDER_YES: return answer(true);
       case orca::idl::TASK_ORDER_NO: return answer(false);
     }
     return orca::ok();
   }
 
-  orca::Status pause() {
+  void pause() {
     if (!paused_) paused_at_ = now();
     paused_ = true;
     run_->halt(*this);
-    return orca::ok();
   }
 
   // The time of the pause counts for no step.
-  void resume_task() {
-    if (paused_) run_->delay(orca::to_seconds(now() - paused_at_));
+  orca::Status resume_task() {
+    if (!paused_) return orca::fail(orca::Code::failed_precondition, "the task is not paused");
+    run_->delay(orca::to_seconds(now() - paused_at_));
     paused_ = false;
+    return orca::ok();
   }
 
   orca::Status skip() {
@@ -217,11 +224,10 @@ class TaskTree final : public orca::Component, private Actor {
     return orca::ok();
   }
 
-  orca::Status begin_anew() {
+  void begin_anew() {
     run_->halt(*this);
     run_ = std::make_unique<TaskRun>(task_);
     paused_ = false;
-    return orca::ok();
   }
 
   orca::Status answer(bool yes) {
@@ -234,6 +240,10 @@ class TaskTree final : public orca::Component, private Actor {
   }
 
   orca::Result<orca::Loan<orca::idl::TaskState>> on_ask(const orca::ObjectPtr<orca::idl::Ask>& /*ask*/) {
+    return state_now();
+  }
+
+  [[nodiscard]] orca::Loan<orca::idl::TaskState> state_now() const {
     auto state = orca::make_object<orca::idl::TaskState>();
     fill(*state);
     state->stamp(orca::to_time_value(now()));
@@ -303,11 +313,11 @@ class TaskTree final : public orca::Component, private Actor {
     return texts;
   }
 
-  orca::SendServer<orca::idl::TaskOrder> orders_{
+  orca::QueryServer<orca::idl::TaskOrder, orca::idl::TaskState> orders_{
       *this,
-      "TaskOrderSend",
+      "TaskOrderQuery",
       &TaskTree::on_order,
-      {.text = "Orders of an operator, and answers to questions."}};
+      {.text = "Orders of an operator, and answers to questions. The answer is the task as it is then."}};
   orca::PushServer<orca::idl::TaskState> state_{
       *this,
       "TaskStatePush",
