@@ -94,6 +94,7 @@ void fill(idl::Battery& object, const BatteryReading& reading) {
   object.current(std::nan(""));
   object.charge(reading.charge);
   object.charging(reading.charging);
+  object.temperature(std::nan(""));
   object.stamp(to_time_value(reading.stamp));
 }
 

@@ -108,6 +108,7 @@ void publish_battery(SensorHW<idl::Battery>& endpoint, const BatteryReading& rea
   object->current(std::nan(""));
   object->charge(reading.charge);
   object->charging(reading.charging);
+  object->temperature(reading.temperature);
   object->stamp(to_time_value(stamp));
   endpoint.publish(std::move(object));
 }

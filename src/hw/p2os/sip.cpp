@@ -51,12 +51,19 @@ PortState read_ports(ByteReader& reader) {
   return ports;
 }
 
+std::optional<double> temperature_of(std::uint8_t byte) {
+  constexpr int kNoSensor = -128;
+  const int degrees = static_cast<std::int8_t>(byte);
+  return degrees == kNoSensor ? std::nullopt : std::optional<double>(degrees);
+}
+
 SipTail read_tail(ByteReader& reader) {
   SipTail tail;
   const auto has = [&](std::size_t size) { return reader.remaining() >= size; };
   if (has(2)) tail.real_battery_voltage = reader.u16() * kDecivolt;
   if (has(1)) tail.charge_state = reader.u8();
-  reader.bytes(7);  // turn rate, faults, sideways speed, temperature
+  reader.bytes(6);  // turn rate, faults, sideways speed
+  if (has(1)) tail.temperature = temperature_of(reader.u8());
   if (has(1)) tail.state_of_charge = reader.u8();
   return tail;
 }

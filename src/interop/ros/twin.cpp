@@ -171,7 +171,7 @@ void put(CdrWriter& out, const idl::Battery& battery, TimePoint stamp) {
   constexpr std::uint8_t kDischarging = 2;
   put_header(out, stamp, context_of(battery) + "base_link");
   out.put(static_cast<float>(battery.voltage()));
-  out.put(kUnknown);  // temperature
+  out.put(static_cast<float>(battery.temperature()));
   out.put(static_cast<float>(battery.current()));
   for (int i = 0; i < 3; ++i) out.put(kUnknown);  // charge and capacities in Ah
   out.put(static_cast<float>(battery.charge()));

@@ -2,8 +2,10 @@
 #include <catch2/catch.hpp>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/component/state.hpp"
@@ -21,7 +23,8 @@ struct FakeActor final : Actor {
   std::map<std::string, Strings> failures;  // by goal: reasons, one for each time; then it is reached
   std::set<std::string> endless;            // goals that are never reached
   std::set<std::string> alarms;
-  std::set<std::string> refused;  // goals that nobody takes
+  std::map<std::string, std::string> fields;  // that conditions look at: "battery.charge"
+  std::set<std::string> refused;              // goals that nobody takes
   bool answer = true;
   int begun = 0;
 
@@ -49,7 +52,10 @@ struct FakeActor final : Actor {
   bool holds(const Condition& condition) override {
     return orca::tasks::holds(
         condition, {[this](const std::string& kind, const std::string&) { return alarms.contains(kind); },
-                    [](const std::string&, const std::string&) { return std::nullopt; }});
+                    [this](const std::string& port, const std::string& field) {
+                      const auto found = fields.find(port + "." + field);
+                      return found == fields.end() ? std::nullopt : std::optional(found->second);
+                    }});
   }
 };
 
@@ -62,9 +68,20 @@ Task task_of(const std::string& steps) {
   return *task;
 }
 
+// Returns a task of graphs/tasks.
+Task shipped_task(const std::string& name) {
+  const std::vector<Sight> sights{{"battery", {"voltage", "temperature"}}, {"localization", {"share"}}};
+  orca::xml::Diagnostics diagnostics;
+  const auto task = read_task(ORCA_SOURCE_DIR "/graphs/tasks/" + name + ".xml", sights, diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(task);
+  return *task;
+}
+
 /// A task that is advanced ten times a second.
 struct Run {
-  explicit Run(const std::string& steps) : task(task_of(steps)), run(task) {}
+  explicit Run(const std::string& steps) : Run(task_of(steps)) {}
+  explicit Run(Task of) : task(std::move(of)), run(task) {}
 
   void tick(int times = 1) {
     for (int i = 0; i < times && run.state() != State::done && run.state() != State::failed; ++i) {
@@ -376,5 +393,30 @@ TEST_CASE("a task goes on in another object where it was, at whatever tick it is
     CHECK(std::ranges::count(second.actor.log, "at a") == 2);
     CHECK(std::ranges::count(second.actor.log, "at dock") == 1);
     CHECK(std::ranges::count(second.actor.log, "at c") == 1);
+  }
+}
+
+TEST_CASE("a robot that gets hot stands until it has cooled, and drives on to where it was driving",
+          "[components][tasks]") {
+  for (const std::string name : {"patrol", "deliver", "fetch"}) {
+    CAPTURE(name);
+    Run run(shipped_task(name));
+    const std::string place = name == "deliver" ? "office_2" : name == "fetch" ? "kitchen_can" : "kitchen";
+    run.actor.endless = {place};
+    run.actor.fields["battery.temperature"] = "nan";  // not known, as most robots have it
+    run.tick(20);
+    run.actor.fields["battery.temperature"] = "59";
+    run.tick(20);
+    CHECK(run.actor.log == Strings{"begin " + place});
+    run.actor.fields["battery.temperature"] = "61";
+    run.tick(20);
+    CHECK(run.actor.log.back() == "say I am hot: I stand until I have cooled.");
+    CHECK(run.actor.log[1] == "halt " + place);
+    run.actor.fields["battery.temperature"] = "55";
+    run.tick(600);
+    CHECK(run.actor.begun == 1);
+    run.actor.fields["battery.temperature"] = "49";
+    run.tick(20);
+    CHECK(run.actor.log.back() == "begin " + place);
   }
 }

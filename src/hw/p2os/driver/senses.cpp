@@ -113,7 +113,8 @@ void Senses::publish_battery() {
   hw::publish_battery(battery_,
                       {.voltage = sip_.tail.real_battery_voltage.value_or(sip_.battery_voltage),
                        .charge = percent ? std::min(0.01 * *percent, 1.0) : std::nan(""),
-                       .charging = charge > 0 && charge < 255},
+                       .charging = charge > 0 && charge < 255,
+                       .temperature = sip_.tail.temperature.value_or(std::nan(""))},
                       stamp_);
 }
 

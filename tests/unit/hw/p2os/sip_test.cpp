@@ -106,9 +106,18 @@ TEST_CASE("every optional field appears with its last byte", "[hw][p2os]") {
   CHECK_FALSE(read(6).tail.real_battery_voltage.has_value());
   CHECK(read(7).tail.real_battery_voltage.value() == Approx(13.1));
   CHECK(read(8).tail.charge_state == 3);
+  CHECK_FALSE(read(14).tail.temperature.has_value());
+  CHECK(read(15).tail.temperature == -25.0);
   CHECK_FALSE(read(15).tail.state_of_charge.has_value());
   CHECK(read(16).tail.state_of_charge == 0x55);
   CHECK(read(24).tail.state_of_charge == 0x55);
+}
+
+TEST_CASE("a controller without a sensor for it has no temperature", "[hw][p2os]") {
+  Bytes body = bare();
+  const Bytes tail = hex("02 11 FF 01 02  83 00 03 9C FF 34 12 0C FE 80");
+  body.insert(body.end(), tail.begin(), tail.end());
+  CHECK_FALSE(p2os::parse_sip(body, pioneer()).value().tail.temperature.has_value());
 }
 
 TEST_CASE("flags tell of motors, groups of sonars and the emergency stop", "[hw][p2os]") {

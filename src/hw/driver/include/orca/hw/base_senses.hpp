@@ -119,6 +119,7 @@ struct BatteryReading {
   double voltage = std::nan("");  ///< [V] Not a number: not known.
   double charge = std::nan("");   ///< [1] Likewise.
   bool charging = false;
+  double temperature = std::nan("");  ///< [degC] Likewise.
   std::string name = "drive";
 };
 

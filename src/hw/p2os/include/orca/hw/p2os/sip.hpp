@@ -34,6 +34,7 @@ struct SipTail {
       real_battery_voltage{};  ///< [V] of a robot whose first battery field is scaled to 12 V.
   std::optional<std::uint8_t>
       charge_state{};  ///< 0 not charging, 1 bulk, 2 overcharge, 3 float, 4 balance, 255 unknown.
+  std::optional<double> temperature{};  ///< [degC] of the controller; nothing also where it has no sensor.
   std::optional<std::uint8_t> state_of_charge{};  ///< [%]
 };
 
