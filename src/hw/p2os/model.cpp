@@ -123,14 +123,20 @@ constexpr Model with_bumpers(Model model, int front, int rear) {
   return model;
 }
 
-constexpr Model dx(const Model& model) { return sensing(shaped(model, 425, 511, 250), kDxRing); }
+// The middle of these bodies is behind the axle, as that of their sonars: docs/robot-files.md.
+constexpr Model behind_axle(Model model) {
+  model.behind = 44.5 * kMillimetre;
+  return model;
+}
+
+constexpr Model dx(const Model& model) { return behind_axle(sensing(shaped(model, 425, 511, 250), kDxRing)); }
 
 constexpr Model at(const Model& model, double width = 505) {
   return sensing(limited(shaped(model, width, 626, 500), 1200, 300), kAtRing);
 }
 
 constexpr Model people(const Model& model, double radius, std::span<const Pose2> ring, double length = 513) {
-  return with_bumpers(sensing(shaped(model, 425, length, radius), ring), 5, 5);
+  return behind_axle(with_bumpers(sensing(shaped(model, 425, length, radius), ring), 5, 5));
 }
 
 constexpr Model patrol(const Model& model) {

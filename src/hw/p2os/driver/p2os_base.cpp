@@ -109,11 +109,12 @@ class P2osBase final : public BaseDriver {
   void describe(idl::Robot& robot) const override {
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
+    const double length = model_->length + 2.0 * model_->behind;  // around the axle
     // The radius of the maker's files does not hold the corners.
-    const double radius = std::max(model_->radius, 0.5 * portable::hypot(model_->length, model_->width));
+    const double radius = std::max(model_->radius, 0.5 * portable::hypot(length, model_->width));
     robot.radius(radius);
     robot.bumper_radius(radius);
-    robot.length(model_->length);
+    robot.length(length);
     robot.width(model_->width);
     figures().describe(robot);
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);

@@ -88,6 +88,11 @@ void check_pose(const orca::Pose2& pose, double x_mm, double y_mm, double headin
 
 }  // namespace
 
+TEST_CASE("the axle of a Pioneer 2-DX is in front of the middle of its body", "[hw][p2os]") {
+  CHECK(choose_model("p2dx").model.behind == Approx(0.0445));
+  CHECK(choose_model("p2at").model.behind == 0.0);  // it has two
+}
+
 TEST_CASE("every model has the figures of its parameter file in SI units", "[hw][p2os]") {
   CHECK(p2os::models().size() == kRows.size());
   for (const Row& row : kRows) {

@@ -21,9 +21,10 @@ struct Model {
   double half_track = 0.0;      ///< [m] by which a turn rate is multiplied for the speed of a wheel.
   double width = 0.0;           ///< [m] 0: not known.
   double length = 0.0;          ///< [m] 0: not known.
-  double radius = 0.0;          ///< [m] of the circle that it turns in; 0: not known.
-  double max_speed = 0.0;       ///< [m/s] 0: not known.
-  double max_turn_rate = 0.0;   ///< [rad/s] 0: not known.
+  double behind = 0.0;         ///< [m] by which the middle of the body lies behind the axle, as far as known.
+  double radius = 0.0;         ///< [m] of the circle that it turns in; 0: not known.
+  double max_speed = 0.0;      ///< [m/s] 0: not known.
+  double max_turn_rate = 0.0;  ///< [rad/s] 0: not known.
   std::span<const Pose2>
       sonar_poses{};           ///< Of each in the robot frame, its x axis being the axis of the cone.
   unsigned absent_sonars = 0;  ///< Bit i: number i is counted, but there is no such sonar.
