@@ -139,7 +139,8 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "pioneer_planner_parts",
                                        "pioneer_slam",
                                        "pioneer_map",
-                                       "scout_localize"};
+                                       "scout_localize",
+                                       "scout_tasks"};
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},

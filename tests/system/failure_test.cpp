@@ -57,6 +57,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_tasks", "", {"pilot", "traverse", "look_around"}},
     {"pioneer_fetch_task", "", {"pilot", "porter", "traverse", "look_around"}},
     {"scout_localize", "", {"goto", "avoid"}},
+    {"scout_tasks", "", {"pilot"}},
     {"pioneer_slam", "", {"walk", "avoid"}},
     {"pioneer_map", "", {"planner"}},
     {"calibrate", "", {"goto", "avoid"}},

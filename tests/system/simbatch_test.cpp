@@ -362,6 +362,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
                                    std::pair{"tour", "3 variants, 8 worlds, 10 seeds: 240 runs"},
                                    std::pair{"fetch", "2 variants, 9 worlds, 10 seeds: 180 runs"},
                                    std::pair{"patrol", "2 variants, 7 worlds, 7 seeds: 98 runs"},
+                                   std::pair{"scout_tour", "2 variants, 7 worlds, 10 seeds: 140 runs"},
                                    std::pair{"doors", "6 variants, 6 worlds, 20 seeds: 720 runs"},
                                    std::pair{"sway", "6 variants, 1 world, 20 seeds: 120 runs"},
                                    std::pair{"lost", "3 variants, 21 worlds, 10 seeds: 630 runs"},

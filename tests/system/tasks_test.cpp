@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "operated.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -39,6 +40,10 @@ struct Office {
 std::string shut(double x, double y) {
   return "<box name=\"leaf\" x=\"" + std::to_string(x) + "\" y=\"" + std::to_string(y) +
          "\" length=\"1\" width=\"0.08\" height=\"2 m\" comes=\"1 s\"/>";
+}
+
+Words with_task(const std::string& task) {
+  return {source_file("graphs/pioneer_tasks.xml"), "--set", "task=" + source_file("graphs/tasks/" + task)};
 }
 
 Words names(const Run& run) {
@@ -206,53 +211,9 @@ TEST_CASE("a robot that patrols reports the room in which something has changed,
   CHECK_FALSE(Office{}.run(patrol).says("something has changed"));
 }
 
-namespace {
-
-/// A run of a task that an operator steps through.
-struct Operated {
-  explicit Operated(const std::string& task)
-      : Operated(Words{source_file("graphs/pioneer_tasks.xml"), "--set",
-                       "task=" + source_file("graphs/tasks/" + task)}) {}
-  explicit Operated(const Words& graph) : program(deployer(graph + Words{"--pace", "0"} + virtual_clock())) {
-    for (int tries = 0; run_orcactl({"pace"}).exit_code() != 0; ++tries) {
-      REQUIRE(tries < 200);
-      std::this_thread::sleep_for(50ms);
-    }
-  }
-
-  void step(const std::string& time) const {
-    REQUIRE(run_orcactl({"step", time}, Seconds(60)).exit_code() == 0);
-  }
-  // Gives an order, which is carried out while time passes.
-  Run order(const Words& words) const { return ask(words, 0); }
-  // Gives an order that is refused.
-  // @return why.
-  std::string refused(const Words& words) const { return ask(words, 1).err; }
-  Run to_the_end() {
-    REQUIRE(run_orcactl({"pace", "fast"}).exit_code() == 0);
-    return finish(program, Seconds(60));
-  }
-
-  Subprocess program;
-
- private:
-  static Run ask(const Words& words, int status) {
-    Subprocess asked(orcactl(words));
-    std::this_thread::sleep_for(100ms);
-    REQUIRE(run_orcactl({"pace", "4"}).exit_code() == 0);
-    const Run done = finish(asked, Seconds(20));
-    INFO(done.err << done.out);
-    CHECK(done.exit_code() == status);
-    REQUIRE(run_orcactl({"pause"}).exit_code() == 0);
-    return done;
-  }
-};
-
-}  // namespace
-
 TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an operator",
           "[system][tasks]") {
-  Operated robot("tour.xml");
+  Operated robot(with_task("tour.xml"));
   robot.step("30s");  // on the way to the library
   CHECK_THAT(robot.order({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out,
              Contains("orca.TaskTree/1"));
@@ -275,7 +236,7 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
 }
 
 TEST_CASE("a robot delivers a letter when people say that it is there and taken", "[system][tasks]") {
-  Operated robot("deliver.xml");
+  Operated robot(with_task("deliver.xml"));
   robot.step("10s");
   CHECK_THAT(robot.refused({"tasks", "yes"}), Contains("the task asks nothing now"));
   CHECK_THAT(robot.refused({"tasks", "resume"}), Contains("the task is not paused"));
