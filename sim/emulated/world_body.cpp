@@ -36,7 +36,10 @@ void WorldBody::sense(const SharedWorld::Inbox& inbox) {
   for (const auto& [laser, scan] : inbox.laser)
     if (laser == 0) see(scan);
   if (!inbox.gripper.empty()) gripper_ = inbox.gripper.back();
-  if (!inbox.battery.empty()) battery_voltage_ = inbox.battery.back().voltage;
+  if (!inbox.battery.empty()) {
+    battery_voltage_ = inbox.battery.back().voltage;
+    is_charged_ = inbox.battery.back().charging;
+  }
   for (const OdometryReading& reading : inbox.odometry) {
     if (stall_.look(reading)) stalled_ = true;
     if (!stall_.is_slow(reading)) stalled_ = false;

@@ -38,6 +38,7 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   void move_gripper(emulators::GripperMove move) override;
   [[nodiscard]] std::optional<emulators::GripperLook> gripper() const override;
   [[nodiscard]] std::optional<double> battery_voltage() const override { return battery_voltage_; }
+  [[nodiscard]] std::optional<bool> is_charged() const override { return is_charged_; }
   [[nodiscard]] std::optional<emulators::MirrorTurn> last_turn() const override;
 
  private:
@@ -55,6 +56,7 @@ class WorldBody final : public emulators::Body, public emulators::Mirror {
   std::optional<LaserScan> scan_;
   std::optional<GripperReading> gripper_;  // the last one
   std::optional<double> battery_voltage_;  // [V]
+  std::optional<bool> is_charged_;
 };
 
 }  // namespace orca::sim

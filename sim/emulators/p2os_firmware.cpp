@@ -363,6 +363,10 @@ void P2osFirmware::send_information(TimePoint now) {
   body.insert(body.end(), heard.begin(), heard.end());
   // Analog port, gripper, analog, digital in and out.
   body.insert(body.end(), {0, gripper_->state(), 0, gripper_->digital_in(), 0});
+  if (const auto charged = body_.is_charged()) {  // newer firmware appends voltage and state of the charger
+    add_word(body, std::lround(10.0 * body_.battery_voltage().value_or(settings_.voltage)));
+    body.push_back(*charged ? 1 : 0);
+  }
   send(std::move(body), now);
 }
 

@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace orca::sim::detail {
 namespace {
 
 constexpr double kAtRest = 0.005;  // [m/s]
+
+bool reaches(const Robot& robot, const Charger& charger) {
+  const double front = charger.at_front ? bounds_of(robot.model.footprint).high.x : 0.0;
+  const double askew = std::fabs(wrapped(robot.body.yaw - charger.pose.yaw));
+  return norm(robot.body * Vec2{front, 0.0} - charger.pose.position()) <= charger.reach &&
+         (!charger.at_front || askew <= Charger::kAskew);
+}
 
 }  // namespace
 
@@ -19,7 +27,7 @@ void Batteries::add() {
 
 bool Batteries::is_charged(const Robot& robot) const {
   return robot.speed() < kAtRest && std::ranges::any_of(world_.chargers, [&](const Charger& charger) {
-           return norm(robot.body.position() - charger.position) <= charger.reach;
+           return reaches(robot, charger);
          });
 }
 

@@ -57,3 +57,17 @@ TEST_CASE("a Scout that was carried off stands and asks where it is, and goes on
   CHECK(names(run) == Words{"kitchen", "library"});
   CHECK(run.contacts().empty());
 }
+
+TEST_CASE("a Scout docks by the pose that its sonars give, and drives on", "[system][tasks]") {
+  const TempFolder folder;
+  const std::string task = folder.write("task.xml", R"(<task name="test" version="1">
+  <Drive to="dock" within="150 s"/><Say text="charged"/><Wait for="5 s"/><Drive to="meeting" within="120 s"/>
+</task>)");
+  const Run run = run_deployer(
+      Words{source_file("graphs/scout_tasks.xml"), "--set", "task=" + task, "--set", "place=meeting_hall"} +
+      virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(names(run) == Words{"before_dock", "dock", "meeting"});
+  CHECK_FALSE(run.contacts().empty());
+}

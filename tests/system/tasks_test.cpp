@@ -73,7 +73,7 @@ TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]
 }
 
 TEST_CASE("a robot whose way back is blocked asks people to clear it", "[system][tasks]") {
-  const Run run = Office{.events = R"(<box name="crate" x="1" y="6" length="1.2" width="1.2" height="1 m"
+  const Run run = Office{.events = R"(<box name="crate" x="1" y="6" length="0.8" width="0.8" height="1 m"
     comes="40 s"/>)"}
                       .run({"--set", "pilot.blocked_after=4 s", "--until", "200 s"});
   INFO(run.out << run.err);
@@ -180,10 +180,18 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const Words reached = names(run);
   REQUIRE(reached.size() > 3);
   CHECK(reached[0] == "kitchen");
-  CHECK(reached[1] == "dock");
-  CHECK(reached[2] == "library");
+  CHECK(reached[1] == "before_dock");
+  CHECK(reached[2] == "dock");
+  CHECK(reached[3] == "library");
   CHECK(run.says("I go on."));
-  CHECK(run.contacts().empty());
+  CHECK(run.contacts().size() == 1);  // of the charger
+
+  // Without a Dock nobody brings it to the contacts.
+  const Run alone = office.run(patrol + Words{"--set", "dock.docks=nowhere", "--until", "600 s"});
+  INFO(alone.err);
+  CHECK(alone.exit_code() != 0);
+  CHECK_FALSE(alone.says("I go on."));
+  CHECK(alone.contacts().empty());
 
   // Without that handler it stands somewhere with an empty battery.
   std::string text = read_text(source_file("graphs/tasks/patrol.xml"));
@@ -195,6 +203,23 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   REQUIRE_FALSE(bare.arrivals().empty());
   CHECK(bare.arrivals().back().t < 350.0);
   CHECK(bare.says("the time limit has ended the run"));
+}
+
+TEST_CASE("a robot whose charger does not charge tries three times, and says so", "[system][tasks]") {
+  std::string world = read_text(source_file("sim/worlds/office.xml"));
+  const std::string charger = R"(<charger place="dock" reach="3 cm" touch="front"/>)";
+  REQUIRE(world.find(charger) != std::string::npos);
+  world.erase(world.find(charger), charger.size());
+  const TempFolder folder;
+  const std::string task = "<task name=\"test\" version=\"1\"><Drive to=\"dock\" within=\"200 s\"/></task>";
+  const Run run = run_deployer(Words{source_file("graphs/pioneer_tasks.xml"), "--set", "place=corridor_east",
+                                     "--set", "world=" + folder.write("office.xml", world), "--set",
+                                     "task=" + folder.write("task.xml", task)} +
+                               virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 1);
+  CHECK(run.says("undone: the battery is not charged there; is the charger on, and are its contacts clean?"));
+  CHECK(run.contacts().size() == 3);
 }
 
 TEST_CASE("a robot that patrols reports the room in which something has changed, and no other",

@@ -83,7 +83,8 @@ void FixtureReader::charger(const xml::Attributes& element, const std::string& /
   const auto place = element.name("place");
   const auto reach = element.number("reach");
   if (!place || !reach) return;
-  world_.chargers.push_back({*place, {}, *reach});
+  const bool at_front = element.has("touch") && element.choice("touch").has_value();
+  world_.chargers.push_back({*place, {}, *reach, at_front});
   charger_positions_.push_back(element.element().position());
 }
 
@@ -93,7 +94,7 @@ void FixtureReader::place_chargers() {
   for (std::size_t i = 0; i < world_.chargers.size(); ++i) {
     Charger& charger = world_.chargers[i];
     if (const Place* const place = world_.place(charger.place))
-      charger.position = place->pose.position();
+      charger.pose = place->pose;
     else
       reporter_.error(world_codes::kNoSuchPlace, charger_positions_[i],
                       "there is no place " + in_quotes(charger.place) + reporter_.hint(charger.place, names));

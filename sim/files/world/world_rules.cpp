@@ -22,6 +22,7 @@ constexpr std::array<std::string_view, 4> kSides{"south", "north", "west", "east
 constexpr std::array<std::string_view, 2> kLoops{"back", "round"};
 constexpr std::array<std::string_view, 2> kLeaves{"swings", "slides"};
 constexpr std::array<std::string_view, 2> kDoorStates{"shut", "open"};
+constexpr std::array<std::string_view, 1> kContacts{"front"};
 constexpr std::array<std::string_view, 5> kGeneratorKinds{"barn", "u_trap", "narrow_doors", "corridor",
                                                           "office"};
 
@@ -105,7 +106,8 @@ constexpr std::array kOutage{required("robot", kText), required("sensor", one_of
 
 constexpr std::array kDrain{required("robot", kText), required("at", kTime),
                             required("to", not_negative("", 1.0))};
-constexpr std::array kCharger{required("place", kName), required("reach", positive("m", 10.0))};
+constexpr std::array kCharger{required("place", kName), required("reach", positive("m", 10.0)),
+                              optional("touch", one_of(kContacts))};
 
 constexpr std::array kLeaf{
     required("name", kName),           required("from", kText),     required("to", kText),

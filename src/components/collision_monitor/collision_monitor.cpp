@@ -18,6 +18,7 @@
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/moving.hpp"
+#include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/pose_history.hpp"
@@ -54,6 +55,7 @@ class CollisionMonitor final : public orca::Component {
   static constexpr orca::Duration kSureAfter = std::chrono::milliseconds(500);
   static constexpr orca::Duration kPassedAfter = std::chrono::milliseconds(100);
   static constexpr double kLong = 2.0;      // [s] of standing after which an alarm is raised
+  static constexpr double kTouches = 0.06;  // [m/s] at most, of a robot that is to touch something
   static constexpr double kPatient = 10.0;  // [s] the same while somebody passes
 
   template <class Reading>
@@ -172,11 +174,22 @@ class CollisionMonitor final : public orca::Component {
     if (!blind_.empty()) return {0.0, true, std::nullopt};
     const auto state = gripper_.latest();
     const orca::collision::SweptBody& body = machine_->body(state && state->holds());
-    const auto posts = surroundings_.posts(here());
+    const auto posts = surroundings_.posts(here(), touchable(wanted));
     const Verdict verdict =
         orca::gate::judge(body, posts, {wanted, twist_, held_}, machine_->rules(*reaction_time_, *margin_));
-    if (verdict.post) in_the_way_ = where(posts[*verdict.post], body, surroundings_.source_of(*verdict.post));
+    if (verdict.post)
+      in_the_way_ = orca::gate::text_of(posts[*verdict.post], body, surroundings_.source_of(*verdict.post));
     return among_people(verdict, body, wanted);
+  }
+
+  // Returns where the robot may touch what stands there: the contacts of a charger, if it creeps.
+  [[nodiscard]] std::optional<orca::gate::Disc> touchable(const Twist2& wanted) const {
+    const auto touch = touch_.latest();
+    if (!touch || std::fabs(wanted.forward) > kTouches || std::fabs(twist_.forward) > kTouches ||
+        orca::to_seconds(now() - orca::to_time_point(touch->creation_time())) > kShortestSilence)
+      return std::nullopt;
+    return orca::gate::Disc{{touch->coordinate().point().x(), touch->coordinate().point().y()},
+                            touch->reach_radius().distance()};
   }
 
   // Lets people who move pass.
@@ -200,17 +213,6 @@ class CollisionMonitor final : public orca::Component {
     auto people = surroundings_.comers(orca::to_seconds(now().time_since_epoch()), here());
     orca::gate::add_passers(*moving, age_of(*moving), here(), people);
     return people;
-  }
-
-  // Says what is in the way, for people.
-  static std::string where(const orca::collision::Post& post, const orca::collision::SweptBody& body,
-                           const std::string& source) {
-    char text[160];
-    std::snprintf(text, sizeof text, " sees something %.2f m from the body, %.2f m %s and %.2f m to the %s",
-                  std::max(0.0, body.distance(post)), std::fabs(post.place.x),
-                  post.place.x >= 0.0 ? "ahead" : "behind", std::fabs(post.place.y),
-                  post.place.y >= 0.0 ? "left" : "right");
-    return source + text;
   }
 
   void note(const Verdict& verdict) {
@@ -389,6 +391,8 @@ class CollisionMonitor final : public orca::Component {
       {.text = "State of its gripper; with it what the gripper holds is a part of the body.",
        .optional = true}};
 
+  orca::PushProxy<orca::idl::GoalPoint> touch_{
+      *this, "touch", {.text = "What the robot is to touch, in its own frame: a Dock.", .optional = true}};
   orca::PushProxy<orca::idl::MovingThings> moving_{
       *this,
       "moving",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -157,7 +158,7 @@ collision::Post Surroundings::post_of(const Source& source, Vec2 place) const {
   return post;
 }
 
-std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR) {
+std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR, const std::optional<Disc>& spared) {
   posts_.clear();
   owners_.clear();
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -165,6 +166,7 @@ std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR) {
       collision::Post post = post_of(sources_[i], echo.place);
       if (!echo.is_carried) post.place = seen_from(X_OR, post.place);
       if (norm(post.place) > kRange) continue;
+      if (spared && norm(post.place - spared->middle) <= spared->radius) continue;
       posts_.push_back(post);
       owners_.push_back(i);
     }
@@ -173,5 +175,15 @@ std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR) {
 }
 
 const std::string& Surroundings::source_of(std::size_t post) const { return sources_[owners_[post]].name; }
+
+std::string text_of(const collision::Post& post, const collision::SweptBody& body,
+                    const std::string& source) {
+  char text[160];
+  std::snprintf(text, sizeof text, " sees something %.2f m from the body, %.2f m %s and %.2f m to the %s",
+                std::max(0.0, body.distance(post)), std::fabs(post.place.x),
+                post.place.x >= 0.0 ? "ahead" : "behind", std::fabs(post.place.y),
+                post.place.y >= 0.0 ? "left" : "right");
+  return source + text;
+}
 
 }  // namespace orca::gate

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,12 @@ struct Cone {
   double half_angle = 0.0;  ///< [rad] of the part of the cone that counts.
   Pose2 X_OS{};             ///< The sonar's, in the frame of the odometry; x is the axis of the cone.
   Vec2 place{};             ///< [m] of the sonar, in the frame of the robot.
+};
+
+/// A part of the floor, in the frame of the robot.
+struct Disc {
+  Vec2 middle{};        ///< [m]
+  double radius = 0.0;  ///< [m]
 };
 
 /// The surroundings as all sensors of a robot have seen them lately: upright posts in the frame of the odometry.
@@ -73,7 +80,9 @@ class Surroundings {
   }
 
   /// Returns what counts now, in the frame of a robot. Valid until the next call.
-  [[nodiscard]] std::span<const collision::Post> posts(const Pose2& X_OR);
+  /// @param spared  what does not count: it is to be touched.
+  [[nodiscard]] std::span<const collision::Post> posts(const Pose2& X_OR,
+                                                       const std::optional<Disc>& spared = std::nullopt);
   /// Returns whose echo made a post of the last posts().
   [[nodiscard]] const std::string& source_of(std::size_t post) const;
 
@@ -102,5 +111,9 @@ class Surroundings {
   std::vector<collision::Post> posts_;
   std::vector<std::size_t> owners_;  // of each post, an index of sources_
 };
+
+/// Says what is in the way, for people.
+[[nodiscard]] std::string text_of(const collision::Post& post, const collision::SweptBody& body,
+                                  const std::string& source);
 
 }  // namespace orca::gate

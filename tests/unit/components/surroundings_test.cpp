@@ -51,6 +51,18 @@ TEST_CASE("a beam that ends near the robot leaves a post at its end, and one wit
   CHECK(seen.source_of(0) == "laser");
 }
 
+TEST_CASE("what the robot is to touch does not count, and what is beside it does", "[gate]") {
+  Surroundings seen;
+  Sweep sweep = scan(8.0);
+  sweep.ranges[90] = 0.8;
+  sweep.ranges[60] = 0.8;
+  seen.see("laser", sweep);
+  CHECK(seen.posts({}).size() == 2);
+  const auto posts = seen.posts({}, Disc{{0.8, 0.0}, 0.3});
+  REQUIRE(posts.size() == 1);
+  CHECK(posts[0].place.x == Approx(0.8 * std::cos(30 * kDegree)));
+}
+
 TEST_CASE("a scan replaces what it looks at, and keeps what is beside it or hidden", "[gate]") {
   Surroundings seen;
   seen.see("laser", scan_with(8.0, 90, 1.5));

@@ -69,6 +69,21 @@ TEST_CASE("the information of an emulated Pioneer, byte for byte", "[emulators][
         "FA FB 1B 32 E8 03 9C 7F 00 04 00 00 00 00 7F 05 07 00 00 01 00 00 00 00 00 00 00 00 C0 0A");
 }
 
+TEST_CASE("a Pioneer that knows whether it is charged appends its voltage and the state of the charger",
+          "[emulators][p2os]") {
+  PioneerLine line;
+  line.open();
+  const std::size_t plain = line.information().size();
+  line.body.charged = true;
+  const Bytes charged = line.information();
+  REQUIRE(charged.size() == plain + 3);
+  CHECK(charged[plain - 2] == 127);  // 12.7 V, low byte first, before the checksum
+  CHECK(charged[plain - 1] == 0);
+  CHECK(charged[plain] == 1);
+  line.body.charged = false;
+  CHECK(line.information()[plain] == 0);
+}
+
 TEST_CASE("sonars are told eight at a time when they are switched on", "[emulators][p2os]") {
   PioneerLine line;
   line.open();

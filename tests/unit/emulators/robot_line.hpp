@@ -27,6 +27,7 @@ struct ScriptedBody final : Body {
   [[nodiscard]] bool is_stalled() const override { return stalled; }
   [[nodiscard]] std::uint8_t cliffs() const override { return no_floor; }
   [[nodiscard]] bool is_lifted() const override { return lifted; }
+  [[nodiscard]] std::optional<bool> is_charged() const override { return charged; }
   void move_gripper(GripperMove move) override { gripper_moves.push_back(move); }
   [[nodiscard]] std::optional<GripperLook> gripper() const override { return look; }
 
@@ -34,6 +35,7 @@ struct ScriptedBody final : Body {
   std::optional<Twist2> measured;
   Pose2 pose;
   std::map<int, double> ranges;
+  std::optional<bool> charged;
   std::uint16_t pressed = 0;
   std::uint8_t no_floor = 0;
   bool stalled = false;

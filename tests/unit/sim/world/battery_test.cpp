@@ -83,7 +83,7 @@ TEST_CASE("an empty battery stops the robot for good", "[sim][battery]") {
 
 TEST_CASE("a robot that rests at a charger is charged, one that passes or rests beside it is not",
           "[sim][battery]") {
-  const std::vector<Charger> here{{"dock", {0.0, 0.0}, 0.2}};
+  const std::vector<Charger> here{{"dock", {0.0, 0.0, 0.0}, 0.2}};
   Room room({.drains = {{"Scout", seconds(1), 0.2}}}, here);
   room.run(11.0);
   CHECK(room.charge() == Approx(0.2 + 10.0 * (1.0 / 50.0 - 1.0 / 400.0)).margin(0.001));
@@ -97,9 +97,24 @@ TEST_CASE("a robot that rests at a charger is charged, one that passes or rests 
   CHECK_FALSE(battery_in(turning.world, turning.robot)->charging);
   CHECK(turning.charge() < 0.2);
 
-  Room beside({}, {{"dock", {0.5, 0.0}, 0.2}});
+  Room beside({}, {{"dock", {0.5, 0.0, 0.0}, 0.2}});
   beside.run(1.0);
   CHECK_FALSE(battery_in(beside.world, beside.robot)->charging);
+}
+
+TEST_CASE("a charger with contacts charges a robot that touches them with its front, and looks that way",
+          "[sim][battery]") {
+  const auto is_charged = [](const Pose2& contacts) {
+    Room room({}, {{"dock", contacts, 0.03, true}});  // The Scout stands at the origin, its front at 0.205 m.
+    room.run(1.0);
+    return battery_in(room.world, room.robot)->charging;
+  };
+  CHECK(is_charged({0.225, 0.0, 0.0}));
+  CHECK(is_charged({0.21, -0.02, 9 * kDegree}));
+  CHECK_FALSE(is_charged({0.25, 0.0, 0.0}));
+  CHECK_FALSE(is_charged({0.21, 0.04, 0.0}));
+  CHECK_FALSE(is_charged({0.21, 0.0, 11 * kDegree}));
+  CHECK_FALSE(is_charged({-0.21, 0.0, 0.0}));
 }
 
 TEST_CASE("a robot without a battery has none to read, charge or drain", "[sim][battery]") {

@@ -63,6 +63,8 @@ class Body {
   [[nodiscard]] virtual std::optional<GripperLook> gripper() const { return std::nullopt; }
   /// Returns the voltage of its battery [V]; nothing if it is not known, so that the controller reports one of its own.
   [[nodiscard]] virtual std::optional<double> battery_voltage() const { return std::nullopt; }
+  /// Returns whether the battery is charged; nothing if that is not known.
+  [[nodiscard]] virtual std::optional<bool> is_charged() const { return std::nullopt; }
 };
 
 /// A turn of a scanning laser's mirror.

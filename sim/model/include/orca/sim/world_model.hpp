@@ -83,8 +83,11 @@ struct Place {
 /// A place where the batteries of robots are charged that rest there.
 struct Charger {
   std::string place;  ///< Name of the place.
-  Vec2 position{};
-  double reach = 0.0;  ///< [m] How far the middle of a robot may be from there.
+  Pose2 pose{};
+  double reach = 0.0;  ///< [m] How far the middle of a robot, or its front, may be from there.
+  /// Whether a robot must bring its foremost point there, looking in the direction of the place to within kAskew.
+  bool at_front = false;
+  static constexpr double kAskew = 0.1745;  ///< [rad] 10 degrees.
 };
 
 /// The leaf of a door, which swings or slides. It is shut or open, or on its way from one to the other. People open it.

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "docking.hpp"
+#include "orca/base/text.hpp"
+#include "orca/component.hpp"
+#include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/motion.hpp"
+#include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/system.hpp"
+#include "orca/idl/time.hpp"
+
+namespace {
+
+using orca::Pose2;
+using orca::dock::Docking;
+using orca::dock::Step;
+
+/// A behaviour that docks at chargers. It takes goals in the place of Goto, to which it passes them on. At a goal whose name is one of `docks` the robot
+/// stops some way before the place, and this behaviour does the rest: the goal is reached when the battery is charged. Before a robot that is charged
+/// drives elsewhere, it drives back from the charger. See README.md.
+class Dock final : public orca::Component {
+ public:
+  explicit Dock(orca::ComponentHost& host) : Component(host) { lap_on(localizer_); }
+
+ private:
+  // From an order to dock to its end, or to leave.
+  struct Work {
+    Pose2 X_WD;  // the contacts; x leads into them
+    Docking docking;
+  };
+
+  orca::Status start() override {
+    motion_.start(lap_period());
+    return orca::ok();
+  }
+
+  orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
+    // Its points may be sent again, along another way, when the robot is there already.
+    if (work_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
+    work_.reset();
+    goal_ = goal;
+    waiting_.push_back(goal);
+    return orca::ok();
+  }
+
+  [[nodiscard]] bool is_dock(const orca::idl::GoalPoint& goal) const {
+    return !goal.via() && std::ranges::find(*docks_, goal.name()) != docks_->end();
+  }
+
+  orca::Outcome work() override {
+    const auto here = localizer_.get_update();
+    while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
+    while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    if (!senders_.accepts(*here) || orca::is_anywhere(here->covariance())) {
+      motion_.push(work_ ? orca::full_stop() : orca::dont_care());
+      return orca::again();
+    }
+    const Pose2 pose = orca::plane_pose(*here);
+    if (!waiting_.empty() && leave(pose)) return orca::again();
+    pass_on();
+    if (work_) {
+      go_on(pose);
+    } else {
+      motion_.push(orca::dont_care());
+    }
+    return orca::again();
+  }
+
+  // Drives back from a charger before anybody turns the robot there.
+  // @return whether it does.
+  bool leave(const Pose2& pose) {
+    if (!left_from_ && (docked_ || charges())) left_from_ = pose;
+    docked_ = false;
+    if (!left_from_) return false;
+    const bool is_away = norm(pose.position() - left_from_->position()) >= *back_off_;
+    const bool is_late =
+        orca::to_seconds(now() - orca::to_time_point(waiting_.front()->creation_time())) > kLongest;
+    if (is_away || is_late) {
+      left_from_.reset();
+      return false;
+    }
+    motion_.push(orca::turn(0.0, -*speed_, *weight_));
+    return true;
+  }
+
+  void pass_on() {
+    for (const auto& goal : std::exchange(waiting_, {})) {
+      const orca::Status sent = is_dock(*goal) ? send_before(*goal) : goto_.send(copy_value(goal));
+      if (!sent.ok()) return give_up(orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
+    }
+  }
+
+  // Sends the robot to the place before the charger, where it is to look in its direction.
+  orca::Status send_before(const orca::idl::GoalPoint& goal) {
+    const auto yaw = direction_of(goal);
+    if (!yaw) return yaw.error();
+    X_WD_ = {goal.coordinate().point().x(), goal.coordinate().point().y(), *yaw};
+    const Pose2 before = X_WD_ * Pose2{-*standoff_, 0.0, 0.0};
+    auto near = orca::make_object(goal);
+    near->name() = "before_" + goal.name();
+    near->coordinate().point().x(before.x);
+    near->coordinate().point().y(before.y);
+    near->reach_radius().distance(kNear);
+    near->use_orientation(true);
+    near->orientation().orientation().yaw(before.yaw);
+    near->reach_angle(kNear);
+    return goto_.send(std::move(near));
+  }
+
+  orca::Result<double> direction_of(const orca::idl::GoalPoint& goal) {
+    if (goal.use_orientation()) return goal.orientation().orientation().yaw();
+    if (!places_.connected())
+      return orca::fail(orca::Code::failed_precondition,
+                        "nobody says from where " + orca::in_quotes(goal.name()) +
+                            " is driven to; give the goal a direction, or connect the port \"places\"");
+    auto question = places_.loan();
+    question->about() = goal.name();
+    const auto answer = places_.query(std::move(question));
+    if (!answer) return answer.error();
+    return (*answer)->orientation().orientation().yaw();
+  }
+
+  // Goto has done its part when the robot is before the charger.
+  void hear(const orca::idl::Arrived& arrived) {
+    if (is_late(arrived)) return;
+    if (is_dock(*goal_)) {
+      if (arrived.name() == "before_" + goal_->name()) work_ = Work{X_WD_, {}};
+      return;
+    }
+    if (arrived.name() != goal_->name()) return;  // The points of another way are coming.
+    done_.push(arrived);
+    forget_goal();
+  }
+
+  void hear(const orca::idl::GoalFailed& failed) {
+    if (is_late(failed)) return;
+    auto own = orca::make_object(failed);
+    own->name() = goal_->name();
+    undone_.push(std::move(own));
+    forget_goal();
+  }
+
+  // Returns whether it reports a goal that was replaced by another one meanwhile.
+  [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
+    return !goal_ || goal_->mission() != result.mission();
+  }
+
+  [[nodiscard]] bool charges() const {
+    const auto battery = battery_.latest();
+    return battery && battery->charging() &&
+           orca::to_seconds(now() - orca::to_time_point(battery->creation_time())) <= kFresh;
+  }
+
+  void go_on(const Pose2& pose) {
+    const Pose2 robot = seen_from(work_->X_WD, pose);
+    const Step step = work_->docking.step(robot, charges(), orca::to_seconds(now()),
+                                          {*speed_, *back_off_, *patience_, static_cast<double>(*attempts_)});
+    if (step.kind == Step::Kind::done) return conclude(pose);
+    if (step.kind == Step::Kind::failed) return give_up(orca::idl::GOAL_UNDONE, "undone: " + step.reason);
+    show(robot);
+    motion_.push(orca::turn(step.turn_rate, step.speed, *weight_));
+  }
+
+  // Says to the gate what the robot is to touch, in the frame of the robot.
+  void show(const Pose2& robot) {
+    const orca::Vec2 contacts = seen_from(robot, orca::Vec2{});
+    auto place = touch_.loan();
+    place->name() = goal_->name();
+    place->coordinate().point().x(contacts.x);
+    place->coordinate().point().y(contacts.y);
+    place->reach_radius().distance(kFace);
+    touch_.push(std::move(place));
+  }
+
+  void conclude(const Pose2& pose) {
+    auto arrived = done_.loan();
+    arrived->name() = goal_->name();
+    arrived->x(pose.x);
+    arrived->y(pose.y);
+    arrived->stamp(orca::to_time_value(now()));
+    done_.push(std::move(arrived));
+    docked_ = true;
+    end_work();
+  }
+
+  void give_up(orca::idl::GoalFailure kind, const std::string& reason) {
+    auto failed = undone_.loan();
+    failed->name() = goal_->name();
+    failed->kind(kind);
+    failed->reason() = reason;
+    failed->stamp(orca::to_time_value(now()));
+    undone_.push(std::move(failed));
+    end_work();
+  }
+
+  void end_work() {
+    work_.reset();
+    motion_.push(orca::full_stop());
+    forget_goal();
+  }
+
+  void forget_goal() {
+    goal_ = {};
+    end_mission();
+  }
+
+  void save_state(orca::StateWriter& state) const override {
+    std::optional<Docking> docking;
+    if (work_) docking = work_->docking;
+    state.write(goal_, waiting_, X_WD_, docking, docked_, left_from_);
+  }
+  orca::Status load_state(orca::StateReader& state) override {
+    std::optional<Docking> docking;
+    if (orca::Status read = state.read(goal_, waiting_, X_WD_, docking, docked_, left_from_); !read.ok())
+      return read;
+    if (docking) work_ = Work{X_WD_, *docking};
+    return orca::ok();
+  }
+
+  static constexpr double kNear = 0.1;      // [m], [rad] to which Goto brings the robot before a charger
+  static constexpr double kFace = 0.4;      // [m] around the contacts, what the robot may touch there
+  static constexpr double kFresh = 3.0;     // [s] Batteries are read once a second, or in ten.
+  static constexpr double kLongest = 30.0;  // [s] of driving back
+
+  orca::SendServer<orca::idl::GoalPoint> goals_{
+      *this, "GotoCoordinateSend", &Dock::on_goal, {.text = "Via points and goals, as Goto takes them."}};
+  orca::PushServer<orca::idl::Arrived> done_{
+      *this,
+      "ArrivedPush",
+      {.text = "One object per goal reached; at a charger when the battery is charged."}};
+  orca::PushServer<orca::idl::GoalFailed> undone_{
+      *this,
+      "GoalFailedPush",
+      {.text = "One object per goal not reached, or where the battery is not charged."}};
+  orca::PushServer<orca::idl::MotionCommand> motion_{
+      *this, "motion", {.text = "One command per lap: a wish at a charger, no opinion elsewhere."}};
+  orca::PushServer<orca::idl::GoalPoint> touch_{
+      *this,
+      "TouchPush",
+      {.text = "The contacts that the robot is to touch, in its own frame, once per lap at a charger."}};
+
+  orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
+  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of Goto."}};
+  orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "Goals that Goto has given up."}};
+  orca::PushProxy<orca::idl::RobotPose> localizer_{
+      *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};
+  orca::PushProxy<orca::idl::Battery> battery_{
+      *this, "battery", {.text = "The battery, which says whether it is charged."}};
+  orca::QueryProxy<orca::idl::Ask, orca::idl::GoalPoint> places_{
+      *this,
+      "places",
+      {.text = "Asked for the direction of a charger that a goal gives without one: a PlaceServer.",
+       .optional = true}};
+
+  orca::Param<std::vector<std::string>> docks_{
+      *this, "docks", {"dock"}, {.text = "Names of the goals that are chargers."}};
+  orca::Param<double> standoff_{
+      *this,
+      "standoff",
+      0.8,
+      {.unit = "m",
+       .min = 0.0,
+       .text = "Distance from the contacts to the middle of the robot, from where on it creeps."}};
+  orca::Param<double> speed_{
+      *this,
+      "speed",
+      0.05,
+      {.unit = "m/s", .min = 0.01, .max = 0.1, .text = "Speed at which it touches the contacts."}};
+  orca::Param<double> back_off_{
+      *this, "back_off", 0.4, {.unit = "m", .min = 0.0, .text = "How far it drives back from a charger."}};
+  orca::Param<double> patience_{
+      *this,
+      "patience",
+      4.0,
+      {.unit = "s", .min = 0.1, .text = "Time for which it waits at the contacts until it is charged."}};
+  orca::Param<std::int64_t> attempts_{
+      *this, "attempts", 3, {.min = 1, .text = "Attempts after which the goal is given up."}};
+  orca::Param<double> weight_{
+      *this,
+      "weight",
+      1.0,
+      {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
+
+  orca::ObjectPtr<orca::idl::GoalPoint> goal_;                  // the last point that came, until its result
+  std::vector<orca::ObjectPtr<orca::idl::GoalPoint>> waiting_;  // that Goto does not have yet
+  orca::SenderWatch senders_{host()};
+  Pose2 X_WD_;                      // of the charger that goal_ is
+  std::optional<Work> work_;        // from when the robot is before it
+  bool docked_ = false;             // Its ports may hear nothing while no task drives the robot.
+  std::optional<Pose2> left_from_;  // from where it drives back
+};
+
+}  // namespace
+
+ORCA_COMPONENT(Dock, "orca.Dock")
