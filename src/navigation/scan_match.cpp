@@ -30,8 +30,10 @@ struct Step {
   }
 };
 
-void pull(Step& step, Vec2 point, const SurfacePoint& surface, const Pose2& X_MR, double reach) {
-  const Vec2 off = rotated(X_MR * point - surface.at, -X_MR.yaw);
+// @param back  the direction of the map's x axis, seen from the scan.
+void pull(Step& step, Vec2 point, Vec2 there, const SurfacePoint& surface, Vec2 back, double reach) {
+  const Vec2 off = rotated(there - surface.at, back);
+  const Vec2 normal = rotated(surface.normal, back);
   // Half as strong at a third of the reach.
   const auto weight = [&](double e) { return 1.0 / (1.0 + 9.0 * e * e / (reach * reach)); };
   const auto along = [&](Vec2 axis) {
@@ -40,13 +42,13 @@ void pull(Step& step, Vec2 point, const SurfacePoint& surface, const Pose2& X_MR
     step.squares += e * e;
   };
   ++step.pulled;
-  step.fit += weight(surface.normal == Vec2{} ? norm(off) : dot(off, rotated(surface.normal, -X_MR.yaw)));
+  step.fit += weight(surface.normal == Vec2{} ? norm(off) : dot(off, normal));
   if (surface.normal == Vec2{}) {
     along({1.0, 0.0});
     along({0.0, 1.0});
   } else {
     const Eigen::Matrix3d before = step.h;
-    along(rotated(surface.normal, -X_MR.yaw));
+    along(normal);
     step.known += step.h - before;
   }
 }
@@ -54,13 +56,15 @@ void pull(Step& step, Vec2 point, const SurfacePoint& surface, const Pose2& X_MR
 Step step_at(std::span<const SurfacePoint> scan, const SurfaceMap& map, const Pose2& X_MR, double reach) {
   Step step;
   const Vec2 ahead = direction(X_MR.yaw);
+  const Vec2 back = direction(-X_MR.yaw);
   for (const SurfacePoint& point : scan) {
-    const SurfacePoint* surface = map.nearest(X_MR.position() + rotated(point.at, ahead), reach);
+    const Vec2 there = X_MR.position() + rotated(point.at, ahead);
+    const SurfacePoint* surface = map.nearest(there, reach);
     if (surface == nullptr) continue;
     // The other side of a thin wall is another surface.
     const Vec2 seen = rotated(point.normal, ahead);
     if (dot(seen, surface->normal) < 0.0) continue;
-    pull(step, point.at, *surface, X_MR, reach);
+    pull(step, point.at, there, *surface, back, reach);
   }
   return step;
 }

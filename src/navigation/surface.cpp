@@ -169,22 +169,35 @@ void SurfaceMap::prepare() {
   points_ = std::move(sorted);
 }
 
+std::span<const SurfacePoint> SurfaceMap::in_row(int row, int first, int last) const {
+  const std::uint32_t begin = begin_[lattice_.index({first, row})];
+  return std::span(points_).subspan(begin, begin_[lattice_.index({last, row}) + 1] - begin);
+}
+
 const SurfacePoint* SurfaceMap::nearest(Vec2 place, double reach) const {
-  const SurfacePoint* best = nullptr;
+  constexpr double kRounding = 1e-9;  // [m]
+  const auto squared_to = [&](const SurfacePoint& point) {
+    const Vec2 off = point.at - place;
+    return dot(off, off);
+  };
   double least = reach * reach;
-  const Cell low = lattice_.cell_at(place - Vec2{reach, reach});
-  const Cell high = lattice_.cell_at(place + Vec2{reach, reach});
+  // The own cell is looked at first: it mostly holds a point that is so near that few other cells are left.
+  if (const Cell own = lattice_.cell_at(place); lattice_.holds(own))
+    for (const SurfacePoint& point : in_row(own.row, own.column, own.column))
+      least = std::min(least, squared_to(point));
+  const double around = std::min(reach, std::sqrt(least) + kRounding);
+  const Cell low = lattice_.cell_at(place - Vec2{around, around});
+  const Cell high = lattice_.cell_at(place + Vec2{around, around});
+  const int first = std::max(low.column, 0);
+  const int last = std::min(high.column, lattice_.columns - 1);
+  const SurfacePoint* best = nullptr;
+  if (first > last) return best;
   for (int row = std::max(low.row, 0); row <= std::min(high.row, lattice_.rows - 1); ++row)
-    for (int column = std::max(low.column, 0); column <= std::min(high.column, lattice_.columns - 1);
-         ++column) {
-      const std::size_t at = lattice_.index({column, row});
-      for (std::uint32_t i = begin_[at]; i < begin_[at + 1]; ++i) {
-        const Vec2 off = points_[i].at - place;
-        const double squared = dot(off, off);
-        if (squared > least) continue;
-        least = squared;
-        best = &points_[i];
-      }
+    for (const SurfacePoint& point : in_row(row, first, last)) {
+      const double squared = squared_to(point);
+      if (squared > least) continue;
+      least = squared;
+      best = &point;
     }
   return best;
 }

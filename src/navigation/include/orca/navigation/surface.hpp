@@ -42,8 +42,11 @@ class SurfaceMap {
   static constexpr double kReach = 0.5;  ///< [m]
 
  private:
+  // Returns the points in a part of a row of cells, of which the lattice holds all.
+  [[nodiscard]] std::span<const SurfacePoint> in_row(int row, int first, int last) const;
+
   std::vector<SurfacePoint> points_;
-  Lattice lattice_{{}, kReach / 2.0, 0, 0};
+  Lattice lattice_{{}, kReach / 5.0, 0, 0};
   std::vector<std::uint32_t> begin_;  // of each cell's points
 };
 
