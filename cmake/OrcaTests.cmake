@@ -27,18 +27,22 @@ if(ORCA_CCACHE)
   set(ORCA_CACHED_COMPILER "CMAKE_CXX_COMPILER_LAUNCHER=${ORCA_CCACHE}" CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1)
 endif()
 
-# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs three entries per processor.
+# Most entries wait: for a robot in real time, for a process that ends. `./dev test` runs several entries per processor. Those that
+# compute share the processors that this file tells ctest of (--resource-spec-file); without it they are held up by nothing.
 cmake_host_system_information(RESULT ORCA_PROCESSORS QUERY NUMBER_OF_LOGICAL_CORES)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/processors.json CONTENT
+  "{\"version\": {\"major\": 1, \"minor\": 0}, \"local\": [{\"processor\": [{\"id\": \"any\", \"slots\": @ORCA_PROCESSORS@}]}]}\n" @ONLY)
 
 # orca_computes(TEST) says that a ctest entry keeps a processor busy for most of its time: no more of them run at once than there
-# are processors. Not by PROCESSORS: an entry that needs several slots starts when all others have ended, because each slot that
-# becomes free is taken at once.
+# are processors. They start before all entries that wait, so that no processor is idle at the end. Not by PROCESSORS: an entry that
+# needs several slots starts when all others have ended, because each slot that becomes free is taken at once.
 function(orca_computes test)
-  get_property(count GLOBAL PROPERTY ORCA_COMPUTING_TESTS)
-  math(EXPR next "${count} + 1")
-  set_property(GLOBAL PROPERTY ORCA_COMPUTING_TESTS ${next})
-  math(EXPR processor "${next} % ${ORCA_PROCESSORS}")
-  set_tests_properties(${test} PROPERTIES RESOURCE_LOCK processor_${processor})
+  get_test_property(${test} COST cost)
+  if(NOT cost)
+    set(cost 0)
+  endif()
+  math(EXPR cost "1000 + ${cost}")
+  set_tests_properties(${test} PROPERTIES RESOURCE_GROUPS processor:1 COST ${cost})
 endfunction()
 
 # All slots of any machine: ctest lets an entry that needs more than there are run alone.
@@ -47,7 +51,7 @@ set(ORCA_ALONE 1024)
 # orca_add_test(NAME SOURCES ... LINK ... [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES] [OPTIMISED] [TOGETHER] [SLOW_RUN])
 #
 # Adds a Catch2 program with one ctest entry. TIMEOUT [s] is a bound on hangs in the release build; the default is 300 s.
-# COST [s] is what it takes on an idle machine; ctest starts the dearest first. It is given from about 20 s on. COMPUTES is for an
+# COST [s] is what it takes on an idle machine; ctest starts the dearest first. It is given from about 10 s on. COMPUTES is for an
 # entry that keeps a processor busy for most of its time. OPTIMISED is for tests that compute much themselves. TOGETHER are
 # sources whose unnamed namespaces have no name in common: they are compiled in units if the preset does so. SLOW_RUN adds the
 # entry NAME_whole to the slow tests, for all that slow_run.hpp leaves out of the normal suite.
@@ -95,9 +99,9 @@ function(orca_add_test name)
 endfunction()
 
 # Adds a ctest entry, NAME_TAG_test for NAME_test, that runs the cases of a test whose tags match `cases`. Further arguments:
-# [LABELS ...] [TIMEOUT seconds]. It is shown as skipped if a case prints "SKIPPED: ".
+# [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES]. It is shown as skipped if a case prints "SKIPPED: ".
 function(orca_add_tagged_cases test tag cases)
-  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS" ${ARGN})
+  cmake_parse_arguments(arg "COMPUTES" "TIMEOUT;COST" "LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
@@ -108,9 +112,15 @@ function(orca_add_tagged_cases test tag cases)
   add_test(NAME ${name} COMMAND ${test} --use-colour no "${cases}")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} SKIP_REGULAR_EXPRESSION "SKIPPED: "
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
+  if(arg_COST)
+    set_tests_properties(${name} PROPERTIES COST ${arg_COST})
+  endif()
+  if(arg_COMPUTES)
+    orca_computes(${name})
+  endif()
 endfunction()
 
-# orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds]) adds an entry for the cases of TEST with the tag [data] (public
+# orca_add_optional_cases(TEST TAG [LABELS ...] [TIMEOUT seconds] [COST seconds] [COMPUTES]) adds an entry for the cases of TEST with the tag [data] (public
 # data, which is not in the repository) or [tool] (a program that may not be installed).
 function(orca_add_optional_cases test tag)
   orca_add_tagged_cases(${test} ${tag} "[${tag}]~[.]~[quiet]" ${ARGN})
