@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A graph in several host processes: each of them may die at any moment, in any way, and so may the deployer.
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -8,8 +9,11 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
+#include <future>
 #include <random>
 #include <sstream>
+#include <stop_token>
 #include <thread>
 
 #include "deployer.hpp"
@@ -137,6 +141,51 @@ TEST_CASE("while the process of the behaviours hangs the base stops the robot", 
   CHECK(system.when("process behaviours hung and was killed", mark) - stopped < Seconds(1.0 * kSlowdown));
   system.when("process behaviours is back", mark);
   CHECK_FALSE(is_alive(behaviours));
+  stop(system);
+}
+
+namespace {
+
+/// Keeps the threads of a process from ending, however it is killed, as long as this object lives.
+class HeldBeforeItsEnd {
+ public:
+  explicit HeldBeforeItsEnd(pid_t process) {
+    std::promise<int> held;
+    std::future<int> number = held.get_future();
+    holder_ = std::jthread([process, &held](const std::stop_token& stop) {
+      int count = 0;  // whoever traces is a thread: with it ends what it does
+      for (const auto& thread :
+           std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task"))
+        count +=
+            ptrace(PTRACE_SEIZE, std::stoi(thread.path().filename().string()), 0, PTRACE_O_TRACEEXIT) == 0;
+      held.set_value(count);
+      while (!stop.stop_requested()) std::this_thread::sleep_for(kMoment);
+    });
+    threads_ = number.get();
+  }
+  [[nodiscard]] int threads() const { return threads_; }
+
+ private:
+  std::jthread holder_;
+  int threads_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a process that was killed and takes long to end did not hang", "[system][processes]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const pid_t sink = system.process("sink");
+  const std::size_t mark = system.mark();
+  {
+    const HeldBeforeItsEnd held(sink);
+    REQUIRE(held.threads() > 0);
+    REQUIRE(kill(sink, SIGKILL) == 0);
+    std::this_thread::sleep_for(Seconds(1.0));  // twice what a silent process has
+    CHECK(is_alive(sink));
+  }
+  system.when("process sink was ended by SIGKILL", mark);
+  system.when("process sink is back", mark);
   stop(system);
 }
 

@@ -13,6 +13,8 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -175,6 +177,21 @@ std::optional<ExitReason> HostProcess::guess_end() const {
   reason.force = force_;
   reason.is_guess = true;
   return reason;
+}
+
+bool HostProcess::is_dying() const {
+  constexpr unsigned long kExiting = 0x4, kEndedBySignal = 0x400;  // PF_EXITING, PF_SIGNALED of the kernel
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+  std::string line;
+  if (!std::getline(file, line)) return true;
+  std::istringstream values(line.substr(line.rfind(')') + 1));  // the name may hold any character
+  std::string skipped;
+  unsigned long flags = 0, pending = 0;
+  for (int field = 3; field < 9; ++field) values >> skipped;
+  values >> flags;
+  for (int field = 10; field < 31; ++field) values >> skipped;
+  values >> pending;
+  return (flags & (kExiting | kEndedBySignal)) != 0 || (pending >> (SIGKILL - 1) & 1U) != 0;
 }
 
 Descriptor HostProcess::share_output() const {

@@ -208,7 +208,7 @@ class SupervisedRun {
   void look_at_beats() {
     for (const std::size_t place : beats_.look(now())) {
       const Member* const member = roster_.at_place(place);
-      if (member != nullptr && member->process() != nullptr)
+      if (member != nullptr && member->process() != nullptr && !member->process()->is_dying())
         member->process()->end_by_force(Force::hang, now());
     }
     for (const auto& [place, time] : beats_.take_starved()) {

@@ -102,6 +102,9 @@ class HostProcess {
   /// Returns why the process has ended; nothing while it runs.
   [[nodiscard]] const std::optional<ExitReason>& exit();
 
+  /// Returns whether a signal has ended it already, although it still exists: it writes its core, or a busy machine lets its threads
+  /// wait. It does nothing any more, and no signal makes it end earlier.
+  [[nodiscard]] bool is_dying() const;
   /// Returns its private memory in use [bytes]; nothing if it has ended.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
 
