@@ -136,14 +136,15 @@ TEST_CASE("each part is exchanged while the robot drives, and it drives on by th
   const std::string hall = folder.write("long.xml", world("long", R"(<room name="hall" from="0 0" to="30 6"/>
   <place name="start" x="1" y="3" yaw="0"/>)"));
   Subprocess program(
-      deployer({source_file("graphs/pioneer_planner_parts.xml"), "--until", "18 s", "--set", "world=" + hall,
+      deployer({source_file("graphs/pioneer_planner_parts.xml"), "--until", "11 s", "--set", "world=" + hall,
                 "--set", "goals=east: 28 3", "--record", csv + "=fuser.base"}));
-  std::this_thread::sleep_for(std::chrono::seconds(4));
+  std::this_thread::sleep_for(std::chrono::seconds(3));
   for (const auto& [name, plugin] :
        {std::pair{"world_model", "world_model.so"}, std::pair{"planner", "path_planner.so"},
         std::pair{"pilot", "pilot.so"}}) {
     copy_plugin(std::string(ORCA_BINARY_DIR "/plugins/") + plugin, folder.file("next"));
-    const Run swapped = run_orcactl({"swap", name, folder.file("next") + "/" + plugin, "--untried"});
+    const Run swapped = run_orcactl({"swap", name, folder.file("next") + "/" + plugin, "--untried",
+                                     "--tryout", "500 ms", "--probation", "500 ms"});
     INFO(swapped.out << swapped.err);
     CHECK(swapped.exit_code() == 0);
   }

@@ -174,7 +174,7 @@ TEST_CASE("a robot that is carried off looks around and goes on; if it may not w
 
 TEST_CASE("a robot that patrols goes to charge in time, and on from where it was", "[system][tasks]") {
   const Office office{.events = R"(<drain robot="Pioneer" at="20 s" to="24 %"/>)"};
-  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "900 s"};
+  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "800 s"};
   const Run run = office.run(patrol);
   INFO(run.err);
   const Words reached = names(run);
@@ -198,10 +198,10 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const auto begin = text.find("<On when=\"battery");
   text.erase(begin, text.find("</On>", begin) + 5 - begin);
   const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="1 %"/>)"}.run(
-      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "500 s"});
+      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "400 s"});
   INFO(bare.err);
   REQUIRE_FALSE(bare.arrivals().empty());
-  CHECK(bare.arrivals().back().t < 350.0);
+  CHECK(bare.arrivals().back().t < 300.0);
   CHECK(bare.says("the time limit has ended the run"));
 }
 
