@@ -66,7 +66,7 @@ std::array<std::uint16_t, 8> costs_around(const Lattice& lattice, std::span<cons
 }  // namespace
 
 GridSearch::GridSearch(SearchRules rules)
-    : rules_(rules), shift_(std::bit_width(rules.straight * kPlainCost) - 1) {}
+    : rules_(rules), shift_(static_cast<int>(std::bit_width(rules.straight * kPlainCost)) - 1) {}
 
 CellWay GridSearch::operator()(const Lattice& lattice, std::span<const std::uint16_t> costs, Cell start,
                                Cell goal, std::span<const std::uint8_t> forbidden) {
