@@ -61,6 +61,12 @@ TEST_CASE("orcactl map save writes the map of a running system, and never over a
   CHECK_THAT(again.err, Contains("hall.png: it is there already; choose another name, or remove it first"));
   CHECK(read_text(folder.path() / "hall.yaml") == text);
 
+  // Rooms and doors of what was saved are proposed, without a system.
+  const Run ways = run_orcactl({"map", "ways", folder.file("hall.yaml")});
+  CHECK(ways.exit_code() == 0);
+  CHECK_THAT(ways.out, Contains("<ways name=\"hall\" version=\"1\">"));
+  CHECK_THAT(run_orcactl({"map", "ways", folder.file("hull.yaml")}).err, Contains("hull.yaml"));
+
   // What was saved is served.
   const Run checked =
       run_deployer({system_graph("maps.xml"), "--check", "--set", "map=" + folder.file("hall.yaml")});

@@ -72,7 +72,9 @@ constexpr std::string_view kMapDetails =
     "another name, "
     "give the PORT, such as slam.OccupancyGridQuery. Cells from 65 % on are occupied (black), up to 19 % "
     "free (white), "
-    "others not known (grey 205). A file is never overwritten, and neither is there before both are whole.";
+    "others not known (grey 205). A file is never overwritten, and neither is there before both are whole.\n"
+    "map ways NAME.yaml prints a topological map for orca.RouteServer, to be completed by hand: rooms, the "
+    "narrow passages between them as doors, and legs from door to door. No system needs to run.";
 
 constexpr std::string_view kCalibrateDetails =
     "RECORDING is an MCAP file or a CARMEN log; PORT... says which odometry and which laser if there are "
@@ -147,9 +149,9 @@ std::vector<Command> file_commands() {
        .text = "show, check, repair, convert or compare a recording; no system needs to run",
        .details = kBagDetails},
       {.name = "map",
-       .arguments = {{"save"}, {"NAME", Names::file}, {"PORT", Names::port, true}},
+       .arguments = {{"save|ways"}, {"NAME", Names::file}, {"PORT", Names::port, true}},
        .options = {kTimeout},
-       .text = "save the map of a running system as NAME.yaml and NAME.png",
+       .text = "save the map of a running system as NAME.yaml and NAME.png, or propose rooms and doors",
        .details = kMapDetails},
       {.name = "calibrate",
        .arguments = {{"RECORDING", Names::file}, {"PORT", Names::port, true, true}},

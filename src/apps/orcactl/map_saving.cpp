@@ -11,12 +11,15 @@
 
 #include "asking.hpp"
 #include "client.hpp"
+#include "mapping/rooms.hpp"
 #include "offering.hpp"
 #include "orca/base/text.hpp"
+#include "orca/geometry/pose2.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/maps/map_file.hpp"
+#include "table.hpp"
 
 namespace orca::orcactl {
 namespace {
@@ -65,12 +68,40 @@ Status save(Client& client, const apps::Call& call) {
   return ok();
 }
 
+bool is_name(const std::string& text) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto fits = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  return !text.empty() && is_letter(text.front()) && std::ranges::all_of(text, fits);
+}
+
+// Prints the topological map that the rooms of a map suggest.
+Status propose_ways(const apps::Call& call) {
+  if (call.words.size() > 2)
+    return fail(Code::invalid_argument, "map ways takes a map's file only: orcactl map ways office.yaml");
+  const Result<idl::OccupancyGrid> map = maps::read_map(call.words[1]);
+  if (!map) return map.error();
+  const Pose2 X_WM{0.0, 0.0, map->corner().orientation()};
+  nav::FloorGrid grid;
+  grid.lattice = {seen_from(X_WM, Vec2{map->corner().x(), map->corner().y()}), map->resolution(),
+                  static_cast<int>(map->columns()), static_cast<int>(map->rows())};
+  grid.cells.assign(map->cells().begin(), map->cells().end());
+  const Result<mapping::Division> division = mapping::divide(grid);
+  if (!division) return division.error();
+  print(mapping::ways_text(*division, X_WM, is_name(map->name()) ? map->name() : "ways"));
+  return ok();
+}
+
 }  // namespace
 
 ExitCode handle_map(const apps::Call& call) {
+  if (call.words.front() == "ways") {
+    const Status proposed = propose_ways(call);
+    return proposed.ok() ? ExitCode::done : report({proposed.error()});
+  }
   if (call.words.front() != "save")
-    return report({fail(Code::invalid_argument, "map expects save, not " + in_quotes(call.words.front())),
-                   ExitCode::usage});
+    return report(
+        {fail(Code::invalid_argument, "map expects save or ways, not " + in_quotes(call.words.front())),
+         ExitCode::usage});
   std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
   const Status saved = save(std::get<Client>(connected), call);

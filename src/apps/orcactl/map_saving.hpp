@@ -7,7 +7,7 @@
 
 namespace orca::orcactl {
 
-/// Carries out map: asks a part of a running system for its map, and writes that as files.
+/// Carries out map: asks a part of a running system for its map, and writes that as files; or proposes rooms and doors of such a file.
 [[nodiscard]] ExitCode handle_map(const apps::Call& call);
 
 }  // namespace orca::orcactl
