@@ -76,6 +76,17 @@ void report(const SharedWorld::Inbox::Contact& contact, hw::HardwareHost& host) 
   host.report(touched);
 }
 
+// Returns the name of an obstacle or item in which a robot would stand. Where walkers are at first is drawn, so they are not known yet.
+std::optional<std::string> what_is_at(const Pose2& X_WB, const RobotModel& robot, const WorldModel& world) {
+  const Shape body = placed(robot.footprint, X_WB);
+  if (const Obstacle* const obstacle = world.obstacle_at(body, robot.bottom, robot.top))
+    return obstacle->name;
+  for (const Item& item : world.items)
+    if (item.height > robot.bottom && overlap(body, Circle{item.pose.position(), item.radius}))
+      return item.name;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<HardwareFault> SimulatedRobot::prepare() {
@@ -133,10 +144,10 @@ void SimulatedRobot::find_start(std::vector<HardwareFault>& errors) {
 
 void SimulatedRobot::check_start_is_free(std::vector<HardwareFault>& errors) const {
   if (robot_->fixed) return;
-  const Obstacle* hit = world_->obstacle_at(placed(robot_->footprint, start_), robot_->bottom, robot_->top);
-  if (hit == nullptr) return;
+  const std::optional<std::string> hit = what_is_at(start_, *robot_, *world_);
+  if (!hit) return;
   errors.push_back({start_param(),
-                    "the robot \"" + *name_ + "\" would start inside \"" + hit->name + "\" at x " +
+                    "the robot \"" + *name_ + "\" would start inside \"" + *hit + "\" at x " +
                         xml::number_text(start_.x) + " m, y " + xml::number_text(start_.y) +
                         " m; choose a free place",
                     {"world", "robot", "place", "x", "y", "heading"}});
