@@ -10,12 +10,16 @@ namespace orca::sim::detail {
 namespace {
 
 constexpr double kAtRest = 0.005;  // [m/s]
+constexpr double kDocking = 0.1;   // [m/s] at most, of a robot that docks
+// Factor on what it may be off: what is around the contacts is made to be touched.
+constexpr double kDockSlack = 4.0;
 
-bool reaches(const Robot& robot, const Charger& charger) {
+// @param slack  factor on what a robot may be off.
+bool reaches(const Robot& robot, const Charger& charger, double slack = 1.0) {
   const double front = charger.at_front ? bounds_of(robot.model.footprint).high.x : 0.0;
   const double askew = std::fabs(wrapped(robot.body.yaw - charger.pose.yaw));
-  return norm(robot.body * Vec2{front, 0.0} - charger.pose.position()) <= charger.reach &&
-         (!charger.at_front || askew <= Charger::kAskew);
+  return norm(robot.body * Vec2{front, 0.0} - charger.pose.position()) <= slack * charger.reach &&
+         (!charger.at_front || askew <= slack * Charger::kAskew);
 }
 
 }  // namespace
@@ -28,6 +32,12 @@ void Batteries::add() {
 bool Batteries::is_charged(const Robot& robot) const {
   return robot.speed() < kAtRest && std::ranges::any_of(world_.chargers, [&](const Charger& charger) {
            return reaches(robot, charger);
+         });
+}
+
+bool Batteries::docks(const Robot& robot) const {
+  return robot.speed() <= kDocking && std::ranges::any_of(world_.chargers, [&](const Charger& charger) {
+           return charger.at_front && reaches(robot, charger, kDockSlack);
          });
 }
 

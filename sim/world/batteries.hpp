@@ -22,6 +22,8 @@ class Batteries {
   void add();
   // Lets the batteries work for one tick, after the robots have moved. A robot whose battery is empty is driven no more.
   void work(Duration tick);
+  // Returns whether a robot slowly brings its front to the contacts of a charger, or beside them: what it touches there is to be touched.
+  [[nodiscard]] bool docks(const Robot& robot) const;
   // Returns the battery of the robot of that number; null if it has none.
   [[nodiscard]] const BatteryModel* of(std::size_t robot) const;
   [[nodiscard]] BatteryModel* of(std::size_t robot);

@@ -185,6 +185,7 @@ void World::Impl::report_contacts() {
   for (const detail::Pair& p : contact_log.update(physics)) {
     const detail::Robot& r = robots[p.robot];
     if (r.model.fixed) continue;  // What has driven into it says so.
+    if (p.kind != detail::Kind::robot && p.kind != detail::Kind::mover && batteries.docks(r)) continue;
     contacts.push_back({r.name, now, name_of(p), r.speed(),
                         p.kind == detail::Kind::mover ? movers.walking_speed(p.other) : std::nullopt});
   }

@@ -69,5 +69,5 @@ TEST_CASE("a Scout docks by the pose that its sonars give, and drives on", "[sys
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(names(run) == Words{"before_dock", "dock", "meeting"});
-  CHECK_FALSE(run.contacts().empty());
+  CHECK(run.contacts().empty());
 }

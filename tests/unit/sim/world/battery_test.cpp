@@ -117,6 +117,28 @@ TEST_CASE("a charger with contacts charges a robot that touches them with its fr
   CHECK_FALSE(is_charged({-0.21, 0.0, 0.0}));
 }
 
+TEST_CASE("a touch of the contacts of a charger is no contact unless it is fast, one elsewhere is",
+          "[sim][battery]") {
+  const auto touches = [](double speed, const std::vector<Charger>& chargers) {
+    WorldModel model = test_room();
+    model.obstacles.push_back({.name = "post", .shape = Circle{{0.5, 0.0}, 0.1}, .height = 1.0});
+    model.chargers = chargers;
+    World world(std::move(model), {.seed = 1, .realism = Realism::ideal});
+    const RobotId robot = world.add_robot("Scout", scout(), {}).value();
+    REQUIRE(world.set_velocity_command(robot, speed, 0.0).ok());
+    std::size_t contacts = 0;
+    for (int tick = 0; tick < 800; ++tick) {
+      world.step();
+      contacts += world.contacts().size();
+    }
+    return contacts;
+  };
+  CHECK(touches(0.05, {{"dock", {0.39, 0.0, 0.0}, 0.03, true}}) == 0);
+  CHECK(touches(0.3, {{"dock", {0.39, 0.0, 0.0}, 0.03, true}}) == 1);
+  CHECK(touches(0.05, {{"dock", {0.39, 0.0, 180 * kDegree}, 0.03, true}}) == 1);
+  CHECK(touches(0.05, {{"dock", {0.39, 0.0, 0.0}, 0.3, false}}) == 1);
+}
+
 TEST_CASE("a robot without a battery has none to read, charge or drain", "[sim][battery]") {
   World world = Room::make({.drains = {{"Scout", seconds(1), 0.0}}}, {});
   const RobotId robot = world.add_robot("Scout", scout(), {}).value();
