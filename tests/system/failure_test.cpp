@@ -42,6 +42,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_laser_goto", "", {"goto", "avoid"}},
     {"pioneer_one_core", "", {"goto", "avoid"}},
     {"pioneer_people", "", {"goto", "avoid"}},
+    {"pioneer_follow", "", {"follow", "avoid"}},
     {"courier_depot", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},
     {"pioneer_fetch", "", {"goto", "avoid", "porter"}},
