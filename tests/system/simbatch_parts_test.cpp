@@ -268,7 +268,7 @@ TEST_CASE("a run whose process the machine kills is no result, and is made again
 
 namespace {
 
-// Keeps one processor busy with everything but the run.
+// Keeps one processor busy with everything but the run, and leaves it to the tests beside this one.
 class BusyProcessor {
  public:
   BusyProcessor() {
@@ -281,6 +281,7 @@ class BusyProcessor {
     for (int i = 0; i < 8; ++i) {
       hogs_.push_back(std::make_unique<Subprocess>(Words{"/bin/sh", "-c", "while :; do :; done"}));
       sched_setaffinity(hogs_.back()->pid(), sizeof processor_, &processor_);
+      setpriority(PRIO_PROCESS, static_cast<id_t>(hogs_.back()->pid()), 10);
     }
   }
   // Leaves a process what the hogs do not take.
