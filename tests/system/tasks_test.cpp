@@ -173,8 +173,11 @@ TEST_CASE("a robot that is carried off looks around and goes on; if it may not w
 }
 
 TEST_CASE("a robot that patrols goes to charge in time, and on from where it was", "[system][tasks]") {
-  const Office office{.events = R"(<drain robot="Pioneer" at="20 s" to="24 %"/>)"};
-  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "800 s"};
+  // The second one is as if it had been charged for ten minutes.
+  const Office office{
+      .events =
+          R"(<drain robot="Pioneer" at="20 s" to="24 %"/><drain robot="Pioneer" at="100 s" to="90 %"/>)"};
+  const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml"), "--until", "260 s"};
   const Run run = office.run(patrol);
   INFO(run.err);
   const Words reached = names(run);
@@ -197,11 +200,11 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   std::string text = read_text(source_file("graphs/tasks/patrol.xml"));
   const auto begin = text.find("<On when=\"battery");
   text.erase(begin, text.find("</On>", begin) + 5 - begin);
-  const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="1 %"/>)"}.run(
-      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "400 s"});
+  const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="0.3 %"/>)"}.run(
+      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "250 s"});
   INFO(bare.err);
   REQUIRE_FALSE(bare.arrivals().empty());
-  CHECK(bare.arrivals().back().t < 300.0);
+  CHECK(bare.arrivals().back().t < 150.0);
   CHECK(bare.says("the time limit has ended the run"));
 }
 
