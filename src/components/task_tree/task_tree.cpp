@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lookout.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/goals/mission_proxy.hpp"
@@ -15,7 +15,6 @@
 #include "orca/idl/system.hpp"
 #include "orca/idl/tasks.hpp"
 #include "orca/idl/time.hpp"
-#include "orca/text/object_table.hpp"
 #include "task.hpp"
 #include "task_rules.hpp"
 #include "task_run.hpp"
@@ -26,19 +25,11 @@ using orca::go::MissionProxy;
 using orca::tasks::Actor;
 using orca::tasks::Condition;
 using orca::tasks::Kind;
-using orca::tasks::Sight;
 using orca::tasks::Step;
 using orca::tasks::Task;
 using orca::tasks::TaskRun;
 
 constexpr const char* kQuestion = "QUESTION";  // kind of the alarm while it asks
-
-// A port whose objects conditions look at.
-struct Watched {
-  Sight sight;
-  std::function<void()> take_all;
-  std::function<std::optional<std::string>(const std::string& field)> newest;
-};
 
 /// A component that does a task (thesis 6.1, 11.5): it drives from place to place, waits, asks and looks, as a task file says, and
 /// reacts to what the system says meanwhile. Each drive is a mission. When the task is done the component is done, and when the task
@@ -52,48 +43,18 @@ class TaskTree final : public orca::Component, private Actor {
  private:
   orca::Status configure() override {
     stay_active(true);
-    watch(battery_);
-    watch(gripper_);
-    watch(localization_);
+    lookout_.watch(battery_);
+    lookout_.watch(gripper_);
+    lookout_.watch(localization_);
     if (const orca::Status read = read_file(); !read.ok()) return task_file_.refuse(read.error());
     run_ = std::make_unique<TaskRun>(task_);
     return mission_.configure();
   }
 
-  template <class T>
-  void watch(orca::PushProxy<T>& port) {
-    if (!port.connected()) return;
-    watched_.push_back({sight_of<T>(port.name()),
-                        [&port] {
-                          while (port.new_data_arrived()) (void)port.get_update();
-                        },
-                        [&port](const std::string& field) { return field_of<T>(port.latest(), field); }});
-  }
-
-  template <class T>
-  static Sight sight_of(const std::string& port) {
-    const auto example = orca::make_object<T>();
-    Sight sight{port, orca::field_names(orca::object_type<T>(), &*example)};
-    for (const std::string& field : sight.fields)
-      if (auto words = orca::field_words(orca::object_type<T>(), &*example, field); !words.empty())
-        sight.words[field] = std::move(words);
-    return sight;
-  }
-
-  template <class T>
-  static std::optional<std::string> field_of(const orca::ObjectPtr<T>& object, const std::string& field) {
-    if (!object) return std::nullopt;
-    const auto texts = orca::field_texts(orca::object_type<T>(), &*object, field);
-    if (!texts || texts->size() != 1) return std::nullopt;
-    return texts->front().text;
-  }
-
   // Reports all faults of the file at once.
   orca::Status read_file() {
-    std::vector<Sight> sights;
-    for (const Watched& watched : watched_) sights.push_back(watched.sight);
     orca::xml::Diagnostics diagnostics;
-    std::optional<Task> task = orca::tasks::read_task(*task_file_, sights, diagnostics);
+    std::optional<Task> task = orca::tasks::read_task(*task_file_, lookout_.sights(), diagnostics);
     if (task) look_up_places(*task, diagnostics);
     if (task && !diagnostics.has_errors()) {
       task_ = std::move(*task);
@@ -113,7 +74,7 @@ class TaskTree final : public orca::Component, private Actor {
   }
 
   orca::Outcome work() override {
-    for (const Watched& watched : watched_) watched.take_all();
+    lookout_.take_all();
     alarms_ = kept_alarms();
     if (!paused_ && is_on()) run_->tick(*this, orca::to_seconds(now().time_since_epoch()));
     show();
@@ -161,19 +122,13 @@ class TaskTree final : public orca::Component, private Actor {
     return orca::tasks::holds(
         condition,
         {[this](const std::string& kind, const std::string& source) { return has_alarm(kind, source); },
-         [this](const std::string& port, const std::string& field) { return newest(port, field); }});
+         [this](const std::string& port, const std::string& field) { return lookout_.newest(port, field); }});
   }
 
   [[nodiscard]] bool has_alarm(const std::string& kind, const std::string& source) const {
     return std::ranges::any_of(alarms_, [&](const orca::idl::Alarm& alarm) {
       return alarm.active() && orca::kind_text(alarm) == kind && (source.empty() || alarm.source() == source);
     });
-  }
-
-  [[nodiscard]] std::optional<std::string> newest(const std::string& port, const std::string& field) const {
-    const auto watched =
-        std::ranges::find_if(watched_, [&](const Watched& w) { return w.sight.port == port; });
-    return watched == watched_.end() ? std::nullopt : watched->newest(field);
   }
 
   static std::optional<Ending> ending_of(const std::optional<MissionProxy::Ending>& ending) {
@@ -343,7 +298,7 @@ class TaskTree final : public orca::Component, private Actor {
 
   Task task_;
   std::unique_ptr<TaskRun> run_;
-  std::vector<Watched> watched_;
+  orca::tasks::Lookout lookout_;
   std::vector<orca::idl::Alarm> alarms_;  // of this lap
   bool paused_ = false;
   orca::TimePoint paused_at_{};
