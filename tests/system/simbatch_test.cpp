@@ -361,6 +361,8 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
                                    std::pair{"posts_and_offices", "6 variants, 80 worlds, 1 seed: 480 runs"},
                                    std::pair{"tour", "3 variants, 8 worlds, 10 seeds: 240 runs"},
                                    std::pair{"fetch", "2 variants, 9 worlds, 10 seeds: 180 runs"},
+                                   std::pair{"deliver", "2 variants, 7 worlds, 7 seeds: 98 runs"},
+                                   std::pair{"map_office", "1 variant, 7 worlds, 7 seeds: 49 runs"},
                                    std::pair{"patrol", "2 variants, 7 worlds, 7 seeds: 98 runs"},
                                    std::pair{"scout_tour", "2 variants, 7 worlds, 10 seeds: 140 runs"},
                                    std::pair{"doors", "6 variants, 6 worlds, 20 seeds: 720 runs"},

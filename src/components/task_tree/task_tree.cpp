@@ -99,11 +99,13 @@ class TaskTree final : public orca::Component, private Actor {
 
   std::optional<Ending> go_on(const Step& step) override {
     if (step.kind == Kind::drive) return ending_of(mission_.wait(orca::Duration{0}));
+    const double asked_for = orca::to_seconds(now() - asked_at_);
+    if (*yes_after_ > 0.0 && asked_for >= *yes_after_) answer_ = true;
     if (answer_) {
       clear_alarm(kQuestion, *answer_ ? "answered: yes" : "answered: no");
       return *answer_ ? Ending{true, {}} : Ending{false, "answered: no"};
     }
-    if (orca::to_seconds(now() - asked_at_) < step.time) return std::nullopt;
+    if (asked_for < step.time) return std::nullopt;
     clear_alarm(kQuestion, "nobody has answered");
     return Ending{false, "no answer: \"" + step.words + "\""};
   }
@@ -295,6 +297,14 @@ class TaskTree final : public orca::Component, private Actor {
       "goal_timeout",
       300.0,
       {.unit = "s", .min = 1.0, .text = "Longest time for a Drive that does not say its own."}};
+  orca::Param<double> yes_after_{
+      *this,
+      "yes_after",
+      0.0,
+      {.unit = "s",
+       .min = 0.0,
+       .text = "Time after which each question counts as answered with yes, for experiments, in which there are no "
+               "people; 0: people are asked."}};
 
   Task task_;
   std::unique_ptr<TaskRun> run_;
