@@ -45,7 +45,7 @@ double clearance(const Footprint& footprint, const Pose2& pose, std::span<const 
 Room room_along(const Footprint& footprint, const Pose2& pose, const Travel2& travel, int steps,
                 std::span<const Vec2> points, double margin) {
   const double before = clearance(footprint, pose, points, kMostClearance);
-  const double least = std::min(margin, before - kNoNearer);
+  double least = std::min(margin, before - kNoNearer);
   Room room{1.0, before};
   for (int i = 1; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
@@ -55,6 +55,7 @@ Room room_along(const Footprint& footprint, const Pose2& pose, const Travel2& tr
       room.share = static_cast<double>(i - 1) / steps;
       return room;
     }
+    least = std::max(least, std::min(margin, free - kNoNearer));  // What was left is not come near to again.
     room.clearance = std::min(room.clearance, free);
   }
   return room;

@@ -185,7 +185,11 @@ class CollisionMonitor final : public orca::Component {
   // Returns where the robot may touch what stands there: the contacts of a charger, if it creeps.
   [[nodiscard]] std::optional<orca::gate::Disc> touchable(const Twist2& wanted) const {
     const auto touch = touch_.latest();
-    if (!touch || std::fabs(wanted.forward) > kTouches || std::fabs(twist_.forward) > kTouches ||
+    const double reach = machine_->body(false).reach();
+    const auto creeps = [&](const Twist2& twist) {
+      return std::fabs(twist.forward) <= kTouches && reach * std::fabs(twist.turn_rate) <= 2.0 * kTouches;
+    };
+    if (!touch || !creeps(wanted) || !creeps(twist_) ||
         orca::to_seconds(now() - orca::to_time_point(touch->creation_time())) > kShortestSilence)
       return std::nullopt;
     return orca::gate::Disc{{touch->coordinate().point().x(), touch->coordinate().point().y()},

@@ -46,6 +46,7 @@ class Dock final : public orca::Component {
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     // Its points may be sent again, along another way, when the robot is there already.
     if (work_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
+    if (!goal_ || goal->mission() != goal_->mission()) waiting_.clear();
     work_.reset();
     goal_ = goal;
     waiting_.push_back(goal);
@@ -60,34 +61,39 @@ class Dock final : public orca::Component {
     const auto here = localizer_.get_update();
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
-    if (!senders_.accepts(*here) || orca::is_anywhere(here->covariance())) {
-      motion_.push(work_ ? orca::full_stop() : orca::dont_care());
-      return orca::again();
-    }
-    const Pose2 pose = orca::plane_pose(*here);
-    if (!waiting_.empty() && leave(pose)) return orca::again();
+    const bool knows = senders_.accepts(*here) && !orca::is_anywhere(here->covariance());
+    if (knows) pose_ = orca::plane_pose(*here), known_at_ = now();
+    if (!waiting_.empty() && leave()) return orca::again();
     pass_on();
-    if (work_) {
-      go_on(pose);
-    } else {
+    if (!work_) {
       motion_.push(orca::dont_care());
+    } else if (knows || charges()) {
+      go_on();
+    } else {
+      wait_for_pose();
     }
     return orca::again();
   }
 
-  // Drives back from a charger before anybody turns the robot there.
+  // With its nose at a charger a robot may lose for a moment where it is.
+  void wait_for_pose() {
+    motion_.push(orca::full_stop());
+    if (orca::to_seconds(now() - known_at_) > kLost)
+      give_up(orca::idl::GOAL_UNANSWERED, "lost: it is not known any more where the robot is");
+  }
+
+  // Drives back from a charger before anybody turns the robot there. It needs no pose: with its nose at a wall a robot may not know where it is.
   // @return whether it does.
-  bool leave(const Pose2& pose) {
-    if (!left_from_ && (docked_ || charges())) left_from_ = pose;
-    docked_ = false;
-    if (!left_from_) return false;
-    const bool is_away = norm(pose.position() - left_from_->position()) >= *back_off_;
-    const bool is_late =
-        orca::to_seconds(now() - orca::to_time_point(waiting_.front()->creation_time())) > kLongest;
-    if (is_away || is_late) {
-      left_from_.reset();
+  bool leave() {
+    if (!leaves_since_ && (docked_ || charges())) leaves_since_ = now();
+    if (!leaves_since_) return false;
+    const double way = *speed_ * orca::to_seconds(now() - *leaves_since_);
+    if (way >= *back_off_) {
+      leaves_since_.reset();
+      docked_.reset();
       return false;
     }
+    show(docked_.value_or(orca::Vec2{kNose, 0.0}) + orca::Vec2{way, 0.0});
     motion_.push(orca::turn(0.0, -*speed_, *weight_));
     return true;
   }
@@ -160,39 +166,39 @@ class Dock final : public orca::Component {
            orca::to_seconds(now() - orca::to_time_point(battery->creation_time())) <= kFresh;
   }
 
-  void go_on(const Pose2& pose) {
-    const Pose2 robot = seen_from(work_->X_WD, pose);
+  void go_on() {
+    const Pose2 robot = seen_from(work_->X_WD, pose_);
     const Step step = work_->docking.step(robot, charges(), orca::to_seconds(now()),
                                           {*speed_, *back_off_, *patience_, static_cast<double>(*attempts_)});
-    if (step.kind == Step::Kind::done) return conclude(pose);
+    const orca::Vec2 contacts = seen_from(robot, orca::Vec2{});
+    if (step.kind == Step::Kind::done) return conclude(contacts);
     if (step.kind == Step::Kind::failed) return give_up(orca::idl::GOAL_UNDONE, "undone: " + step.reason);
-    show(robot);
+    show(contacts);
     motion_.push(orca::turn(step.turn_rate, step.speed, *weight_));
   }
 
   // Says to the gate what the robot is to touch, in the frame of the robot.
-  void show(const Pose2& robot) {
-    const orca::Vec2 contacts = seen_from(robot, orca::Vec2{});
+  void show(orca::Vec2 contacts) {
     auto place = touch_.loan();
-    place->name() = goal_->name();
     place->coordinate().point().x(contacts.x);
     place->coordinate().point().y(contacts.y);
     place->reach_radius().distance(kFace);
     touch_.push(std::move(place));
   }
 
-  void conclude(const Pose2& pose) {
+  void conclude(orca::Vec2 contacts) {
     auto arrived = done_.loan();
     arrived->name() = goal_->name();
-    arrived->x(pose.x);
-    arrived->y(pose.y);
+    arrived->x(pose_.x);
+    arrived->y(pose_.y);
     arrived->stamp(orca::to_time_value(now()));
     done_.push(std::move(arrived));
-    docked_ = true;
+    docked_ = contacts;
     end_work();
   }
 
   void give_up(orca::idl::GoalFailure kind, const std::string& reason) {
+    if (!goal_) return;
     auto failed = undone_.loan();
     failed->name() = goal_->name();
     failed->kind(kind);
@@ -216,20 +222,24 @@ class Dock final : public orca::Component {
   void save_state(orca::StateWriter& state) const override {
     std::optional<Docking> docking;
     if (work_) docking = work_->docking;
-    state.write(goal_, waiting_, X_WD_, docking, docked_, left_from_);
+    state.write(goal_, waiting_, X_WD_, docking, docked_, leaves_since_, pose_, known_at_);
   }
   orca::Status load_state(orca::StateReader& state) override {
     std::optional<Docking> docking;
-    if (orca::Status read = state.read(goal_, waiting_, X_WD_, docking, docked_, left_from_); !read.ok())
+    if (orca::Status read =
+            state.read(goal_, waiting_, X_WD_, docking, docked_, leaves_since_, pose_, known_at_);
+        !read.ok())
       return read;
     if (docking) work_ = Work{X_WD_, *docking};
     return orca::ok();
   }
 
-  static constexpr double kNear = 0.1;      // [m], [rad] to which Goto brings the robot before a charger
-  static constexpr double kFace = 0.4;      // [m] around the contacts, what the robot may touch there
-  static constexpr double kFresh = 3.0;     // [s] Batteries are read once a second, or in ten.
-  static constexpr double kLongest = 30.0;  // [s] of driving back
+  static constexpr double kNear = 0.1;  // [m], [rad] to which Goto brings the robot before a charger
+  static constexpr double kFace = 0.4;  // [m] around the contacts, what the robot may touch there
+  static constexpr double kNose =
+      0.25;  // [m] to the contacts of a charger at which the robot was switched on
+  static constexpr double kLost = 10.0;  // [s]
+  static constexpr double kFresh = 3.0;  // [s] Batteries are read once a second, or in ten.
 
   orca::SendServer<orca::idl::GoalPoint> goals_{
       *this, "GotoCoordinateSend", &Dock::on_goal, {.text = "Via points and goals, as Goto takes them."}};
@@ -274,7 +284,7 @@ class Dock final : public orca::Component {
       *this,
       "speed",
       0.05,
-      {.unit = "m/s", .min = 0.01, .max = 0.1, .text = "Speed at which it touches the contacts."}};
+      {.unit = "m/s", .min = 0.02, .max = 0.05, .text = "Speed at which it touches the contacts."}};
   orca::Param<double> back_off_{
       *this, "back_off", 0.4, {.unit = "m", .min = 0.0, .text = "How far it drives back from a charger."}};
   orca::Param<double> patience_{
@@ -284,19 +294,23 @@ class Dock final : public orca::Component {
       {.unit = "s", .min = 0.1, .text = "Time for which it waits at the contacts until it is charged."}};
   orca::Param<std::int64_t> attempts_{
       *this, "attempts", 3, {.min = 1, .text = "Attempts after which the goal is given up."}};
-  orca::Param<double> weight_{
-      *this,
-      "weight",
-      1.0,
-      {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
+  orca::Param<double> weight_{*this,
+                              "weight",
+                              100.0,
+                              {.min = 0.0,
+                               .text = "Weight of its wishes, relative to other behaviours, which are not to "
+                                       "turn a robot at a charger; 0: they "
+                                       "never count."}};
 
   orca::ObjectPtr<orca::idl::GoalPoint> goal_;                  // the last point that came, until its result
   std::vector<orca::ObjectPtr<orca::idl::GoalPoint>> waiting_;  // that Goto does not have yet
   orca::SenderWatch senders_{host()};
-  Pose2 X_WD_;                      // of the charger that goal_ is
-  std::optional<Work> work_;        // from when the robot is before it
-  bool docked_ = false;             // Its ports may hear nothing while no task drives the robot.
-  std::optional<Pose2> left_from_;  // from where it drives back
+  Pose2 X_WD_;                        // of the charger that goal_ is
+  std::optional<Work> work_;          // from when the robot is before it
+  std::optional<orca::Vec2> docked_;  // the contacts in the frame of the robot, since it was charged there
+  std::optional<orca::TimePoint> leaves_since_;
+  Pose2 pose_;                  // the last that was known,
+  orca::TimePoint known_at_{};  // when
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double kTurnGain = 1.5;    // [1/s]
 constexpr double kTurnRate = 0.3;    // [rad/s] at most
 constexpr double kMoves = 0.01;      // [m] A robot that moves less than this in kHeld is held.
 constexpr double kHeld = 1.0;        // [s]
-constexpr double kSlow = 30.0;       // [s] for driving back, after which something holds it
+constexpr double kSlow = 30.0;       // [s] for driving up or back, after which something holds it
 
 double limited(double rate) { return std::clamp(rate, -kTurnRate, kTurnRate); }
 
@@ -31,9 +31,9 @@ Step Docking::step(const Pose2& robot, bool charges, double time, const Manner& 
   return {};
 }
 
-// A robot whose middle is at the contacts has found nothing to touch.
+// A robot whose middle is at the contacts has found nothing to touch. One whose pose jitters may seem to move although the charger holds it.
 Step Docking::approach(const Pose2& robot, double time, double speed) {
-  if (robot.x >= 0.0) return enter(Stage::look, robot, time);
+  if (robot.x >= 0.0 || time - *began_ > kSlow) return enter(Stage::look, robot, time);
   const double bearing = wrapped(portable::atan2(-robot.y, kLookAhead) - robot.yaw);
   if (std::fabs(bearing) > kTurnFirst) {
     held_since_ = time;

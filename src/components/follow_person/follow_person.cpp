@@ -29,6 +29,7 @@ class FollowPerson final : public orca::Component {
   orca::Status start() override {
     motion_.start(lap_period());
     pursuit_.clear();
+    last_ = Step::Kind::nobody;
     return orca::ok();
   }
   void stop() override { clear_alarm(kLost, "nobody is followed any more"); }

@@ -100,7 +100,7 @@ class TaskTree final : public orca::Component, private Actor {
   std::optional<Ending> go_on(const Step& step) override {
     if (step.kind == Kind::drive) return ending_of(mission_.wait(orca::Duration{0}));
     const double asked_for = orca::to_seconds(now() - asked_at_);
-    if (*yes_after_ > 0.0 && asked_for >= *yes_after_) answer_ = true;
+    if (!answer_ && *yes_after_ > 0.0 && asked_for >= *yes_after_) answer_ = true;
     if (answer_) {
       clear_alarm(kQuestion, *answer_ ? "answered: yes" : "answered: no");
       return *answer_ ? Ending{true, {}} : Ending{false, "answered: no"};

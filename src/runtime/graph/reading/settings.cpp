@@ -24,8 +24,9 @@ Result<Params> read_settings(const std::vector<ParamContract>& contracts,
       report.error(codes::kUnknownParameter, {},
                    "there is no " + title + "; there are: " + listed(names) + report.hint(name, names));
     } else if (declared->fixed) {
-      report.line({},
-                  title + " cannot change while the component runs; change it in the graph and start anew");
+      report.line({}, title +
+                          " cannot change while the component runs; exchange the component (orcactl swap ... "
+                          "--set), or change it in the graph and apply that");
     } else if (auto value = read_value({text, {}, true, ""}, *declared, title, report)) {
       result[name] = std::move(*value);
     }

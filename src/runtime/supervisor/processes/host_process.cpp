@@ -183,7 +183,7 @@ bool HostProcess::is_dying() const {
   constexpr unsigned long kExiting = 0x4, kEndedBySignal = 0x400;  // PF_EXITING, PF_SIGNALED of the kernel
   std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
   std::string line;
-  if (!std::getline(file, line)) return true;
+  if (!std::getline(file, line)) return false;  // Nobody can know; if it has ended, nobody can end it.
   std::istringstream values(line.substr(line.rfind(')') + 1));  // the name may hold any character
   std::string skipped;
   unsigned long flags = 0, pending = 0;
