@@ -64,6 +64,13 @@ TEST_CASE("a robot beside something may drive along it, and comes no nearer step
     CHECK(room_along(kBody, {0.0, 0.0, skew}, {0.4, 0.0, 0.0}, 80, wall, kMargin).share < 1.0);
 }
 
+TEST_CASE("a robot that has left one thing comes no nearer to another than it may", "[navigation]") {
+  const std::array things{Vec2{-0.253, 0.0}, Vec2{0.7, 0.0}};
+  const Room room = room_along(kBody, {}, {0.6, 0.0, 0.0}, 60, things, 0.03);
+  CHECK(room.share * 0.6 > 0.40);
+  CHECK(room.share * 0.6 < 0.43);
+}
+
 TEST_CASE("a robot without length and width is a circle", "[navigation]") {
   constexpr Footprint kRound{0.0, 0.0, 0.3};
   CHECK(kRound.inner_radius() == 0.3);
