@@ -55,7 +55,10 @@ Room room_along(const Footprint& footprint, const Pose2& pose, const Travel2& tr
       room.share = static_cast<double>(i - 1) / steps;
       return room;
     }
-    least = std::max(least, std::min(margin, free - kNoNearer));  // What was left is not come near to again.
+    least = std::max(
+        least,
+        std::min(margin,
+                 free - kNoNearer));  // A thing that was left, or another one, is not come near to again.
     room.clearance = std::min(room.clearance, free);
   }
   return room;

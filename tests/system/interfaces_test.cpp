@@ -37,13 +37,13 @@ std::set<std::string> exported(const std::string& graph_file, const std::string&
 }  // namespace
 
 TEST_CASE(
-    "the Scout exports the five hardware interfaces of thesis Fig. 11.3, its bumpers and its description, no "
-    "more",
+    "the Scout exports the five hardware interfaces of thesis Fig. 11.3, its bumpers, its battery and its "
+    "description, no more",
     "[system][scout]") {
   CHECK(exported("graphs/scout_goto.xml", "base") ==
-        std::set<std::string>{"BumperReadingsPush", "BumperReadingsQuery", "MotionCommandSend",
-                              "OdometryPush", "OdometryQuery", "RobotQuery", "SonarRangeReadingsPush",
-                              "SonarRangeReadingsQuery"});
+        std::set<std::string>{"BatteryPush", "BatteryQuery", "BumperReadingsPush", "BumperReadingsQuery",
+                              "MotionCommandSend", "OdometryPush", "OdometryQuery", "RobotQuery",
+                              "SonarRangeReadingsPush", "SonarRangeReadingsQuery"});
 }
 
 TEST_CASE("a LaserServer exports Push and Query of the laser's readings and its description, nothing else",

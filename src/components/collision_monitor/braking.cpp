@@ -55,6 +55,11 @@ double share_to_stop(const Twist2& twist, double free, double reaction, const Br
   return std::clamp(0.5 * (root - reaction) / braking, 0.0, 1.0);
 }
 
+bool creeps(const Twist2& twist, double reach) {
+  constexpr double kTouches = 0.06;  // [m/s]
+  return std::fabs(twist.forward) <= kTouches && reach * std::fabs(twist.turn_rate) <= 2.0 * kTouches;
+}
+
 Verdict judge(const collision::SweptBody& body, std::span<const collision::Post> posts, const Intent& intent,
               const Rules& rules) {
   const double stopping = rules.reaction + braking_time(intent.present, rules.hard);

@@ -25,6 +25,10 @@ struct Brakes {
 /// @param reaction  [s] in which the base goes on before it brakes.
 [[nodiscard]] double share_to_stop(const Twist2& twist, double free, double reaction, const Brakes& brakes);
 
+/// Returns whether a robot moves so slowly that it may touch what it is to touch: at 0.06 m/s at most, its corners at 0.12 m/s.
+/// @param reach  [m] of its body.
+[[nodiscard]] bool creeps(const Twist2& twist, double reach);
+
 /// The motion that a robot is to make, and the one that it makes.
 struct Intent {
   Twist2 wanted;      ///< The command.

@@ -49,13 +49,11 @@ class CollisionMonitor final : public orca::Component {
   static constexpr double kShortestSilence = 0.3;  // [s] A shorter one is no sign of a fault.
   static constexpr double kDeafAfter = 0.6;        // [s] The same of a sensor that announces no period.
   static constexpr double kRound = 0.5;            // [s] in which the slowest known ring of sonars fires once
-  // A cone's edges hear little: an echo comes from its middle half, unless something large stands across.
-  static constexpr double kShareOfCone = 0.5;
+  static constexpr double kShareOfCone = 0.5;      // An echo comes from the middle of a cone.
   static constexpr orca::Duration kIdleAfter = std::chrono::seconds(2);
   static constexpr orca::Duration kSureAfter = std::chrono::milliseconds(500);
   static constexpr orca::Duration kPassedAfter = std::chrono::milliseconds(100);
   static constexpr double kLong = 2.0;      // [s] of standing after which an alarm is raised
-  static constexpr double kTouches = 0.06;  // [m/s] at most, of a robot that is to touch something
   static constexpr double kPatient = 10.0;  // [s] the same while somebody passes
 
   template <class Reading>
@@ -186,10 +184,7 @@ class CollisionMonitor final : public orca::Component {
   [[nodiscard]] std::optional<orca::gate::Disc> touchable(const Twist2& wanted) const {
     const auto touch = touch_.latest();
     const double reach = machine_->body(false).reach();
-    const auto creeps = [&](const Twist2& twist) {
-      return std::fabs(twist.forward) <= kTouches && reach * std::fabs(twist.turn_rate) <= 2.0 * kTouches;
-    };
-    if (!touch || !creeps(wanted) || !creeps(twist_) ||
+    if (!touch || !orca::gate::creeps(wanted, reach) || !orca::gate::creeps(twist_, reach) ||
         orca::to_seconds(now() - orca::to_time_point(touch->creation_time())) > kShortestSilence)
       return std::nullopt;
     return orca::gate::Disc{{touch->coordinate().point().x(), touch->coordinate().point().y()},
@@ -417,8 +412,7 @@ class CollisionMonitor final : public orca::Component {
       {.unit = "m",
        .min = 0.001,
        .max = 0.3,
-       .text =
-           "Distance to keep from what is seen at 0.2 m/s and more; less in proportion, at least a third."}};
+       .text = "Distance to keep at 0.2 m/s and more; below that in proportion, at least a third."}};
   orca::Param<double> reaction_time_{*this,
                                      "reaction_time",
                                      0.15,

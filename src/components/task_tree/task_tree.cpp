@@ -297,14 +297,14 @@ class TaskTree final : public orca::Component, private Actor {
       "goal_timeout",
       300.0,
       {.unit = "s", .min = 1.0, .text = "Longest time for a Drive that does not say its own."}};
-  orca::Param<double> yes_after_{
-      *this,
-      "yes_after",
-      0.0,
-      {.unit = "s",
-       .min = 0.0,
-       .text = "Time after which each question counts as answered with yes, for experiments, in which there are no "
-               "people; 0: people are asked."}};
+  orca::Param<double> yes_after_{*this,
+                                 "yes_after",
+                                 0.0,
+                                 {.unit = "s",
+                                  .min = 0.0,
+                                  .text = "Time after which each question counts as answered with yes, for "
+                                          "experiments, in which there are no "
+                                          "people; 0: people are asked."}};
 
   Task task_;
   std::unique_ptr<TaskRun> run_;

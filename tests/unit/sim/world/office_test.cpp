@@ -23,14 +23,16 @@ WorldModel office() {
 
 }  // namespace
 
-TEST_CASE("every place of the office can be reached with 0.3 m of clearance", "[sim][office]") {
+TEST_CASE("every place of the office but the charger's contacts can be reached with 0.3 m of clearance",
+          "[sim][office]") {
   const WorldModel world = office();
   REQUIRE(world.place("start") != nullptr);
   const Plan plan(world, world.place("start")->pose.position(), kClearance);
   CHECK(world.places.size() == 21);
   for (const Place& p : world.places) {
     INFO(p.name);
-    CHECK(plan.reaches(p.pose.position()));
+    CHECK(plan.reaches(p.pose.position()) == (p.name != "dock"));
+    if (p.name == "dock") CHECK(plan.reaches(p.pose * Vec2{-0.8, 0.0}));
   }
   CHECK_FALSE(plan.reaches({-1.0, 6.0}));
 }
