@@ -82,7 +82,11 @@ function(orca_add_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_definitions(${name} PRIVATE
     ORCA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ORCA_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  add_test(NAME ${name} COMMAND ${name} --use-colour no "~[.]~[data]~[tool]~[quiet]")
+  set(yielding)
+  if(arg_COMPUTES)
+    set(yielding nice -n 10)  # Tests beside it that run in real time come first.
+  endif()
+  add_test(NAME ${name} COMMAND ${yielding} $<TARGET_FILE:${name}> --use-colour no "~[.]~[data]~[tool]~[quiet]")
   set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
                        ENVIRONMENT "${ORCA_TEST_ENVIRONMENT}")
   if(arg_COST)

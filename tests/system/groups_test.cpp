@@ -213,6 +213,7 @@ TEST_CASE(
   };
   order({"send", "goto.CancelSend", "<GoalFailed name=\"kitchen\" reason=\"supper\"/>"});
   CHECK(told("failed kitchen cancelled: by \"orcactl\", supper"));
+  std::this_thread::sleep_for(Seconds(1) * kSlowdown);  // until Command has sent the next goal
   order({"set", "command.rounds", "0", "command.goals", "near: 1.5 6; far: 2.5 6"});
   CHECK(told("failed office cancelled: there are other goals"));
   CHECK(comes_true([&] { return times("arrived near") >= 2; }, Seconds(30)));

@@ -419,9 +419,10 @@ TEST_CASE("twenty restarts leave nothing in the deployer", "[system][processes]"
     std::this_thread::sleep_for(Seconds(0.15));
     kill_one(system, i % 2 == 0 ? "relay" : "source");
   }
-  for (int i = 0; i < 50 && descriptors_of(deployer_pid) != descriptors; ++i)
+  for (int i = 0; i < 50 && descriptors_of(deployer_pid) > descriptors; ++i)
     std::this_thread::sleep_for(Seconds(0.1));  // the last one may still be coming up
-  CHECK(descriptors_of(deployer_pid) == descriptors);
+  CHECK(descriptors_of(deployer_pid) <=
+        descriptors);  // The first may have been coming up when they were counted.
   CHECK(threads_of(deployer_pid) == threads);
   stop(system);
 }
