@@ -32,12 +32,6 @@ class Dock final : public orca::Component {
   explicit Dock(orca::ComponentHost& host) : Component(host) { lap_on(localizer_); }
 
  private:
-  // From an order to dock to its end, or to leave.
-  struct Work {
-    Pose2 X_WD;  // the contacts; x leads into them
-    Docking docking;
-  };
-
   orca::Status start() override {
     motion_.start(lap_period());
     return orca::ok();
@@ -45,9 +39,9 @@ class Dock final : public orca::Component {
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     // Its points may be sent again, along another way, when the robot is there already.
-    if (work_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
+    if (docking_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
     if (!goal_ || goal->mission() != goal_->mission()) waiting_.clear();
-    work_.reset();
+    docking_.reset();
     goal_ = goal;
     waiting_.push_back(goal);
     return orca::ok();
@@ -65,7 +59,7 @@ class Dock final : public orca::Component {
     if (knows) pose_ = orca::plane_pose(*here), known_at_ = now();
     if (!waiting_.empty() && leave()) return orca::again();
     pass_on();
-    if (!work_) {
+    if (!docking_) {
       motion_.push(orca::dont_care());
     } else if (knows || charges()) {
       go_on();
@@ -139,7 +133,7 @@ class Dock final : public orca::Component {
   void hear(const orca::idl::Arrived& arrived) {
     if (is_late(arrived)) return;
     if (is_dock(*goal_)) {
-      if (arrived.name() == "before_" + goal_->name()) work_ = Work{X_WD_, {}};
+      if (arrived.name() == "before_" + goal_->name()) docking_.emplace();
       return;
     }
     if (arrived.name() != goal_->name()) return;  // The points of another way are coming.
@@ -167,9 +161,9 @@ class Dock final : public orca::Component {
   }
 
   void go_on() {
-    const Pose2 robot = seen_from(work_->X_WD, pose_);
-    const Step step = work_->docking.step(robot, charges(), orca::to_seconds(now()),
-                                          {*speed_, *back_off_, *patience_, static_cast<double>(*attempts_)});
+    const Pose2 robot = seen_from(X_WD_, pose_);
+    const Step step = docking_->step(robot, charges(), orca::to_seconds(now()),
+                                     {*speed_, *back_off_, *patience_, static_cast<double>(*attempts_)});
     const orca::Vec2 contacts = seen_from(robot, orca::Vec2{});
     if (step.kind == Step::Kind::done) return conclude(contacts);
     if (step.kind == Step::Kind::failed) return give_up(orca::idl::GOAL_UNDONE, "undone: " + step.reason);
@@ -209,7 +203,7 @@ class Dock final : public orca::Component {
   }
 
   void end_work() {
-    work_.reset();
+    docking_.reset();
     motion_.push(orca::full_stop());
     forget_goal();
   }
@@ -220,18 +214,10 @@ class Dock final : public orca::Component {
   }
 
   void save_state(orca::StateWriter& state) const override {
-    std::optional<Docking> docking;
-    if (work_) docking = work_->docking;
-    state.write(goal_, waiting_, X_WD_, docking, docked_, leaves_since_, pose_, known_at_);
+    state.write(goal_, waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
   }
   orca::Status load_state(orca::StateReader& state) override {
-    std::optional<Docking> docking;
-    if (orca::Status read =
-            state.read(goal_, waiting_, X_WD_, docking, docked_, leaves_since_, pose_, known_at_);
-        !read.ok())
-      return read;
-    if (docking) work_ = Work{X_WD_, *docking};
-    return orca::ok();
+    return state.read(goal_, waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
   }
 
   static constexpr double kNear = 0.1;  // [m], [rad] to which Goto brings the robot before a charger
@@ -306,7 +292,7 @@ class Dock final : public orca::Component {
   std::vector<orca::ObjectPtr<orca::idl::GoalPoint>> waiting_;  // that Goto does not have yet
   orca::SenderWatch senders_{host()};
   Pose2 X_WD_;                        // of the charger that goal_ is
-  std::optional<Work> work_;          // from when the robot is before it
+  std::optional<Docking> docking_;    // from when the robot is before it
   std::optional<orca::Vec2> docked_;  // the contacts in the frame of the robot, since it was charged there
   std::optional<orca::TimePoint> leaves_since_;
   Pose2 pose_;                  // the last that was known,
