@@ -75,7 +75,7 @@ TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]
 TEST_CASE("a robot whose way back is blocked asks people to clear it", "[system][tasks]") {
   const Run run = Office{.events = R"(<box name="crate" x="1" y="6" length="0.8" width="0.8" height="1 m"
     comes="40 s"/>)"}
-                      .run({"--set", "pilot.blocked_after=4 s", "--until", "420 s"});
+                      .run({"--set", "pilot.blocked_after=4 s", "--until", "200 s"});
   INFO(run.out << run.err);
   CHECK(run.says("alarm BLOCKED: \"start\" was not reached"));
   CHECK(run.says("alarm QUESTION: I cannot get on. Please clear my way."));

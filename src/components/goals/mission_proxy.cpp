@@ -321,13 +321,13 @@ bool MissionProxy::is_ours(const idl::OrcaObject& result) const {
   return result.mission() == drive_->mission;
 }
 
-// Learns from the way that is left to Goto which points the robot has passed. A way that does not lead to the
-// goal was pushed before Goto had the whole route.
+// Learns from the way that is left to Goto which points the robot has passed. One that ends at a via point was pushed before
+// Goto had the whole route; to a charger it ends elsewhere than at the goal.
 void MissionProxy::note_way(const idl::Path& path) {
   if (path.poses().empty()) return;
   const auto& last = path.poses().back().position();
-  const Place& goal = drive_->trip.goal;
-  if (last.x() == goal.x && last.y() == goal.y) drive_->outbox.note_left(path.poses().size() - 1);
+  const auto is_last = [&](const Place& via) { return last.x() == via.x && last.y() == via.y; };
+  if (std::ranges::none_of(drive_->trip.via, is_last)) drive_->outbox.note_left(path.poses().size() - 1);
 }
 
 }  // namespace orca::go

@@ -35,7 +35,8 @@ Result<bool> RouteProxy::lay(Trip& trip) {
   if (!route.known()) return fail(Code::unavailable, "the world or the robot's pose is not known yet");
   std::vector<std::string> names;
   for (const idl::RouteLeg& leg : route.legs()) names.push_back(leg.name());
-  if (std::exchange(is_blocked_, false) ? names == names_ : is_rest_of(names_, names)) return false;
+  const bool is_no_other = names == names_ || route.blocked();
+  if (std::exchange(is_blocked_, false) ? is_no_other : is_rest_of(names_, names)) return false;
   names_ = std::move(names);
   trip.via = places_of(route);
   return true;

@@ -220,20 +220,54 @@ class RouteServer final : public orca::Component {
             std::ranges::any_of(blocked_, [&](const auto& one) { return one.to == point.name; }));
   }
 
-  [[nodiscard]] double toll_between(const WayPoint& a, const WayPoint& b) const {
-    const bool is_blocked = std::ranges::any_of(blocked_, [&](const Blockage& one) {
+  [[nodiscard]] bool is_blocked_between(const WayPoint& a, const WayPoint& b) const {
+    return std::ranges::any_of(blocked_, [&](const Blockage& one) {
       return (one.from == a.name && leads_to(one, b)) || (one.from == b.name && leads_to(one, a));
     });
-    return is_blocked ? *blocked_cost_ : 0.0;
   }
 
-  // Returns the toll of driving straight to a point from where the robot is: about there it was blocked.
-  [[nodiscard]] double toll_from_here(const WayPoint& to) const {
+  // Returns whether driving straight to a point from where the robot is was in vain: about there it was blocked.
+  [[nodiscard]] bool is_blocked_from_here(const WayPoint& to) const {
     constexpr double kAbout = 2.0;  // [m]
-    const bool is_blocked = std::ranges::any_of(blocked_, [&](const Blockage& one) {
+    return !to.door && std::ranges::any_of(blocked_, [&](const Blockage& one) {
       return leads_to(one, to) && norm(one.robot - X_WR_.position()) < kAbout;
     });
-    return is_blocked && !to.door ? *blocked_cost_ : 0.0;
+  }
+
+  // The last legs that lead by where a robot was blocked before the goal: they end as the one that it drove.
+  void block_last_legs(const Ways& ways, std::size_t goal, std::vector<bool>& legs) const {
+    constexpr double kDetour = 1.0;  // [m]
+    const WayPoint& end = ways.points[goal];
+    for (const Blockage& one : blocked_) {
+      if (end.door || !leads_to(one, end)) continue;
+      const Vec2 robot = seen_from(floor_.X_WM(), one.robot);
+      const std::vector<double> costs = costs_from(floor_.grid(), ways, robot);
+      for (std::size_t i = 0; i < legs.size(); ++i) {
+        const auto& leg = ways.legs[i];
+        if (leg.from != goal && leg.to != goal) continue;
+        const std::size_t begin = leg.to == goal ? 2 * leg.from + leg.from_side : 2 * leg.to + leg.to_side;
+        if (costs[begin] + norm(end.place - robot) < leg.cost + kDetour) legs[i] = true;
+      }
+    }
+  }
+
+  /// The parts of ways that are known to be blocked now.
+  struct Blocked {
+    std::vector<bool> from_here;  // straight from the robot to each point
+    std::vector<bool> points;     // doors
+    std::vector<bool> legs;
+  };
+
+  [[nodiscard]] Blocked find_blocked(const Ways& ways, std::size_t goal) const {
+    Blocked blocked;
+    for (const WayPoint& point : ways.points) {
+      blocked.from_here.push_back(is_blocked_from_here(point));
+      blocked.points.push_back(is_closed(point));
+    }
+    for (const orca::planning::WayLeg& leg : ways.legs)
+      blocked.legs.push_back(is_blocked_between(ways.points[leg.from], ways.points[leg.to]));
+    block_last_legs(ways, goal, blocked.legs);
+    return blocked;
   }
 
   // Returns the index of the goal among the points; one that is no point of the map becomes one, with legs to those around it.
@@ -247,18 +281,19 @@ class RouteServer final : public orca::Component {
     return goal;
   }
 
-  [[nodiscard]] std::optional<FoundWay> find(const Ways& ways, std::size_t goal) const {
-    std::vector<double> start = costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
-    std::vector<double> end(2 * ways.points.size(), kNoWay);
-    std::vector<double> points(ways.points.size(), 0.0);
-    std::vector<double> legs;
+  // Returns the cheapest way where what is blocked costs a toll.
+  // @param start [m]  costs from the robot, as WayTolls has them.
+  [[nodiscard]] static std::optional<FoundWay> find(const Ways& ways, std::size_t goal,
+                                                    std::vector<double> start, const Blocked& blocked,
+                                                    double toll) {
+    std::vector<double> end(start.size(), kNoWay);
     end[2 * goal] = end[2 * goal + 1] = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (is_closed(ways.points[i])) points[i] = *blocked_cost_;
-      for (const std::size_t side : {2 * i, 2 * i + 1}) start[side] += toll_from_here(ways.points[i]);
-    }
-    for (const orca::planning::WayLeg& leg : ways.legs)
-      legs.push_back(toll_between(ways.points[leg.from], ways.points[leg.to]));
+    std::vector<double> points;
+    std::vector<double> legs;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (blocked.from_here[i / 2]) start[i] += toll;
+    for (const bool is_blocked : blocked.points) points.push_back(is_blocked ? toll : 0.0);
+    for (const bool is_blocked : blocked.legs) legs.push_back(is_blocked ? toll : 0.0);
     return cheapest_way(ways, {start, end, points, legs});
   }
 
@@ -268,11 +303,17 @@ class RouteServer final : public orca::Component {
     Ways ways = ways_in_map();
     const std::size_t end =
         add_goal(ways, goal->name(), seen_from(floor_.X_WM(), Vec2{place.x(), place.y()}));
-    const std::optional<FoundWay> way = find(ways, end);
+    const std::vector<double> start =
+        costs_from(floor_.grid(), ways, seen_from(floor_.X_WM(), X_WR_.position()));
+    const Blocked blocked = find_blocked(ways, end);
+    const std::optional<FoundWay> way = find(ways, end, start, blocked, *blocked_cost_);
     if (!way)
       return orca::fail(orca::Code::not_found, "no way of " + *ways_file_ + " leads from here to \"" +
                                                    goal->name() + "\"; give it the legs that are lacking");
-    return route_of(*way, goal->name(), true);
+    auto route = route_of(*way, goal->name(), true);
+    const std::optional<FoundWay> open = find(ways, end, start, blocked, kNoWay);
+    route->blocked(!open || open->cost > way->cost);
+    return route;
   }
 
   [[nodiscard]] orca::Loan<Route> route_of(const FoundWay& way, const std::string& goal, bool known) const {

@@ -101,6 +101,7 @@ struct WayRobot final : Partner {
     for (const auto& leg : (*route)->legs()) names.push_back(leg.name());
     return names;
   }
+  bool is_blocked(double x, double y) { return ask("goal", x, y).value()->blocked(); }
 };
 
 void try_routes(const std::function<void(WayRobot&)>& check, const std::string& ways = kWays) {
@@ -224,6 +225,19 @@ TEST_CASE("a last leg that is blocked is avoided on the way to that goal, whatev
   });
 }
 
+TEST_CASE("last legs that lead by where a robot was blocked before its goal are blocked, too",
+          "[testing][routes]") {
+  try_routes([](WayRobot& robot) {
+    robot.world.push(rooms_with_doors());
+    robot.stand(1.0, 8.0);
+    report_last_leg(robot, "west", 1.0, 9.0);
+    robot.stand(1.0, 3.0);
+    CHECK(robot.way_to(1.0, 9.0) == Names{"west"});
+    CHECK(robot.is_blocked(1.0, 9.0));
+    CHECK_FALSE(robot.is_blocked(5.0, 9.0));
+  });
+}
+
 TEST_CASE("a robot that is blocked before its goal gets another way, over a place in the same room",
           "[testing][routes]") {
   const std::string ways = std::string(kWays).insert(
@@ -235,6 +249,11 @@ TEST_CASE("a robot that is blocked before its goal gets another way, over a plac
         CHECK(robot.way_to(2.0, 9.0) == Names{});
         report_last_leg(robot, "west", 2.0, 9.0);
         CHECK(robot.way_to(2.0, 9.0) == Names{"corner"});
+        CHECK_FALSE(robot.is_blocked(2.0, 9.0));
+        report_last_leg(robot, "corner", 2.0, 9.0);
+        report_last_leg(robot, "east", 2.0, 9.0);
+        CHECK(robot.is_blocked(2.0, 9.0));
+        CHECK_FALSE(robot.is_blocked(4.0, 9.0));
         robot.stand(5.0, 9.0);
         CHECK(robot.way_to(2.0, 9.0) == Names{});
       },

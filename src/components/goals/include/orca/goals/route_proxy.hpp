@@ -28,7 +28,8 @@ class RouteProxy {
   void end();
 
   /// Lays the via points of a trip along the cheapest route from the robot to its goal.
-  /// @return whether that is another way, not only less of the one before. After report_blocked(), to leave a place out is another way.
+  /// @return whether that is another way, not only less of the one before. After report_blocked(), to leave a place out is another way, and
+  ///         one that is known to be blocked, too, is none.
   /// @errors  those of the server: not_found: no way leads there. unavailable: it can be asked again later. Then the trip stays as it was.
   [[nodiscard]] Result<bool> lay(Trip& trip);
 
