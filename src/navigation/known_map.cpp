@@ -86,21 +86,30 @@ Explanation KnownMap::explain(std::span<const SurfacePoint> scan, Vec2 sensor, c
   Explanation result;
   const Vec2 from = X_MR * sensor;
   const Vec2 turned = direction(X_MR.yaw);
+  double all = 0.0;
+  double without_near = 0.0;  // of the shorts
   for (const SurfacePoint& point : scan) {
     const Vec2 to = X_MR.position() + rotated(point.at, turned);
     const double off = distance_to_surface(to);
-    result.fit += 1.0 / (1.0 + off * off / (kSoft * kSoft));
+    const double range = norm(to - from);
+    const double closeness = 1.0 / (1.0 + off * off / (kSoft * kSoft));
+    all += 1.0;
+    result.fit += closeness;
     if (off <= kOff) {
       result.hits += 1.0;
       continue;
     }
-    const double range = norm(to - from);
     const Sight sight = look(from, 1.0 / std::max(range, 1e-9) * (to - from), range);
-    if (sight.end == Sight::End::nothing) result.shorts += 1.0;
+    if (sight.end == Sight::End::nothing) {
+      result.shorts += 1.0;
+      // Echoes in front count half, those where the map knows nothing in full: a wrong place would gain by these.
+      all -= 0.5;
+      without_near += 0.5 * (1.0 - std::min(1.0, range / kNear));
+    }
     if (sight.end == Sight::End::wall) result.longs += 1.0;
   }
-  // Echoes in front count half, those where the map knows nothing in full: a wrong place would gain by these.
-  result.fit /= std::max(1.0, static_cast<double>(scan.size()) - 0.5 * result.shorts);
+  if (all > 0.0) result.fit_of_room = std::min(1.0, result.fit / (all - without_near));
+  if (all > 0.0) result.fit /= all;
   return result;
 }
 

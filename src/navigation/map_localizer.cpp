@@ -160,6 +160,7 @@ void MapLocalizer::add_place(const PlaceBelief& belief, std::size_t count) {
 
 void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now) {
   reckon_anew(now);
+  left_some_out_ = false;
   places_.clear();
   for (const PlaceBelief& belief : places) add_place(belief, kParticles);
   was_known_ = was_known;
@@ -251,7 +252,7 @@ void MapLocalizer::see(const RobotScan& seen) {
     lay(place, scan);
     const Explanation explained = map_->explain(scan.echoes, scan.from, place.particles.spread().mean);
     fits.push_back(explained.fit);
-    place.note(explained.fit);
+    place.note(place.belief.believed ? explained.fit_of_room : explained.fit);
   }
   compare(fits);
   believe();
@@ -311,7 +312,8 @@ void MapLocalizer::drop_unlikely() {
 }
 
 void MapLocalizer::believe() {
-  if (places_.size() != 1) return;
+  // Of a search that found more places than it keeps, the right one may be among those that it left out.
+  if (places_.size() != 1 || left_some_out_) return;
   Candidate& place = places_.front();
   if (place.belief.quick >= options_.believed_from) place.belief.believed = true;
   was_known_ |= known(now_) == Known::localized;
@@ -321,7 +323,8 @@ void MapLocalizer::believe() {
 void MapLocalizer::begin_search(const RobotScan& scan) {
   constexpr double kOtherPlace = 1.0;  // [m]
   const bool doubts = places_.empty() || places_.front().is_doubtful(options_);
-  const bool seeks = !doubts && !places_.front().belief.believed && way_ - searched_way_ >= kOtherPlace;
+  const bool is_due = way_ - searched_way_ >= kOtherPlace || (places_.size() == 1 && left_some_out_);
+  const bool seeks = !doubts && !places_.front().belief.believed && is_due;
   if (!doubts && !seeks) return;
   constexpr double kAnew = 0.5;      // [m]
   constexpr double kAnewTime = 1.0;  // [s]
@@ -343,6 +346,7 @@ void MapLocalizer::go_on_searching() {
 
 // Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
 void MapLocalizer::take_found() {
+  left_some_out_ = search_->places.is_full();
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
   const std::size_t known = places_.size();

@@ -291,6 +291,19 @@ TEST_CASE("a robot that is carried off notices within 3 s or 1 m, and is found a
   CHECK(found >= 0.95 * driving);
 }
 
+TEST_CASE("a robot that is put in a corner is not sure of one of the many that look alike",
+          "[system][localizer]") {
+  const Run run = run_deployer(Words{source_file("sim/experiments/lost/localize.xml"), "--profile", "sim",
+                                     "--profile", "localized", "--seed", "10", "--until", "180 s", "--set",
+                                     "world=" + source_file("sim/experiments/lost/offices.xml#1")} +
+                                   virtual_clock(),
+                               Seconds(120));
+  INFO(run.err);
+  CHECK(run.says("Pioneer is kidnapped"));
+  CHECK(run.arrivals().size() == 1);
+  CHECK_FALSE(run.says("truly the robot is"));
+}
+
 TEST_CASE("a robot finds where it is the same way on both executors", "[system][localizer]") {
   const Drives drives;
   const auto hash = [&](const std::string& executor) {

@@ -61,10 +61,10 @@ TEST_CASE("orcactl map save writes the map of a running system, and never over a
   CHECK_THAT(again.err, Contains("hall.png: it is there already; choose another name, or remove it first"));
   CHECK(read_text(folder.path() / "hall.yaml") == text);
 
-  // Rooms and doors of what was saved are proposed, without a system.
-  const Run ways = run_orcactl({"map", "ways", folder.file("hall.yaml")});
-  CHECK(ways.exit_code() == 0);
-  CHECK_THAT(ways.out, Contains("<ways name=\"hall\" version=\"1\">"));
+  // It is one room, without a door that could be proposed.
+  const Run none = run_orcactl({"map", "ways", folder.file("hall.yaml")});
+  CHECK(none.exit_code() == 1);
+  CHECK_THAT(none.err, Contains("no doors found in " + folder.file("hall.yaml")));
   CHECK_THAT(run_orcactl({"map", "ways", folder.file("hull.yaml")}).err, Contains("hull.yaml"));
 
   // What was saved is served.
@@ -75,13 +75,19 @@ TEST_CASE("orcactl map save writes the map of a running system, and never over a
 
 TEST_CASE("orcactl map save asks which map if there are several, and takes any port that answers with one",
           "[system][maps]") {
-  const System system({system_graph("maps.xml"), "--profile", "two"}, 2);
+  const System system(
+      {system_graph("maps.xml"), "--profile", "two", "--set", "map=" + source_file("sim/worlds/office.xml")},
+      2);
   const TempFolder folder;
   const Run unclear = run_orcactl({"map", "save", folder.file("hall")});
   CHECK(unclear.exit_code() == 1);
   CHECK_THAT(unclear.err, Contains("office.OccupancyGridQuery, other.OccupancyGridQuery; name one"));
   CHECK(run_orcactl({"map", "save", folder.file("hall"), "other.OccupancyGridQuery"}).exit_code() == 0);
   CHECK_THAT(read_text(folder.path() / "hall.yaml"), Contains("resolution: 0.1\n"));
+  // Rooms and doors of what was saved are proposed, without a system.
+  const Run ways = run_orcactl({"map", "ways", folder.file("hall.yaml")});
+  CHECK(ways.exit_code() == 0);
+  CHECK_THAT(ways.out, Contains("<ways name=\"hall\" version=\"1\">"));
 
   CHECK_THAT(run_orcactl({"map", "save", folder.file("x"), "office.OccupancyGridPush"}).err,
              Contains("answers no questions"));

@@ -87,6 +87,12 @@ Status propose_ways(const apps::Call& call) {
   grid.cells.assign(map->cells().begin(), map->cells().end());
   const Result<mapping::Division> division = mapping::divide(grid);
   if (!division) return division.error();
+  if (division->passages.empty())
+    return fail(Code::not_found, "no doors found in " + call.words[1] +
+                                     ": its free floor has no opening from 0.5 m to 1.3 m between two rooms "
+                                     "of more than 1 m2; look whether the resolution of the map is right, or "
+                                     "write the doors by hand (README "
+                                     "of RouteServer)");
   print(mapping::ways_text(*division, X_WM, is_name(map->name()) ? map->name() : "ways"));
   return ok();
 }

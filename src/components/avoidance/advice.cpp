@@ -125,7 +125,9 @@ TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation, con
   if (!limits.body) return room;
   const Rectangle wide{limits.body->half_length + limits.turn_margin,
                        limits.body->half_width + limits.turn_margin};
-  const double reach = portable::hypot(wide.half_length, wide.half_width);
+  // The circle that holds the robot cuts the corners.
+  const double reach =
+      std::min(portable::hypot(wide.half_length, wide.half_width), limits.robot_radius + limits.turn_margin);
   for (const Vec2 echo : echoes) {
     const double distance = portable::hypot(echo.x, echo.y);
     if (distance >= reach) continue;

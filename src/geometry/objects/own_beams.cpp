@@ -52,8 +52,9 @@ bool is_too_near(const idl::LaserRangeReadings& scan, double range) {
 }  // namespace
 
 bool RobotOutline::holds(Vec2 point) const {
-  if (length > 0.0 && width > 0.0) return std::abs(point.x) < 0.5 * length && std::abs(point.y) < 0.5 * width;
-  return portable::hypot(point.x, point.y) < radius;
+  const bool is_rectangle = length > 0.0 && width > 0.0;
+  if (is_rectangle && (std::abs(point.x) >= 0.5 * length || std::abs(point.y) >= 0.5 * width)) return false;
+  return (is_rectangle && radius <= 0.0) || portable::hypot(point.x, point.y) < radius;
 }
 
 Vec2 end_of_beam(const idl::LaserRangeReadings& scan, std::size_t beam) {

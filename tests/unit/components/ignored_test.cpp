@@ -59,6 +59,8 @@ TEST_CASE("what ends in a box or within the robot's outline is left out", "[lase
   CHECK(gap_of({"box 1.1 0.01 0.9 -0.01"}, scan_of(2.0)).count == 0);
   CHECK(gap_of({"outline"}, scan_of(0.2), {.radius = 0.3}).count == 181);
   CHECK(gap_of({"outline"}, scan_of(0.2), {.radius = 0.3, .length = 0.6, .width = 0.3}).count < 181);
+  CHECK(gap_of({"outline"}, scan_of(0.32), {.radius = 0.3, .length = 0.6, .width = 0.5}).count == 0);
+  CHECK(gap_of({"outline"}, scan_of(0.32), {.length = 0.6, .width = 0.5}).count > 0);
   CHECK(gap_of({"outline"}, scan_of(), {.radius = 0.3}).count == 0);
 }
 

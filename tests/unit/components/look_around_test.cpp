@@ -119,6 +119,7 @@ TEST_CASE("a body without room to turn to either side does not turn its corners 
           "[components][look]") {
   Robot robot({-1.68, 0.0, 1.57});
   robot.limits.body.body = avoid::Rectangle{0.4, 0.25};
+  robot.limits.body.robot_radius = std::hypot(0.4, 0.25);
   for (int i = 0; i < 100; ++i) {
     (void)robot.step();
     for (const double x : {-0.4, 0.4})

@@ -90,4 +90,6 @@ TEST_CASE("a map explains a scan but for what stands in front of it or behind", 
   for (std::size_t i = 0; i < scan.size() / 2; ++i) scan[i].at = 2.4 * scan[i].at;
   CHECK(map.explain(scan, {}, here).longs > 0.3 * count);
   CHECK(map.explain({}, {}, here).share() == 0.0);
+  CHECK(people.fit_of_room > people.fit);  // What is near hides little of the room.
+  CHECK(people.fit_of_room <= 1.0);
 }

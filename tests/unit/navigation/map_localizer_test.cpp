@@ -179,6 +179,23 @@ TEST_CASE("people around a robot do not make it lost", "[navigation]") {
   CHECK(worst < 0.06);
 }
 
+TEST_CASE("a crate before a robot that hides half of what it sees does not make it lost", "[navigation]") {
+  Drive drive;
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.wander();
+  REQUIRE(drive.known() == Known::localized);
+  drive.sees = false;
+  for (int i = 0; i < 60; ++i) {
+    drive.stand(1);
+    RobotScan scan = test::robot_scan(drive.walls, drive.X_MR, drive.random);
+    for (SurfacePoint& echo : scan.echoes)
+      if (echo.at.x > 0.4 && std::fabs(echo.at.y) < echo.at.x) echo.at = 0.4 / echo.at.x * echo.at;
+    drive.localizer.see(scan);
+    CHECK(drive.known() == Known::localized);
+  }
+  CHECK(drive.off() < 0.05);
+}
+
 TEST_CASE("a robot in another building is not found", "[navigation]") {
   Drive drive;
   drive.walls = test::box({0.0, 0.0}, {3.1, 14.0});

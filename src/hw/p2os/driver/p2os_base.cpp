@@ -109,12 +109,9 @@ class P2osBase final : public BaseDriver {
   void describe(idl::Robot& robot) const override {
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
-    const double length = model_->length + 2.0 * model_->behind;  // around the axle
-    // The radius of the maker's files does not hold the corners.
-    const double radius = std::max(model_->radius, 0.5 * portable::hypot(length, model_->width));
-    robot.radius(radius);
-    robot.bumper_radius(radius);
-    robot.length(length);
+    robot.radius(body_radius());
+    robot.bumper_radius(body_radius());
+    robot.length(body_length());
     robot.width(model_->width);
     figures().describe(robot);
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
@@ -195,7 +192,14 @@ class P2osBase final : public BaseDriver {
   }
 
   [[nodiscard]] double bumper_radius() const {
-    return figures().figures() != nullptr ? figures().figures()->bumper_radius : model_->radius;
+    return figures().figures() != nullptr ? figures().figures()->bumper_radius : body_radius();
+  }
+
+  // Around the axle.
+  [[nodiscard]] double body_length() const { return model_->length + 2.0 * model_->behind; }
+  // The radius of the maker's files does not hold the corners.
+  [[nodiscard]] double body_radius() const {
+    return std::max(model_->radius, 0.5 * portable::hypot(body_length(), model_->width));
   }
 
   [[nodiscard]] bool has_gripper() const {

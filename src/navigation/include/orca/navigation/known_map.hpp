@@ -50,6 +50,9 @@ struct Explanation {
   double shorts = 0.0;  ///< In front of the next one: a person, or what the map does not know.
   double longs = 0.0;   ///< Behind it: there the map is wrong, or the pose.
   double fit = 0.0;  ///< [1] mean closeness: 1 on a surface, 0.5 at 10 cm from it. Those in front count half.
+  /// [1] The same, where echoes count the less the nearer they are: a crate before the robot takes many beams, however little of the
+  /// room it is.
+  double fit_of_room = 0.0;
 
   /// Returns how many echoes count: those that stand in front by a half, those where the map knows nothing not at all.
   [[nodiscard]] double all() const { return hits + longs + 0.5 * shorts; }
@@ -96,6 +99,7 @@ class KnownMap {
  private:
   static constexpr double kSoft = 0.1;    // [m]
   static constexpr double kBeside = 0.2;  // [m]
+  static constexpr double kNear = 3.0;    // [m] up to which beams lie denser on a surface than others count
 
   FloorGrid grid_;
   std::vector<std::uint8_t> distance_;  // [cm] to the next occupied cell

@@ -151,10 +151,11 @@ class MapLocalizer {
   double unsettled_ = 0.0;  // [m], [rad] moved since
   bool moved_ = false;      // move() was called
   bool was_known_ = false;
-  double way_ = 0.0;        // [m] driven
-  double changed_ = 0.0;    // [m] by which the view has changed since places were compared
-  double seen_way_ = 0.0;   // [m] when something was sensed last that says where it is
-  double seen_time_ = 0.0;  // [s] when anything was
+  bool left_some_out_ = false;  // The last search found more places than it keeps.
+  double way_ = 0.0;            // [m] driven
+  double changed_ = 0.0;        // [m] by which the view has changed since places were compared
+  double seen_way_ = 0.0;       // [m] when something was sensed last that says where it is
+  double seen_time_ = 0.0;      // [s] when anything was
   double searched_way_ = -1e9;
   double searched_time_ = -1e9;
   double gone_ = 0.0;                   // [m], [rad] moved since a scan of this sensor counted

@@ -35,6 +35,8 @@ class PlaceSearch {
   bool step(std::size_t looks);
   /// Returns the places so far, the best first.
   [[nodiscard]] const std::vector<Found>& found() const { return found_; }
+  /// Returns whether there may be more of them, which were left out.
+  [[nodiscard]] bool is_full() const { return found_.size() >= options_.most; }
 
  private:
   struct Block {

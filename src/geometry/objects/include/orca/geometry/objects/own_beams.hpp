@@ -10,8 +10,8 @@ namespace orca {
 
 /// The outline of a robot, around the origin of its frame, x forward.
 struct RobotOutline {
-  double radius = 0.0;  ///< [m] of the circle that holds it.
-  double length = 0.0;  ///< [m] of the rectangle that holds it; 0: the circle is all.
+  double radius = 0.0;  ///< [m] of the circle that holds it; 0 beside a rectangle: it cuts no corner.
+  double length = 0.0;  ///< [m] of the rectangle that holds it, too; 0: the circle is all.
   double width = 0.0;   ///< [m]
 
   [[nodiscard]] bool holds(Vec2 point) const;
