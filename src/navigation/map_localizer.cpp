@@ -312,7 +312,7 @@ void MapLocalizer::drop_unlikely() {
 }
 
 void MapLocalizer::believe() {
-  // Of a search that found more places than it keeps, the right one may be among those that it left out.
+  // A search that found more places than it keeps may have left out the right one.
   if (places_.size() != 1 || left_some_out_) return;
   Candidate& place = places_.front();
   if (place.belief.quick >= options_.believed_from) place.belief.believed = true;

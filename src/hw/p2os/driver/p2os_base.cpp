@@ -38,6 +38,14 @@ bool fits_packet(const std::vector<double>& bumpers) {
 
 double within(double wish, double limit) { return limit > 0.0 ? std::min(wish, limit) : wish; }
 
+// Around the axle.
+double length_of(const Model& model) { return model.length + 2.0 * model.behind; }
+
+// The radius of the maker's files does not hold the corners.
+double radius_of(const Model& model) {
+  return std::max(model.radius, 0.5 * portable::hypot(length_of(model), model.width));
+}
+
 std::string all_models() {
   std::string names;
   for (const Model& model : models()) names += (names.empty() ? "" : ", ") + std::string(model.subclass);
@@ -109,9 +117,9 @@ class P2osBase final : public BaseDriver {
   void describe(idl::Robot& robot) const override {
     robot.vendor("ActivMedia");
     robot.model(std::string(model_->name));
-    robot.radius(body_radius());
-    robot.bumper_radius(body_radius());
-    robot.length(body_length());
+    robot.radius(radius_of(*model_));
+    robot.bumper_radius(radius_of(*model_));
+    robot.length(length_of(*model_));
     robot.width(model_->width);
     figures().describe(robot);
     if (const auto sonars = senses_->describe_sonars()) robot.sonar_rings().push_back(*sonars);
@@ -191,15 +199,9 @@ class P2osBase final : public BaseDriver {
                                           : Senses::usual_bumpers(*model_);
   }
 
+  // Without a robot file the bumpers sit where the body ends.
   [[nodiscard]] double bumper_radius() const {
-    return figures().figures() != nullptr ? figures().figures()->bumper_radius : body_radius();
-  }
-
-  // Around the axle.
-  [[nodiscard]] double body_length() const { return model_->length + 2.0 * model_->behind; }
-  // The radius of the maker's files does not hold the corners.
-  [[nodiscard]] double body_radius() const {
-    return std::max(model_->radius, 0.5 * portable::hypot(body_length(), model_->width));
+    return figures().figures() != nullptr ? figures().figures()->bumper_radius : radius_of(*model_);
   }
 
   [[nodiscard]] bool has_gripper() const {
