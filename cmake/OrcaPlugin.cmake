@@ -3,7 +3,7 @@
 #   ORCA_BUILD_ID         what a plugin says of the Orca that it was built with
 #   ORCA_PLUGIN_DIR       where plugins are built
 #   ORCA_PLUGIN_LAYOUTS   folder of the generated header with the layouts that plugins compile in
-#   ORCA_PLUGIN_LANGUAGE  target with the options of all code
+#   ORCA_PLUGIN_LINK      targets that each plugin links
 #   ORCA_DEPLOYER         the program that runs graphs, for tests of drivers
 #
 # Without any part of it a library can be pinned in memory, or stale code can
@@ -69,7 +69,7 @@ function(orca_add_component name)
     target_link_options(${name} PRIVATE -Wl,-z,defs)
   endif()
   target_compile_definitions(${name} PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
-  target_link_libraries(${name} PRIVATE orca::component_api orca::hw_api ${arg_LINK} ${ORCA_PLUGIN_LANGUAGE})
+  target_link_libraries(${name} PRIVATE ${ORCA_PLUGIN_LINK} ${arg_LINK})
   orca_use_plugin_layouts(${name})
   list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
   add_custom_command(TARGET ${name} PRE_LINK
@@ -86,7 +86,7 @@ endfunction()
 function(orca_add_component_test name)
   find_package(Catch2 2 REQUIRED)
   add_executable(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE orca::testing Catch2::Catch2WithMain ${ORCA_PLUGIN_LANGUAGE})
+  target_link_libraries(${name} PRIVATE Orca::testing Orca::language Catch2::Catch2WithMain)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   get_property(plugins GLOBAL PROPERTY ORCA_PLUGINS)
   add_dependencies(${name} ${plugins})

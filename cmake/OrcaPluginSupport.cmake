@@ -29,15 +29,7 @@ function(orca_add_plugin_entry)
   add_library(orca_plugin_entry OBJECT ${ORCA_PLUGIN_SUPPORT_DIR}/plugin_entry.cpp)
   target_compile_options(orca_plugin_entry PRIVATE ${ORCA_PLUGIN_OPTIONS})
   target_compile_definitions(orca_plugin_entry PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
-  target_link_libraries(orca_plugin_entry PRIVATE orca::component_api orca::hw_api ${ORCA_PLUGIN_LANGUAGE})
+  target_link_libraries(orca_plugin_entry PRIVATE ${ORCA_PLUGIN_LINK})
   orca_use_precompiled_headers(orca_plugin_entry orca_plugin_headers)
   orca_use_plugin_layouts(orca_plugin_entry)
-endfunction()
-
-# orca_export(): lets other projects use this build, with find_package(Orca) and -DOrca_DIR=BUILD: see docs/first_component.md.
-function(orca_export)
-  export(TARGETS orca_language orca_options orca_base orca_idl orca_xml orca_text orca_geometry orca_geometry_objects orca_carmen orca_recording_reading orca_recording orca_ros orca_object_reading orca_object_recording orca_robot_file orca_patterns
-                 orca_patterns_local orca_patterns_frames orca_patterns_shm orca_patterns_dds orca_component_api orca_hw_framing orca_hw_link orca_hw_api orca_hw_driver orca_graph orca_plugin orca_host orca_testing
-         NAMESPACE orca:: FILE ${CMAKE_BINARY_DIR}/OrcaTargets.cmake)
-  configure_file(${PROJECT_SOURCE_DIR}/cmake/OrcaConfig.cmake.in ${CMAKE_BINARY_DIR}/OrcaConfig.cmake @ONLY)
 endfunction()

@@ -13,11 +13,18 @@ BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|read by \S+) -->\
 SAID = re.compile(r"^<!-- compared by \S+ -->\n```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-class Reader:
-    """Somebody who follows a page in a new folder."""
+def without_tree():
+    """Returns the beginning of a command that sees neither the source tree nor the build in it; nothing where the system does not
+    let a user have mounts of their own."""
+    hide = ["unshare", "--map-root-user", "--mount", "sh", "-c", 'mount -t tmpfs none "$0" && exec "$@"', str(TREE)]
+    return hide if subprocess.run([*hide, "true"], capture_output=True).returncode == 0 else []
 
-    def __init__(self, page, folder):
-        self.page, self.folder = page, pathlib.Path(folder)
+
+class Reader:
+    """Somebody who follows a page in a new folder, with the build, or with what is installed in a folder `installed`."""
+
+    def __init__(self, page, folder, installed=None):
+        self.page, self.folder, self.installed = page, pathlib.Path(folder), installed
         self.out = ""
 
     def follow(self):
@@ -29,8 +36,14 @@ class Reader:
                 self.run(block["text"])
 
     def run(self, commands):
-        commands = commands.replace("$ORCA/build/release", str(BUILD))
-        done = subprocess.run(["sh", "-e", "-c", commands], cwd=self.folder, env=dict(os.environ, ORCA=str(TREE)),
+        orca = TREE
+        shell = ["sh", "-e", "-c"]
+        if self.installed:
+            commands = commands.replace("-DOrca_DIR=$ORCA/build/release", f"-DCMAKE_PREFIX_PATH={self.installed}")
+            orca = self.installed / "share/orca"
+            shell = without_tree() + shell
+        commands = commands.replace("$ORCA/build/release", str(self.installed or BUILD))
+        done = subprocess.run([*shell, commands], cwd=self.folder, env=dict(os.environ, ORCA=str(orca)),
                               capture_output=True, text=True, timeout=300)
         self.out += done.stdout
         if done.returncode != 0:

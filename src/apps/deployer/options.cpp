@@ -9,6 +9,7 @@
 #include "codes.hpp"
 #include "common/command_line.hpp"
 #include "common/manual.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/quantity.hpp"
 #include "orca/xml/values.hpp"
@@ -210,8 +211,8 @@ class Reader {
       return wrong(std::string(wanted == 1 ? "one file only: there is" : "two files only:") + " " +
                    in_quotes(files[wanted - 1]) + " and " + in_quotes(files[wanted]));
     if (files.size() < wanted) return wrong("--diff compares two graphs: deployer --diff OLD.xml NEW.xml");
-    options_.file = files.front();
-    if (wanted == 2) options_.other_file = files.back();
+    options_.file = or_own_file(files.front());
+    if (wanted == 2) options_.other_file = or_own_file(files.back());
     return ok();
   }
 

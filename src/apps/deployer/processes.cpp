@@ -13,6 +13,7 @@
 
 #include "companions.hpp"
 #include "exit_code.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/text.hpp"
@@ -133,7 +134,7 @@ host::RunResult refuse(const Error& error, const std::string& log_name, host::Ru
 }  // namespace
 
 std::vector<std::string> plugin_folders(const Options& options) {
-  std::vector<std::string> folders{(own_program().parent_path().parent_path() / "plugins").string()};
+  std::vector<std::string> folders{own_plugin_folder()};
   folders.insert(folders.end(), options.plugin_folders.begin(), options.plugin_folders.end());
   return folders;
 }

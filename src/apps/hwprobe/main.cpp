@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "common/command_line.hpp"
 #include "common/manual.hpp"
 #include "common/output.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/live_line.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
@@ -84,8 +84,7 @@ Result<Options> options_of(const apps::Call& call) {
 }
 
 std::vector<std::string> plugin_folders(const Options& options) {
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
-  std::vector<std::string> folders{(own.parent_path().parent_path() / "plugins").string()};
+  std::vector<std::string> folders{own_plugin_folder()};
   folders.insert(folders.end(), options.folders.begin(), options.folders.end());
   return folders;
 }

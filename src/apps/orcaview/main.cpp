@@ -16,6 +16,7 @@
 #include "common/manual.hpp"
 #include "common/output.hpp"
 #include "orca/base/files/own_folder.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "replay/playback.hpp"
@@ -85,10 +86,8 @@ std::variant<std::string, ExitCode> system_of(const apps::Call& call) {
 }
 
 std::string web_folder(const apps::Call& call) {
-  if (const auto folder = call.text("--web")) return *folder;
-  std::error_code ignored;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  return (self.parent_path().parent_path() / "share" / "orca" / "web").string();
+  const std::optional<std::string> folder = call.text("--web");
+  return folder ? *folder : own_file("web");
 }
 
 // The addresses, in a file that only this user can read.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
 
 namespace orca::simbatch {
@@ -28,15 +29,13 @@ std::optional<batch::Experiment> experiment_of(const batch::Store& store) {
 }
 
 batch::BatchOptions with_plugins(batch::BatchOptions options, const std::vector<std::string>& folders) {
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
-  options.plugin_folders = {(own.parent_path().parent_path() / "plugins").string()};
+  options.plugin_folders = {own_plugin_folder()};
   options.plugin_folders.insert(options.plugin_folders.end(), folders.begin(), folders.end());
   return options;
 }
 
 std::string build_text() {
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
-  std::ifstream file(own.parent_path().parent_path() / "build.txt");
+  std::ifstream file(own_file("build.txt"));
   std::string text;
   return std::getline(file, text) ? text : "a build that says nothing of itself";
 }

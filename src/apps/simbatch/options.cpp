@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "common/manual.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 
@@ -160,7 +161,7 @@ Result<Options> parse_options(const std::vector<std::string>& words) {
   options.answer = apps::answer(program(), call);
   if (options.answer) return options;
   options.action = action_of(call);
-  options.subject = call.words.front();
+  options.subject = or_own_file(call.words.front());
   options.others.assign(call.words.begin() + 1, call.words.end());
   options.plugins = call.folders("--plugins");
   options.out = call.text("--out").value_or("");

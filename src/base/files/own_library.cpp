@@ -7,10 +7,32 @@
 
 namespace orca {
 
+namespace fs = std::filesystem;
+
 std::string beside_own_library(const std::string& name) {
   Dl_info own{};
   if (dladdr(reinterpret_cast<const void*>(&beside_own_library), &own) == 0) return name;
-  return (std::filesystem::path(own.dli_fname).parent_path() / name).string();
+  return (fs::path(own.dli_fname).parent_path() / name).string();
+}
+
+std::string own_plugin_folder() {
+  std::error_code ignored;
+  const fs::path installed = beside_own_library("plugins");
+  if (fs::is_directory(installed, ignored)) return fs::weakly_canonical(installed, ignored).string();
+  return fs::weakly_canonical(beside_own_library("../plugins"), ignored).string();
+}
+
+std::string own_file(const std::string& name) {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  return (program.parent_path().parent_path() / "share" / "orca" / name).string();
+}
+
+std::string or_own_file(const std::string& name) {
+  std::error_code ignored;
+  if (name.empty() || fs::path(name).is_absolute() || fs::exists(name, ignored)) return name;
+  const std::string own = own_file(name);
+  return fs::is_regular_file(own, ignored) ? own : name;
 }
 
 }  // namespace orca

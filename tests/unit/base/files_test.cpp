@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/input_file.hpp"
 #include "orca/base/output_file.hpp"
 #include "temp_folder.hpp"
@@ -255,4 +256,19 @@ TEST_CASE("two output files at once are two files", "[base][files]") {
   REQUIRE(first.close().ok());
   OutputFile second("the report");
   CHECK(second.open(folder.file("a")).ok());
+}
+
+TEST_CASE("a file that a user names goes before Orca's own of that name", "[base][files]") {
+  const TempFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const std::string own = own_file("web/index.html");
+  CHECK(std::filesystem::exists(own));
+  CHECK(or_own_file("web/index.html") == own);
+  CHECK(or_own_file("web/missing.html") == "web/missing.html");
+  std::filesystem::create_directory("web");
+  put("web/index.html", "");
+  CHECK(or_own_file("web/index.html") == "web/index.html");
+  CHECK(or_own_file(folder.file("web/index.html")) == folder.file("web/index.html"));
+  std::filesystem::current_path(before);
 }
