@@ -106,6 +106,8 @@ function(orca_install_files)
   install(DIRECTORY web/ DESTINATION ${ORCA_SHARE}/web COMPONENT web
     FILES_MATCHING PATTERN *.js PATTERN *.html PATTERN *.css PATTERN *.svg)
   install(FILES docs/hardware/60-orca-serial.rules DESTINATION lib/udev/rules.d COMPONENT drivers)
+  install(FILES cmake/install/orca@.service DESTINATION lib/systemd/system COMPONENT runtime)
+  install(FILES cmake/install/orca.sysusers DESTINATION lib/sysusers.d RENAME orca.conf COMPONENT runtime)
 endfunction()
 
 # Pages lie as in the source tree, so that their links lead where they should.

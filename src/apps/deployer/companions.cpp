@@ -2,11 +2,17 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "companions.hpp"
 
+#include <sys/socket.h>
+#include <sys/un.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
+#include "orca/base/descriptor.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/log.hpp"
 
@@ -117,6 +123,20 @@ Status Recorders::finish() {
       outcome = fail(Code::data_loss, "the recording is not complete", recorder.target);
   }
   return outcome;
+}
+
+void notify_service(const std::string& notice) {
+  const char* const place = std::getenv("NOTIFY_SOCKET");
+  sockaddr_un name{};
+  const std::string path = place == nullptr ? "" : place;
+  if (path.empty() || path.size() >= sizeof name.sun_path) return;
+  name.sun_family = AF_UNIX;
+  path.copy(name.sun_path, path.size());
+  if (path.front() == '@') name.sun_path[0] = '\0';  // an address that is no file
+  const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + path.size());
+  const Descriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  (void)::sendto(socket.number(), notice.data(), notice.size(), MSG_NOSIGNAL,
+                 reinterpret_cast<const sockaddr*>(&name), length);
 }
 
 }  // namespace orca::deployer

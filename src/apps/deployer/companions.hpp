@@ -21,6 +21,10 @@ namespace orca::deployer {
 /// @return nothing if that fails, after it was said: a system runs without its page, too.
 [[nodiscard]] std::optional<apps::ChildProgram> start_viewer(const std::string& system);
 
+/// Sends a notice to the program that started this one as a service, by systemd's protocol (sd_notify(3)): a datagram to the socket
+/// that $NOTIFY_SOCKET names. Without that variable nothing is sent; a notice that cannot be sent is lost.
+void notify_service(const std::string& notice);
+
 /// The processes that record a system of several processes: one `orcactl record` for each MCAP file, and one for the recording
 /// that its graph says is always made, in the user's state folder (docs/recordings.md). They wait for the system and end with it.
 /// The one that is always made is started again if it ends before.

@@ -201,8 +201,10 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   if (const Status started = recorders.start(graph, machine, options.run.recordings); !started.ok())
     return refuse(started.error(), options.run.log_name, listener);
   supervised.recorders = recorders.count();
-  if (recorders.count() > 0 || graph.records_always)
-    supervised.look_beside = [&recorders] { return recorders.look(); };
+  supervised.look_beside = [&recorders](bool has_come_up) {
+    if (has_come_up) notify_service("READY=1\nWATCHDOG=1");
+    return recorders.look();
+  };
   host::RunResult result = supervisor::run_supervised(graph, supervised, stop, listener);
   if (const Status recorded = recorders.finish(); !recorded.ok()) {
     log::error(options.run.log_name, recorded.error().text());

@@ -9,6 +9,16 @@ namespace orca {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// Returns the folder that has the program in bin/.
+fs::path own_prefix() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
+}
+
+}  // namespace
+
 std::string beside_own_library(const std::string& name) {
   Dl_info own{};
   if (dladdr(reinterpret_cast<const void*>(&beside_own_library), &own) == 0) return name;
@@ -17,16 +27,11 @@ std::string beside_own_library(const std::string& name) {
 
 std::string own_plugin_folder() {
   std::error_code ignored;
-  const fs::path installed = beside_own_library("plugins");
-  if (fs::is_directory(installed, ignored)) return fs::weakly_canonical(installed, ignored).string();
-  return fs::weakly_canonical(beside_own_library("../plugins"), ignored).string();
+  const fs::path installed = own_prefix() / "lib/orca/plugins";
+  return (fs::is_directory(installed, ignored) ? installed : own_prefix() / "plugins").string();
 }
 
-std::string own_file(const std::string& name) {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  return (program.parent_path().parent_path() / "share" / "orca" / name).string();
-}
+std::string own_file(const std::string& name) { return (own_prefix() / "share/orca" / name).string(); }
 
 std::string or_own_file(const std::string& name) {
   std::error_code ignored;

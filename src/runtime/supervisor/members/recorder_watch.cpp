@@ -23,11 +23,12 @@ idl::Alarm alarm_of(const std::string& source, const std::string& text, bool is_
 
 }  // namespace
 
-void look_at_recorders(RecorderWatch& watch, const std::function<std::map<std::string, std::string>()>& look,
+void look_at_recorders(RecorderWatch& watch,
+                       const std::function<std::map<std::string, std::string>(bool)>& look, bool has_come_up,
                        Moment now, Ledger& ledger) {
   if (!look || now - watch.looked < kInterval) return;
   watch.looked = now;
-  const auto before = std::exchange(watch.wrong, look());
+  const auto before = std::exchange(watch.wrong, look(has_come_up));
   for (const auto& [source, text] : watch.wrong) {
     if (before.contains(source)) continue;
     log::error(kLogName, "alarm RECORDING_LOST: " + text);

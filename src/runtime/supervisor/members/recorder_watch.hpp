@@ -19,8 +19,10 @@ struct RecorderWatch {
 /// Looks at the programs that record the system, once a second: raises the alarm RECORDING_LOST of each that was well before, and settles
 /// that of each that is well again.
 /// @param look  as SupervisedOptions::look_beside; empty: there are none.
+/// @param has_come_up  whether the system has, for `look`.
 /// @thread  the supervisor's.
-void look_at_recorders(RecorderWatch& watch, const std::function<std::map<std::string, std::string>()>& look,
+void look_at_recorders(RecorderWatch& watch,
+                       const std::function<std::map<std::string, std::string>(bool)>& look, bool has_come_up,
                        Moment now, Ledger& ledger);
 
 }  // namespace orca::supervisor

@@ -199,7 +199,7 @@ class SupervisedRun {
     look_at_beats();
     conductor_.go_on(now());
     if (conclusion_.is_over()) return;
-    look_at_recorders(recorders_, options_.look_beside, now(), ledger_);
+    look_at_recorders(recorders_, options_.look_beside, conclusion_.has_come_up(), now(), ledger_);
     if (conclusion_.has_come_up()) on_demand_.look(now());
     start_due();
     if (conclusion_.has_come_up()) trading_.look();

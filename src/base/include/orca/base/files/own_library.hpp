@@ -9,8 +9,8 @@ namespace orca {
 /// sanitizers, which stand between the caller and the loader.
 [[nodiscard]] std::string beside_own_library(const std::string& name);
 
-/// Returns the folder of Orca's own plugins: `plugins` beside this library where Orca is installed, and beside the folder of this
-/// library where it was built.
+/// Returns the folder of Orca's own plugins, seen from the program: `../lib/orca/plugins` where Orca is installed, `../plugins` where
+/// it was built.
 [[nodiscard]] std::string own_plugin_folder();
 
 /// Returns the path of one of Orca's own files which are no code, such as "web": below `../share/orca`, seen from the program.

@@ -41,8 +41,9 @@ struct SupervisedOptions {
   std::size_t recorders =
       0;  ///< Programs with bounded lines without which nothing begins to work, for a moment at least.
   /// Returns what is wrong with programs beside the system, by what they serve, such as a recording. It is called every
-  /// second while the system runs; what it no longer names is right again. Empty: there are no such programs.
-  std::function<std::map<std::string, std::string>()> look_beside;
+  /// second while the system runs, and hears whether all has come up; what it no longer names is right again. Empty: there are no
+  /// such programs.
+  std::function<std::map<std::string, std::string>(bool has_come_up)> look_beside;
   bool holds = false;  ///< What moves is held from the start, until an operator releases it.
 };
 
