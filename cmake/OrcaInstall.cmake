@@ -3,7 +3,7 @@
 #
 #   bin/                     programs, which find everything else from where they are
 #   lib/orca/                libraries; plugins/ has the plugins
-#   lib/cmake/Orca, lib/pkgconfig, include/orca      what components are compiled with
+#   lib/cmake/Orca, share/pkgconfig, include/orca    what components are compiled with
 #   share/orca/              graphs, worlds, robots, experiments and the page, in folders as in the source tree
 #
 # Libraries are private to Orca, because 0.x does not promise that a program works with another version of them: what a plugin was
@@ -14,6 +14,7 @@ include(CMakePackageConfigHelpers)
 set(ORCA_LIB lib/orca)
 set(ORCA_CMAKE lib/cmake/Orca)
 set(ORCA_SHARE share/orca)
+set(ORCA_PAGES share/doc/orca-doc/pages)
 
 # What programs and components of other projects may link.
 set(ORCA_EXPORTED language base idl xml text geometry geometry_objects carmen recording_reading recording ros
@@ -90,7 +91,7 @@ function(orca_install_package)
   set(recipe ${PROJECT_SOURCE_DIR}/cmake/plugin)
   install(FILES ${recipe}/plugin.map ${recipe}/plugin_entry.cpp ${recipe}/write_types.cmake ${recipe}/driver_trial.py
     DESTINATION ${ORCA_CMAKE}/plugin COMPONENT dev)
-  install(FILES ${made}/orca.pc DESTINATION lib/pkgconfig COMPONENT dev)
+  install(FILES ${made}/orca.pc DESTINATION share/pkgconfig COMPONENT dev)
 endfunction()
 
 # Graphs, what they name, and the page. An experiment that needs public data, which is not installed, is left out.
@@ -112,12 +113,12 @@ endfunction()
 
 # Pages lie as in the source tree, so that their links lead where they should.
 function(orca_install_pages)
-  install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE.md DESTINATION share/doc/orca-doc COMPONENT doc)
-  install(DIRECTORY docs DESTINATION share/doc/orca-doc COMPONENT doc)
+  install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE.md DESTINATION ${ORCA_PAGES} COMPONENT doc)
+  install(DIRECTORY docs DESTINATION ${ORCA_PAGES} COMPONENT doc)
   file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS src/components/*/README.md)
   foreach(page ${pages})
     cmake_path(GET page PARENT_PATH folder)
-    install(FILES ${page} DESTINATION share/doc/orca-doc/${folder} COMPONENT doc)
+    install(FILES ${page} DESTINATION ${ORCA_PAGES}/${folder} COMPONENT doc)
   endforeach()
 endfunction()
 

@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COMMANDS = ("setup", "build", "run", "quick", "test", "nightly", "bench", "lint", "docs")
+COMMANDS = ("setup", "build", "run", "quick", "test", "nightly", "bench", "package", "lint", "docs")
 # Leaves a file in the folder of the project whenever it is built.
 SMALL_PROJECT = """cmake_minimum_required(VERSION 3.25)
 project(small NONE)

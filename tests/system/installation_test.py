@@ -6,6 +6,7 @@
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -64,7 +65,7 @@ class Installation(unittest.TestCase):
             self.assertIn(f"_{program} {program}", (self.orca / f"share/bash-completion/completions/{program}").read_text())
 
     def test_a_component_is_built_tried_and_driven_outside(self):
-        reader = Reader("docs/first_component.md", self.folder, self.orca)
+        reader = Reader("docs/first_component.md", self.folder, self.orca, without_tree())
         reader.follow()
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
         self.assertIn("trace-hash", reader.out)
@@ -72,13 +73,10 @@ class Installation(unittest.TestCase):
 
     def test_a_component_is_built_with_pkg_config(self):
         shutil.copy(TREE / "tests/data/plugins/avoid.cpp", self.folder)
-        pathlib.Path(self.folder, "Makefile").write_text(
-            "orca = $(shell pkg-config $(1) orca)\n"
-            "avoid.so: avoid.cpp\n"
-            "\tg++ -shared $< $(call orca,--variable=entry) $(call orca,--cflags --libs) -Wl,--version-script=$(call orca,--variable=map) -o $@\n"
-            "\techo component orca.Avoid > avoid.types\n")
+        shown = re.search(r"^```make\n(.*?)^```", (TREE / "docs/install.md").read_text(), re.MULTILINE | re.DOTALL)
+        pathlib.Path(self.folder, "Makefile").write_text(shown[1])
         done = subprocess.run([*without_tree(), "make"], cwd=self.folder, capture_output=True, text=True, timeout=120,
-                              env=dict(os.environ, PKG_CONFIG_PATH=str(self.orca / "lib/pkgconfig")))
+                              env=dict(os.environ, PKG_CONFIG_PATH=str(self.orca / "share/pkgconfig")))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("stop_distance = 0.5 m", self.call("deployer", "--describe", "avoid.so"))
 

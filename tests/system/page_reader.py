@@ -21,10 +21,11 @@ def without_tree():
 
 
 class Reader:
-    """Somebody who follows a page in a new folder, with the build, or with what is installed in a folder `installed`."""
+    """Somebody who follows a page in a new folder, with the build, or with what is installed in a folder `installed`. Commands begin
+    with `inside`."""
 
-    def __init__(self, page, folder, installed=None):
-        self.page, self.folder, self.installed = page, pathlib.Path(folder), installed
+    def __init__(self, page, folder, installed=None, inside=()):
+        self.page, self.folder, self.installed, self.inside = page, pathlib.Path(folder), installed, inside
         self.out = ""
 
     def follow(self):
@@ -37,13 +38,11 @@ class Reader:
 
     def run(self, commands):
         orca = TREE
-        shell = ["sh", "-e", "-c"]
         if self.installed:
             commands = commands.replace("-DOrca_DIR=$ORCA/build/release", f"-DCMAKE_PREFIX_PATH={self.installed}")
             orca = self.installed / "share/orca"
-            shell = without_tree() + shell
         commands = commands.replace("$ORCA/build/release", str(self.installed or BUILD))
-        done = subprocess.run([*shell, commands], cwd=self.folder, env=dict(os.environ, ORCA=str(orca)),
+        done = subprocess.run([*self.inside, "sh", "-e", "-c", commands], cwd=self.folder, env=dict(os.environ, ORCA=str(orca)),
                               capture_output=True, text=True, timeout=300)
         self.out += done.stdout
         if done.returncode != 0:

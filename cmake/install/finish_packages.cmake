@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# What Debian expects in a package and `cmake --install` does not make. CPack runs this when a package's files are gathered.
+cmake_minimum_required(VERSION 3.25)
+file(GLOB folders LIST_DIRECTORIES true ${CPACK_TEMPORARY_DIRECTORY}/*)
+find_program(GZIP gzip REQUIRED)
+foreach(folder ${folders})
+  cmake_path(GET folder FILENAME component)
+  if(NOT component IN_LIST CPACK_COMPONENTS_ALL)
+    continue()
+  endif()
+  set(share ${folder}/usr/share)
+  set(pages ${share}/doc/orca-${component})
+  file(COPY ${CPACK_ORCA_FILES}/copyright ${CPACK_ORCA_FILES}/changelog DESTINATION ${pages})
+  file(RENAME ${pages}/changelog ${pages}/changelog.Debian)
+  file(GLOB texts ${share}/man/man1/*.1)
+  execute_process(COMMAND ${GZIP} -9nf ${pages}/changelog.Debian ${texts} COMMAND_ERROR_IS_FATAL ANY)
+  # Debian's zsh looks for the completions of packages there.
+  if(EXISTS ${share}/zsh/site-functions)
+    file(RENAME ${share}/zsh/site-functions ${share}/zsh/vendor-completions)
+  endif()
+endforeach()
