@@ -15,7 +15,7 @@ import tempfile
 import time
 import unittest
 
-from page_reader import BUILD, Reader
+from page_reader import BUILD, TREE, Reader
 
 SKIPPED = 77
 MIRROR = "http://deb.debian.org/debian"
@@ -49,9 +49,10 @@ class Packages(unittest.TestCase):
         (cls.debian / "etc/dpkg/dpkg.cfg.d/fast").write_text("force-unsafe-io\n")  # nobody keeps this Debian
         cls.packages = cls.debian / "packages"
         run("cpack", "--config", BUILD / "CPackConfig.cmake", "-B", scratch / "made")
+        cls.made = sorted((scratch / "made").glob("*.deb"))
         cls.packages.mkdir()
-        for package in (scratch / "made").glob("*.deb"):
-            shutil.move(package, cls.packages)
+        for package in cls.made:
+            shutil.copy(package, cls.packages)
 
     def inside(self, folder="/root"):
         """The beginning of a command that runs in a folder of the new Debian, with processes of its own."""
@@ -70,7 +71,7 @@ class Packages(unittest.TestCase):
     def test_lintian_finds_nothing(self):
         if shutil.which("lintian") is None:
             self.skipTest("SKIPPED: lintian is not installed; ./dev package installs it")
-        found = run("lintian", "--fail-on", "error,warning", "--allow-root", *sorted(self.packages.glob("*.deb")))
+        found = run("lintian", "--fail-on", "error,warning", "--allow-root", *self.made)
         self.assertEqual(found, "")
 
     def test_a_newcomer_drives_builds_and_tries(self):
@@ -94,12 +95,14 @@ class Packages(unittest.TestCase):
         self.assertLess(taken, LIMIT)
         self.check_service()
         self.check_others()
+        self.check_containerfile()
 
     def check_service(self):
         """The user is there, and systemd finds nothing wrong with the unit."""
         self.assertIn("orca", self.call("id", "orca"))
         unit = self.call("systemd-analyze", "verify", "--man=no", "orca@robot.service")
         self.assertEqual(unit, "")
+        self.call("runuser", "-u", "orca", "--", "deployer", "graphs/scout_goto.xml", "--hold", "--until", "1s")
 
     def check_others(self):
         """The other packages can be installed, each program says what it does, and all of them can be removed again."""
@@ -108,13 +111,20 @@ class Packages(unittest.TestCase):
             self.assertIn(program, self.call(program, "--help"))
         self.assertIn("orca.hw.P2os", self.call("deployer", "--types"))
         self.call("apt-get", "purge", "-q", "-y", "orca-*")
-        left = [path for path in self.debian.glob("usr/*/orca*")]
-        self.assertEqual(left, [])
+        self.assertEqual([path for path in self.debian.glob("usr/*/orca*")], [])
+
+    def check_containerfile(self):
+        """The last step of Containerfile makes an Orca that drives. Its first step is ./dev package in a new Debian."""
+        text = (TREE / "Containerfile").read_text().replace("\\\n", "")
+        self.assertIn("COPY --from=build /orca/build/release/packages /packages\n", text)
+        self.call("sh", "-e", "-c", text.splitlines()[-1].removeprefix("RUN "))
+        self.assertIn("arrived meeting", self.call("deployer", "graphs/scout_goto.xml", "--clock", "virtual"))
+        self.assertIn("no system", self.call("sh", "-c", "orcaview 2>&1 || true"))
 
 
 if __name__ == "__main__":
     if os.geteuid() != 0:
         skip("only root can make a Debian to install in")
     if shutil.which("debootstrap") is None:
-        skip("debootstrap is not installed; ./dev setup does not need it: apt-get install debootstrap")
+        skip("debootstrap is not installed; ./dev package installs it")
     unittest.main()
