@@ -137,7 +137,7 @@ std::optional<std::string> doubt_about(const idl::MotionCommand& command) {
 }
 
 std::optional<std::string> doubt_about(const idl::HolonomicVelocity& velocity) {
-  for (const double speed : {velocity.forward(), velocity.left()})
+  for (const double speed : {velocity.speed(), velocity.left()})
     if (auto doubt = doubt_about_speed(speed)) return doubt;
   return doubt_about_turn(velocity.turn_rate());
 }

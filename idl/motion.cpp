@@ -37,6 +37,27 @@ Loan<idl::MotionCommand> turn(double rate, double speed, double weight) {
   return wish;
 }
 
+Loan<idl::HolonomicVelocity> slide(double speed, double left, double rate, double weight) {
+  Loan<idl::HolonomicVelocity> wish = make_object<idl::HolonomicVelocity>();
+  wish->kind(idl::NORMAL);
+  wish->weight(weight);
+  wish->steering(idl::BY_TURN_RATE);
+  wish->turn_rate(rate);
+  wish->speed(speed);
+  wish->left(left);
+  return wish;
+}
+
+double sideways_speed(const ObjectPtr<idl::MotionCommand>& command) {
+  const auto velocity = command.as<idl::HolonomicVelocity>();
+  return velocity && velocity->kind() == idl::NORMAL ? velocity->left() : 0.0;
+}
+
+Status check_command(const ObjectPtr<idl::MotionCommand>& command) {
+  const auto velocity = command.as<idl::HolonomicVelocity>();
+  return velocity ? check_command(*velocity) : check_command(*command);
+}
+
 Status check_command(const idl::MotionCommand& command) {
   if (command.kind() == idl::FULLSTOP) return ok();
   const std::pair<const char*, double> numbers[] = {{"speed", command.speed()},
@@ -52,10 +73,10 @@ Status check_command(const idl::MotionCommand& command) {
 }
 
 Status check_command(const idl::HolonomicVelocity& velocity) {
-  if (std::isfinite(velocity.forward()) && std::isfinite(velocity.left()) &&
-      std::isfinite(velocity.turn_rate()))
-    return ok();
-  return fail(Code::invalid_argument, "a holonomic velocity holds a number that is not finite");
+  const idl::MotionCommand& command = velocity;
+  if (Status sound = check_command(command); !sound.ok()) return sound;
+  if (velocity.kind() == idl::FULLSTOP || std::isfinite(velocity.left())) return ok();
+  return fail(Code::invalid_argument, "a holonomic velocity's sideways speed is not a finite number");
 }
 
 Status check_command(const idl::TurretCommand& turret) {

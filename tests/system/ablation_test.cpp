@@ -99,6 +99,14 @@ const std::vector<Case> kCases{
     {"courier_depot", "lasers", How::crashed, Worse::nowhere},
     {"courier_depot", "localizer", How::crashed, Worse::nowhere},
 
+    {"nomad_xr4000", "command", How::silent, Worse::stands},
+    {"nomad_xr4000", "goto", How::silent, Worse::nowhere},
+    {"nomad_xr4000", "avoid", How::removed, Worse::nowhere},  // its gate keeps it off the walls
+    {"nomad_xr4000", "fuser", How::silent, Worse::stands},
+    {"nomad_xr4000", "gate", How::silent, Worse::stands},
+    {"nomad_xr4000", "base", How::silent, Worse::stands},
+    {"nomad_xr4000", "localizer", How::crashed, Worse::nowhere},
+
     {"pioneer_fetch", "command", How::silent, Worse::stands},
     {"pioneer_fetch", "porter", How::silent, Worse::stands},
     {"pioneer_fetch", "goto", How::silent, Worse::nowhere},
@@ -145,7 +153,6 @@ const std::set<std::string> kElsewhere{"emulated_devices",
 
 // Graphs of robots that exist, and those whose components they have, one for one.
 const std::map<std::string, std::string> kOfRealRobots{{"nomad_scout", "scout_goto"},
-                                                       {"nomad_xr4000", "scout_goto"},
                                                        {"peoplebot", "scout_goto"},
                                                        {"pioneer2dx_sick", "pioneer_laser_goto"},
                                                        {"pioneer_one_core", "pioneer_laser_goto"},

@@ -2,12 +2,20 @@
 // Whole systems with robots of other kinds than the Scout.
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <regex>
 
 #include "deployer.hpp"
+#include "orca/geometry/angle.hpp"
+#include "record_table.hpp"
+#include "shipped_graph.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using orca::wrapped;
 
 namespace {
 
@@ -19,6 +27,13 @@ std::string robot_arg(const std::string& robot) {
 std::string without_figures(const std::string& robot) {
   const std::string text = read_text(source_file("sim/robots/" + robot + ".urdf"));
   return std::regex_replace(text, std::regex("steer_gain=\"[^\"]*\"|<wheel_errors[^>]*>"), "");
+}
+
+// Returns where the robot faced at a time.
+double facing_at(const RecordTable& poses, double time) {
+  for (const auto& row : poses.rows("localizer.RobotPosePush"))
+    if (number(row, "stamp") >= time - 1e-6) return number(row, "orientation");
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -75,5 +90,34 @@ TEST_CASE("a graph that wants other bases to move sideways is refused before any
     CHECK(run.exit_code() == 2);
     CHECK(run.says("HolonomicVelocitySend"));
     CHECK(run.says("MotionCommandSend"));
+  }
+}
+
+TEST_CASE(
+    "an XR4000 that Goto may move sideways is at its goals, and looks where they ask, in a fifth less time",
+    "[system][robots]") {
+  constexpr std::array kWanted{std::numbers::pi, 0.5 * std::numbers::pi, 0.0};  // as the graph's goals
+  constexpr double kReachAngle = 0.1;                                           // [rad] Command's
+  constexpr double kRounded = 0.01;
+  const TempFolder folder;
+  const std::string slides = ShippedGraph("nomad_xr4000").text();
+  const std::string turns = std::regex_replace(slides, std::regex("<connect from=\"goto.robot\"[^>]*>"), "");
+  REQUIRE(turns != slides);
+  for (const char* seed : {"1", "2"}) {
+    std::vector<double> times;
+    for (const std::string& graph : {slides, turns}) {
+      const Run run = run_deployer(Words{folder.write("graph.xml", graph), "--seed", seed, "--record",
+                                         folder.file("poses.csv") + "=localizer.RobotPosePush"} +
+                                   virtual_clock());
+      CAPTURE(seed, run.err);
+      CHECK(run.exit_code() == 0);
+      CHECK(run.contacts().empty());
+      REQUIRE(run.arrivals().size() == 3);
+      times.push_back(run.arrivals()[2].t);
+      const RecordTable poses(folder.file("poses.csv"));
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK(std::abs(wrapped(facing_at(poses, run.arrivals()[i].t) - kWanted[i])) < kReachAngle + kRounded);
+    }
+    CHECK(times[0] < 0.8 * times[1]);
   }
 }

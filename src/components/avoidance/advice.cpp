@@ -185,7 +185,31 @@ double urgency(double way, bool may_turn, const Limits& limits) {
   return std::max(1.0 - room(way, limits), may_turn ? 0.0 : kTurnUrgency);
 }
 
+namespace {
+
+// Advises a robot that slides as one that looks where it wants to go.
+Advice avoid_sliding(std::span<const Vec2> echoes, const Situation& situation, Limits limits) {
+  const double axis = situation.goal.value_or(situation.course.value_or(0.0));
+  std::vector<Vec2> around;
+  for (const Vec2 echo : echoes) around.push_back(rotated(echo, -axis));
+  Situation turned = situation;
+  if (turned.goal) turned.goal = 0.0;
+  turned.turning = wrapped(situation.course.value_or(axis) - axis);
+  if (situation.last_direction != 0.0) turned.last_direction = wrapped(situation.last_direction - axis);
+  limits.slides = false;
+  limits.body.reset();
+  Advice advised = avoid(around, turned, limits);
+  if (!advised.needed) return {};
+  advised.speed = limits.max_speed * room(free_way(around, advised.direction, limits), limits);
+  advised.direction = wrapped(advised.direction + axis);
+  advised.slides = true;
+  return advised;
+}
+
+}  // namespace
+
 Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
+  if (limits.slides) return avoid_sliding(echoes, situation, limits);
   const double ahead = way_ahead(echoes, situation, limits);
   const TurnRoom turns = turn_room(echoes, situation, limits);
   const bool may_turn = turns.allows(situation.goal.value_or(0.0));

@@ -23,11 +23,11 @@ double insistence(double urgency, double yields) { return urgency / (1.0 + yield
 bool stands(const Twist2& twist) {
   constexpr double kSlow = 0.005;     // [m/s]
   constexpr double kSlowTurn = 0.01;  // [rad/s]
-  return std::abs(twist.forward) < kSlow && std::abs(twist.turn_rate) < kSlowTurn;
+  return speed_of(twist) < kSlow && std::abs(twist.turn_rate) < kSlowTurn;
 }
 
 // A robot that turns on the spot does not get on either.
-bool stays(const Twist2& twist) { return std::abs(twist.forward) < 0.005 && std::abs(twist.left) < 0.005; }
+bool stays(const Twist2& twist) { return speed_of(twist) < 0.005; }
 
 // Returns whether somebody moves near a place in the frame of the odometry: a robot there may stand to let him pass.
 bool passes_somebody(const ObjectPtr<idl::MovingThings>& moving, Vec2 place, TimePoint now) {
@@ -140,6 +140,8 @@ Status Avoider::learn_robot() {
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;
   body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
+  body_->slides = std::ranges::any_of(robot.drives(),
+                                      [](const idl::Drive& drive) { return drive.type() == idl::HOLONOMIC; });
   // A sensor on a line of its own is none of the base's.
   const auto note = [this](const idl::Sensor& sensor) {
     if (sensor.type() == sensed().name)
@@ -202,7 +204,7 @@ bool Avoider::follow(const idl::Odometry& odometry) {
   if (moved_at_) memory_.advance(seen_from(pose_, pose), pace * to_seconds(stamp - *moved_at_), keep());
   moved_at_ = stamp;
   pose_ = pose;
-  twist_ = {.forward = odometry.translational_velocity(), .turn_rate = odometry.steering_velocity()};
+  twist_ = {odometry.translational_velocity(), odometry.sideways_velocity(), odometry.steering_velocity()};
   return true;
 }
 
@@ -235,6 +237,9 @@ void Avoider::advise() {
     motion_.push(dont_care());
   } else if (advised.turn_rate) {
     motion_.push(turn(*advised.turn_rate, advised.speed, weight));
+  } else if (advised.slides) {
+    const Vec2 velocity = advised.speed * direction(advised.direction);
+    motion_.push(slide(velocity.x, velocity.y, 0.0, weight));
   } else {
     motion_.push(head(advised.direction, advised.speed, weight));
   }
@@ -313,6 +318,8 @@ Situation Avoider::situation() {
   situation.is_heeded = motion_.subscriber_count() > 0;
   situation.speed = twist_.forward;
   situation.turn_rate = twist_.turn_rate;
+  constexpr double kMoves = 0.05;  // [m/s] Slower, the direction is noise.
+  if (speed_of(twist_) > kMoves) situation.course = portable::atan2(twist_.left, twist_.forward);
   add_goal(situation);
   return situation;
 }
@@ -351,7 +358,8 @@ Limits Avoider::limits() const {
           .margin = *margin_,
           .safe_distance = *safe_distance_,
           .stop_distance = *stop_distance_,
-          .max_speed = *max_speed_};
+          .max_speed = *max_speed_,
+          .slides = body_ && body_->slides};
 }
 
 }  // namespace orca::avoid

@@ -20,7 +20,7 @@ constexpr double kStill = 0.005;     // [m/s]
 constexpr double kStillTurn = 0.01;  // [rad/s]
 
 bool stands_still(const Twist2& twist) {
-  return std::abs(twist.forward) < kStill && std::abs(twist.turn_rate) < kStillTurn;
+  return speed_of(twist) < kStill && std::abs(twist.turn_rate) < kStillTurn;
 }
 
 bool has_moved(const Pose2& from, const Pose2& to) {

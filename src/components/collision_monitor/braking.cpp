@@ -17,7 +17,7 @@ constexpr double kLeastMargin = 1.0 / 3.0;  // at least this one
 constexpr double kLastMargin = 0.5;         // of the margin is left when an emergency stop has ended
 
 double swiftness(const Twist2& twist, double reach) {
-  return std::max(std::fabs(twist.forward), reach * std::fabs(twist.turn_rate));
+  return std::max(speed_of(twist), reach * std::fabs(twist.turn_rate));
 }
 
 double margin_at(double speed, const Rules& rules) {
@@ -42,7 +42,7 @@ Pass pass(const collision::SweptBody& body, std::span<const collision::Post> pos
 }  // namespace
 
 double braking_time(const Twist2& twist, const Brakes& brakes) {
-  return std::max(0.5 * std::fabs(twist.forward) / brakes.deceleration,
+  return std::max(0.5 * speed_of(twist) / brakes.deceleration,
                   0.5 * std::fabs(twist.turn_rate) / brakes.turn_deceleration);
 }
 
@@ -57,7 +57,7 @@ double share_to_stop(const Twist2& twist, double free, double reaction, const Br
 
 bool creeps(const Twist2& twist, double reach) {
   constexpr double kTouches = 0.06;  // [m/s]
-  return std::fabs(twist.forward) <= kTouches && reach * std::fabs(twist.turn_rate) <= 2.0 * kTouches;
+  return speed_of(twist) <= kTouches && reach * std::fabs(twist.turn_rate) <= 2.0 * kTouches;
 }
 
 Verdict judge(const collision::SweptBody& body, std::span<const collision::Post> posts, const Intent& intent,
@@ -73,9 +73,7 @@ Verdict judge(const collision::SweptBody& body, std::span<const collision::Post>
   const double least = std::min(intent.held ? kAgain : kCreep, wish);
   if (next.share * wish >= kAgain) return {next.share, false, next.post};
   const double slow = std::min(1.0, kAgain / wish);
-  const Twist2 slowly{slow * intent.wanted.forward, slow * intent.wanted.left,
-                      slow * intent.wanted.turn_rate};
-  const bool squeezes = slow < 1.0 && !pass(body, posts, slowly, rules).post;
+  const bool squeezes = slow < 1.0 && !pass(body, posts, slow * intent.wanted, rules).post;
   if (squeezes) return {slow, false, next.post};
   return {next.share * wish < least ? 0.0 : next.share, false, next.post};
 }

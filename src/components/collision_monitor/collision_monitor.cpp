@@ -124,17 +124,20 @@ class CollisionMonitor final : public orca::Component {
 
   Status on_command(const ObjectPtr<MotionCommand>& command) {
     if (Status sound = orca::hw::MotionHW::check(*command); !sound.ok()) return sound;
-    const Twist2 wanted = machine_->twist_of(*command);
-    if (wanted == Twist2{}) return pass(*command, wanted);
+    if (Status sound = orca::check_command(command); !sound.ok()) return sound;
+    const Twist2 wanted = machine_->twist_of(command);
+    if (wanted == Twist2{}) return send(orca::copy_value(command), wanted);
     commanded_at_ = now();
     stay_active(true);
     look_around();
     Verdict verdict = judge(wanted);
     if (!may_pass(verdict)) verdict.share = 0.0;
     note(verdict);
-    if (verdict.share >= 1.0) return pass(*command, wanted);
-    const Twist2 slower{verdict.share * wanted.forward, 0.0, verdict.share * wanted.turn_rate};
+    if (verdict.share >= 1.0) return send(orca::copy_value(command), wanted);
+    const Twist2 slower = verdict.share * wanted;
     if (slower == Twist2{}) return send(orca::full_stop(), {});
+    if (slower.left != 0.0)
+      return send(orca::slide(slower.forward, slower.left, slower.turn_rate, command->weight()), slower);
     return send(orca::turn(slower.turn_rate, slower.forward, command->weight()), slower);
   }
 
@@ -150,10 +153,6 @@ class CollisionMonitor final : public orca::Component {
     if (held_ && now() - *free_since_ < (gives_way_ ? kPassedAfter : kSureAfter)) return false;
     held_ = false;
     return true;
-  }
-
-  Status pass(const MotionCommand& command, const Twist2& wanted) {
-    return send(orca::make_object<MotionCommand>(command), wanted);
   }
 
   Status send(orca::Loan<MotionCommand> command, const Twist2& twist) {
@@ -259,7 +258,7 @@ class CollisionMonitor final : public orca::Component {
       history_.clear();
     }
     const TimePoint stamp = orca::to_time_point(odometry.stamp());
-    const bool stands = std::abs(twist_.forward) < 0.005 && std::abs(twist_.turn_rate) < 0.01;
+    const bool stands = orca::speed_of(twist_) < 0.005 && std::abs(twist_.turn_rate) < 0.01;
     if (!history_.empty()) surroundings_.age(orca::to_seconds(stamp - history_.newest()), !stands);
     twist_ = {odometry.translational_velocity(), odometry.sideways_velocity(), odometry.steering_velocity()};
     history_.add(stamp, orca::plane_pose(odometry));

@@ -28,10 +28,6 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double towards(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
 
-Twist2 slower(const Twist2& twist, double share) {
-  return {share * twist.forward, share * twist.left, share * twist.turn_rate};
-}
-
 // The motion of the body when it obeys a command, and people who go on.
 class Foresight {
  public:
@@ -58,6 +54,7 @@ class Foresight {
       const Twist2 aim = stops ? Twist2{} : wanted;
       if (time >= rules_.reaction) {
         twist.forward = towards(twist.forward, aim.forward, brakes.deceleration * kStep);
+        twist.left = towards(twist.left, aim.left, brakes.deceleration * kStep);
         twist.turn_rate = towards(twist.turn_rate, aim.turn_rate, brakes.turn_deceleration * kStep);
       }
       pose = pose * moved(twist, kStep);
@@ -118,7 +115,7 @@ Crossing cross(const collision::SweptBody& body, std::span<const Passer> people,
   const double halt = rules.reaction + 2.0 * braking_time(intent.present, rules.hard) + kPeriod;
   std::array<Foresight::Touch, kShares.size()> touches;
   for (std::size_t i = 0; i < kShares.size(); ++i) {
-    const Twist2 wanted = slower(intent.wanted, kShares[i]);
+    const Twist2 wanted = kShares[i] * intent.wanted;
     touches[i] = foresight.touch(intent.present, wanted, kNever);
     if (!touches[i].who) return {kShares[i], false, {}};
     const Foresight::Touch stops = foresight.touch(intent.present, wanted, kPeriod);

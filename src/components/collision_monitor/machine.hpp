@@ -22,8 +22,9 @@ class Machine {
   /// @param holds  whether the gripper holds something.
   [[nodiscard]] const collision::SweptBody& body(bool holds) const { return holds ? loaded_ : empty_; }
   /// Returns the velocity that the base makes of a command.
-  [[nodiscard]] Twist2 twist_of(const idl::MotionCommand& command) const {
-    return hw::twist_of(command, limits_);
+  [[nodiscard]] Twist2 twist_of(const ObjectPtr<idl::MotionCommand>& command) const {
+    const auto velocity = command.as<idl::HolonomicVelocity>();
+    return velocity ? hw::twist_of(*velocity, limits_) : hw::twist_of(*command, limits_);
   }
   /// @param reaction  [s] until the base gets a command; its own delay is added.
   [[nodiscard]] Rules rules(double reaction, double margin) const;

@@ -18,7 +18,7 @@ class Tally {
  public:
   /// Notes a motion of the robot. @param now  when it is reported; times only grow.
   void add(TimePoint now, const Twist2& twist) {
-    if (moved_at_) way_ += std::fabs(twist.forward) * to_seconds(now - *moved_at_);
+    if (moved_at_) way_ += speed_of(twist) * to_seconds(now - *moved_at_);
     moved_at_ = now;
   }
   /// Notes what was left of a command. Commands with more than kGap in between do not belong together.

@@ -40,6 +40,12 @@ double way_left(const Route& route, const Patience& patience, Vec2 from) {
   return left;
 }
 
+Loan<idl::MotionCommand> command_of(const Step& step, double weight) {
+  if (!step.turn_rate) return head(step.direction, step.speed, weight);
+  const Vec2 velocity = step.speed * direction(step.direction);
+  return slide(velocity.x, velocity.y, *step.turn_rate, weight);
+}
+
 // Says how near the robot has come to a point, for people.
 std::string where_it_stays(const Patience& patience, const idl::GoalPoint& point) {
   const std::string place = point.via() ? "the next via point" : "the goal";
@@ -243,7 +249,7 @@ void GoalFollower::take(const Step& step, const Pose2& pose, const Target& targe
   before_.near = step.near;
   before_.speed = step.speed;
   if (step.kind != Step::Kind::reached) {
-    motion_.push(head(step.direction, step.speed, *weight_));
+    motion_.push(command_of(step, *weight_));
   } else if (deviation_ <= target.reach_radius) {
     arrive(pose);
   } else {

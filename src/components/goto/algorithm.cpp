@@ -22,6 +22,14 @@ Step drive(double direction, double speed, const Limits& limits) {
   return {Step::Kind::drive, direction, std::min(limits.max_speed, speed) * aligned};
 }
 
+// Returns the rate at which a robot that slides turns [rad/s].
+double turn_while_sliding(const Target& target, const Pose2& pose) {
+  constexpr double kTurnGain = 1.5;  // [1/s]
+  constexpr double kFar = 0.5;       // [m] Nearer the direction to the target says little.
+  if (target.use_orientation && !target.via) return kTurnGain * wrapped(target.orientation - pose.yaw);
+  return distance(target, pose) > kFar ? kTurnGain * bearing(target, pose) : 0.0;
+}
+
 // Steers towards the circle from afar, along it (place on the left) when on it, and outwards from within it.
 Step circle(const Target& target, const Pose2& pose, const Limits& limits) {
   const double inwards =
@@ -32,10 +40,16 @@ Step circle(const Target& target, const Pose2& pose, const Limits& limits) {
 }  // namespace
 
 Step step_towards(const Target& target, const Pose2& pose, const Limits& limits, const Before& before) {
-  if (const auto rest = step_of_rest(target, pose, limits.deceleration, before)) return *rest;
+  const auto slide = [&](double speed, bool near) {
+    return Step{Step::Kind::drive, bearing(target, pose), std::min(limits.max_speed, speed), near,
+                turn_while_sliding(target, pose)};
+  };
+  if (const auto rest = step_of_rest(target, pose, limits.deceleration, before))
+    return limits.slides && rest->kind == Step::Kind::drive ? slide(rest->speed, true) : *rest;
   if (target.reach_radius <= 0.0) return circle(target, pose, limits);
   const double approach = std::max(limits.min_speed, limits.slow_down * distance(target, pose));
-  return drive(bearing(target, pose), target.via ? limits.max_speed : approach, limits);
+  const double speed = target.via ? limits.max_speed : approach;
+  return limits.slides ? slide(speed, false) : drive(bearing(target, pose), speed, limits);
 }
 
 }  // namespace orca::go

@@ -12,6 +12,7 @@ struct Limits {
   double turn_in_place = 0.0;  ///< [rad] at larger directions the robot turns before it drives.
   double deceleration = 0.0;   ///< [m/s2] with which it comes to rest at a goal.
   double circle_radius = 0.0;  ///< [m] of the circle around a place that is never reached.
+  bool slides = false;         ///< Whether the base can move sideways.
 };
 
 /// Computes one control step towards a target. The robot drives straight at it, slower near a goal and when
@@ -19,6 +20,9 @@ struct Limits {
 /// target's orientation. It may drift out of reach meanwhile, by at most half the reach_radius; but then it
 /// approaches once more before it has reached the target. It circles counter-clockwise around a target
 /// without reach.
+///
+/// A robot that slides moves straight at the target however it stands, and turns meanwhile: to the target's orientation, or
+/// without one to where it drives.
 [[nodiscard]] Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
                                 const Before& before);
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "algorithm.hpp"
 #include "orca/goals/goal_follower.hpp"
+#include "orca/planning/asked_robot.hpp"
 
 namespace {
 
 /// A behaviour that drives to a goal in a straight line (thesis 11.1). It circles around a goal whose
-/// reach_radius is 0 until another goal comes. A goal may lie above or below the robot: its reach is a ball.
+/// reach_radius is 0 until another goal comes. A base that can move sideways does, and turns on the way. A goal may lie above or below the robot: its reach is a ball.
 /// It treats goals, via points and doors as all behaviours that follow goals.
 class Goto final : public orca::go::GoalFollower {
  public:
@@ -14,15 +15,45 @@ class Goto final : public orca::go::GoalFollower {
  private:
   static constexpr double kBlockedAfter = 30.0;  // [s]
 
+  orca::Status start() override {
+    if (orca::Status begun = GoalFollower::start(); !begun.ok()) return begun;
+    slides_ = false;
+    return robot_.ask();
+  }
+
+  void stop() override {
+    robot_.leave();
+    GoalFollower::stop();
+  }
+
+  orca::Outcome work() override {
+    if (const orca::Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
+    slides_ = slides_ || robot_.slides();
+    return GoalFollower::work();
+  }
+
+  void save_state(orca::StateWriter& state) const override {
+    GoalFollower::save_state(state);
+    state.write(slides_);
+  }
+
+  orca::Status load_state(orca::StateReader& state) override {
+    if (orca::Status read = GoalFollower::load_state(state); !read.ok()) return read;
+    return state.read(slides_);
+  }
+
   void drive(const orca::Pose2& pose, const orca::go::Target& target) override {
     take(step_towards(target, pose, limits(), before()), pose, target);
   }
 
-  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
 
   [[nodiscard]] orca::go::Limits limits() const {
-    return {*max_speed_, *slow_down_, *min_speed_, *turn_in_place_, *deceleration_, *circle_radius_};
+    return {*max_speed_, *slow_down_, *min_speed_, *turn_in_place_, *deceleration_, *circle_radius_, slides_};
   }
+
+  orca::planning::AskedRobot robot_{*this, "Base that is asked whether it can move sideways."};
+  bool slides_ = false;  // Whether it has said so.
 
   orca::Param<double> max_speed_{
       *this, "max_speed", 0.5, {.unit = "m/s", .min = 0.0, .text = "Largest speed on the way."}};

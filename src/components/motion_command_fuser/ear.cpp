@@ -21,7 +21,7 @@ double between(const idl::MotionCommand& former, const idl::MotionCommand& later
 }  // namespace
 
 void Ear::take(Listened& behaviour, const ObjectPtr<idl::MotionCommand>& newest, double limit) {
-  behaviour.talks_nonsense = !senders_.accepts(check_command(*newest), "MotionCommand", newest->origin());
+  behaviour.talks_nonsense = !senders_.accepts(check_command(newest), "MotionCommand", newest->origin());
   if (behaviour.talks_nonsense) {
     behaviour.reliance.look(kForEver, limit);
     behaviour.last = behaviour.last_wish = {};
@@ -54,12 +54,13 @@ Voice::Said said(const idl::MotionCommand& command) {
   return command.kind() == idl::NORMAL ? Voice::Said::wish : Voice::Said::dont_care;
 }
 
-Wish wish_of(const idl::MotionCommand& command) {
-  const double speed = std::clamp(command.speed(), -kFastest, kFastest);
-  if (command.steering() == idl::BY_DIRECTION)
-    return {Wish::Kind::direction, command.direction(), speed, command.weight()};
-  return {Wish::Kind::turn_rate, std::clamp(command.turn_rate(), -kFastestTurn, kFastestTurn), speed,
-          command.weight()};
+Wish wish_of(const ObjectPtr<idl::MotionCommand>& command) {
+  const double speed = std::clamp(command->speed(), -kFastest, kFastest);
+  const double left = std::clamp(sideways_speed(command), -kFastest, kFastest);
+  if (command->steering() == idl::BY_DIRECTION)
+    return {Wish::Kind::direction, command->direction(), speed, command->weight(), left};
+  return {Wish::Kind::turn_rate, std::clamp(command->turn_rate(), -kFastestTurn, kFastestTurn), speed,
+          command->weight(), left};
 }
 
 }  // namespace orca::fuse

@@ -74,6 +74,6 @@ class Ear {
 [[nodiscard]] Voice::Said said(const idl::MotionCommand& command);
 
 /// Returns the wish that a command holds, at most as fast as doubt_about() believes.
-[[nodiscard]] Wish wish_of(const idl::MotionCommand& command);
+[[nodiscard]] Wish wish_of(const ObjectPtr<idl::MotionCommand>& command);
 
 }  // namespace orca::fuse

@@ -24,10 +24,6 @@ struct Sums {
   double left = 0.0;
 };
 
-double as_rate(const Wish& wish, double steer_gain) {
-  return wish.kind == Wish::Kind::direction ? steer_gain * wish.value : wish.value;
-}
-
 double as_direction(const Wish& wish, double steer_gain) {
   if (wish.kind == Wish::Kind::direction) return wish.value;
   return std::clamp(wish.value / steer_gain, -std::numbers::pi, std::numbers::pi);
@@ -61,6 +57,10 @@ Wish along(const Sums& sums, double speed) {
 }
 
 }  // namespace
+
+double as_rate(const Wish& wish, double steer_gain) {
+  return wish.kind == Wish::Kind::direction ? steer_gain * wish.value : wish.value;
+}
 
 Fused fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
   const auto turns = [](const Wish& wish) { return wish.kind == Wish::Kind::turn_rate; };

@@ -7,6 +7,9 @@
 
 namespace orca::fuse {
 
+/// Returns the turn rate [rad/s] that a wish asks for: a direction counts as `steer_gain` [1/s] times it.
+[[nodiscard]] double as_rate(const Wish& wish, double steer_gain);
+
 /// Fuses wishes by their weights (thesis 11.1): directions as the weighted sum of unit vectors, turn rates
 /// and speeds as weighted means. If some wish is a turn rate, directions count as rates of `steer_gain` times
 /// the direction. If the directions cancel out, the robot stands.

@@ -178,7 +178,7 @@ class MotionCommandFuser final : public orca::Component {
     behaviour.reliance.look(voice.age, limit);
     voice.lost = behaviour.reliance.is_lost();
     if (!behaviour.last_wish) return voice;
-    voice.wish = orca::fuse::wish_of(*behaviour.last_wish);
+    voice.wish = orca::fuse::wish_of(behaviour.last_wish);
     voice.wish_age = age_of(*behaviour.last_wish);
     return voice;
   }
@@ -198,6 +198,8 @@ class MotionCommandFuser final : public orca::Component {
   orca::Loan<orca::idl::MotionCommand> command() const {
     const Wish& wish = decision_.command;
     if (decision_.verdict != Verdict::fused) return orca::full_stop();
+    if (wish.left != 0.0)
+      return orca::slide(wish.speed, wish.left, as_rate(wish, rules_.ballot.steer_gain), wish.weight);
     if (wish.kind == Wish::Kind::direction) return orca::head(wish.value, wish.speed, wish.weight);
     return orca::turn(wish.value, wish.speed, wish.weight);
   }

@@ -14,6 +14,7 @@ struct Wish {
   double value = 0.0;   ///< Direction [rad] or turn rate [rad/s], counter-clockwise positive.
   double speed = 0.0;   ///< [m/s]
   double weight = 0.0;  ///< [1] above 0.
+  double left = 0.0;    ///< [m/s] sideways, for a base that can move so.
 };
 
 /// The one command that several wishes result in.

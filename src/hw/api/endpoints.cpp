@@ -53,6 +53,14 @@ Twist2 twist_of(const idl::MotionCommand& command, const DriveLimits& limits) {
   return twist;
 }
 
+Twist2 twist_of(const idl::HolonomicVelocity& velocity, const DriveLimits& limits) {
+  if (velocity.kind() == idl::FULLSTOP) return {};
+  const double speed = portable::hypot(velocity.speed(), velocity.left());
+  const double share = speed > limits.max_speed ? limits.max_speed / speed : 1.0;
+  return {share * velocity.speed(), share * velocity.left(),
+          std::clamp(velocity.turn_rate(), -limits.max_turn_rate, limits.max_turn_rate)};
+}
+
 MotionHW::MotionHW(const DriveLimits& limits, Duration max_command_age)
     : limits_(limits), max_command_age_(max_command_age) {}
 
@@ -70,11 +78,11 @@ Status MotionHW::command(const idl::MotionCommand& command, TimePoint now) {
 }
 
 Status MotionHW::command(const idl::HolonomicVelocity& velocity, TimePoint now) {
-  if (limits_.type != idl::HOLONOMIC)
-    return fail(Code::failed_precondition,
-                "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity");
+  if (limits_.type != idl::HOLONOMIC) return fail(Code::failed_precondition, kNotSideways);
+  if (Status checked = check(velocity); !checked.ok()) return checked;
   if (Status checked = check_command(velocity); !checked.ok()) return checked;
-  return move({.velocity = within_limits(velocity)}, velocity.mission(), now);
+  return move({.velocity = twist_of(velocity, limits_), .at_once = velocity.kind() == idl::FULLSTOP},
+              velocity.mission(), now);
 }
 
 Status MotionHW::move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now) {
@@ -113,16 +121,6 @@ std::optional<std::string> MotionHW::take_hindrance(Hindrance by) {
 
 // @pre  mutex_ is held.
 void MotionHW::stand() { setpoint_ = setpoint_.stopped(); }
-
-double MotionHW::within_limits(double turn_rate) const {
-  return std::clamp(turn_rate, -limits_.max_turn_rate, limits_.max_turn_rate);
-}
-
-Twist2 MotionHW::within_limits(const idl::HolonomicVelocity& velocity) const {
-  const double speed = portable::hypot(velocity.forward(), velocity.left());
-  const double share = speed > limits_.max_speed ? limits_.max_speed / speed : 1.0;
-  return {share * velocity.forward(), share * velocity.left(), within_limits(velocity.turn_rate())};
-}
 
 DriveSetpoint MotionHW::due(TimePoint now) {
   const std::lock_guard lock(mutex_);

@@ -197,16 +197,19 @@ Result<Loan<idl::DeviceStatistics>> HardwareServer::on_statistics(const ObjectPt
 }
 
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
+  if (const auto velocity = command.as<idl::HolonomicVelocity>()) return on_velocity(velocity);
   if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;
   ask_about(*command);
   return carry_out(command, command->kind() == idl::FULLSTOP);
 }
 
 Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity) {
+  if (!velocity_) return fail(Code::failed_precondition, MotionHW::kNotSideways);
+  if (Status checked = MotionHW::check(*velocity); !checked.ok()) return checked;
   if (Status checked = check_command(*velocity); !checked.ok()) return checked;
   ask_about(*velocity);
-  return carry_out(velocity,
-                   velocity->forward() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0);
+  const bool stands = velocity->speed() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0;
+  return carry_out(velocity, stands || velocity->kind() == idl::FULLSTOP);
 }
 
 // The command of an actuator has no age, so idle hardware takes it before it is started.

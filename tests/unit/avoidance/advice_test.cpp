@@ -127,6 +127,36 @@ TEST_CASE("with a free way ahead there is no advice, whatever was advised before
   }
 }
 
+TEST_CASE("a robot that slides is advised as one that looks to its goal, whatever it looks at",
+          "[avoidance]") {
+  orca::RandomStream random(5, "test", "slides");
+  Limits sliding = kAdviceLimits;
+  sliding.slides = true;
+  for (int i = 0; i < 1000; ++i) {
+    const std::vector<Vec2> echoes = random_echoes(random);
+    const double goal = random.uniform(-pi, pi);
+    std::vector<Vec2> turned;
+    for (const Vec2 echo : echoes) turned.push_back(rotated(echo, goal));
+    const Advice looks = avoid(echoes, {.goal = 0.0}, kAdviceLimits);
+    const Advice slides = avoid(turned, {.goal = goal}, sliding);
+    REQUIRE(slides.needed == looks.needed);
+    if (!slides.needed) continue;
+    CHECK(slides.slides);
+    CHECK(std::abs(orca::wrapped(slides.direction - looks.direction - goal)) < 1e-9);
+    CHECK(slides.speed >= looks.speed - 1e-9);  // it need not turn first
+    CHECK(slides.urgency == Approx(looks.urgency).margin(1e-9));
+  }
+}
+
+TEST_CASE("what a sliding robot drifts into counts, even if the way to its goal is free", "[avoidance]") {
+  Limits sliding = kAdviceLimits;
+  sliding.slides = true;
+  const std::vector<Vec2> beside{{0.0, 0.5}};
+  CHECK_FALSE(avoid(beside, {.goal = 0.0}, sliding).needed);
+  CHECK(avoid(beside, {.goal = 0.0, .course = pi / 2}, sliding).needed);
+  CHECK(avoid(beside, {.course = pi / 2}, sliding).needed);
+}
+
 TEST_CASE("an advised direction is at least as free as the way ahead", "[avoidance]") {
   orca::RandomStream random(3, "test", "better");
   for (int i = 0; i < 1000; ++i) {

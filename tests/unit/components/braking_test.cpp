@@ -31,21 +31,32 @@ Verdict judge_ahead(double gap, const Intent& intent) {
 TEST_CASE("a motion at its share stops where its arc ends", "[gate]") {
   RandomStream random(1, "test", "motions");
   for (int i = 0; i < 1000; ++i) {
-    const Twist2 twist{random.uniform(-1.0, 1.0), 0.0, random.uniform(-2.0, 2.0)};
+    const Twist2 twist{random.uniform(-1.0, 1.0), i % 2 * random.uniform(-1.0, 1.0),
+                       random.uniform(-2.0, 2.0)};
     const Brakes brakes{random.uniform(0.3, 3.0), random.uniform(0.5, 4.0)};
     const double reaction = random.uniform(0.05, 0.5);
     const double free = random.uniform(0.0, 2.0);
     const double share = share_to_stop(twist, free, reaction, brakes);
     CAPTURE(twist.forward, twist.turn_rate, reaction, free, share);
-    const double v = share * std::abs(twist.forward), w = share * std::abs(twist.turn_rate);
+    const double v = share * speed_of(twist), w = share * std::abs(twist.turn_rate);
     const double way = v * reaction + 0.5 * v * v / brakes.deceleration;
     const double turn = w * reaction + 0.5 * w * w / brakes.turn_deceleration;
-    CHECK(way <= std::abs(twist.forward) * free + 1e-9);
+    CHECK(way <= speed_of(twist) * free + 1e-9);
     CHECK(turn <= std::abs(twist.turn_rate) * free + 1e-9);
     const bool uses_all =
-        way > std::abs(twist.forward) * free - 1e-9 || turn > std::abs(twist.turn_rate) * free - 1e-9;
+        way > speed_of(twist) * free - 1e-9 || turn > std::abs(twist.turn_rate) * free - 1e-9;
     CHECK((share == 1.0 || uses_all));
   }
+}
+
+TEST_CASE("a robot that moves sideways is stopped before what is beside it, and by nothing ahead", "[gate]") {
+  const std::array beside{Post{{0.0, 0.25}}};
+  const std::array ahead{Post{{0.3, 0.0}}};
+  const Intent left{{0.0, 0.5, 0.0}, {0.0, 0.5, 0.0}};
+  const Verdict stopped = judge(SweptBody(kBox), beside, left, kRules);
+  CHECK(stopped.share == 0.0);
+  CHECK(stopped.at_once);
+  CHECK(judge(SweptBody(kBox), ahead, left, kRules).share == 1.0);
 }
 
 TEST_CASE("a command into free floor passes", "[gate]") {

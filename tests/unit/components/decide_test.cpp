@@ -9,6 +9,7 @@
 #include "orca/base/random.hpp"
 
 using namespace orca::fuse;
+using Catch::Detail::Approx;
 using Said = Voice::Said;
 
 namespace {
@@ -53,6 +54,20 @@ TEST_CASE("in every mode a fresh full stop wins over whatever else is wished", "
       CHECK(decision.verdict == Verdict::told_to_stop);
       CHECK(decision.decided_by == "guard");
     }
+  }
+}
+
+TEST_CASE("in every mode the command moves sideways by the shares of those who wish it",
+          "[components][fuser]") {
+  for (const std::string& mode : kModes) {
+    CAPTURE(mode);
+    Voice slides = wishes("avoid", 0.0, 3.0);
+    slides.wish = {Wish::Kind::turn_rate, 0.1, 0.1, 3.0, 0.4};
+    const std::vector voices{wishes("goto", 0.1, 1.0), slides};
+    const Decision decision = decide(voices, rules_of(mode), 0.0);
+    REQUIRE(decision.verdict == Verdict::fused);
+    CHECK(decision.command.left == Approx(0.4 * decision.shares[1]));
+    CHECK(decision.shares[1] > 0.5);
   }
 }
 

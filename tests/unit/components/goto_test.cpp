@@ -74,6 +74,40 @@ TEST_CASE("a target without orientation is reached anywhere within its radius, a
   }
 }
 
+TEST_CASE(
+    "a robot that slides moves straight at its goal however it stands, and turns to its orientation "
+    "meanwhile",
+    "[components][goto]") {
+  orca::RandomStream random(3, "test", "slide");
+  Limits limits = kLimits;
+  limits.slides = true;
+  for (int i = 0; i < 1000; ++i) {
+    Target target = target_at(random.uniform(-10, 10), random.uniform(-10, 10));
+    target.use_orientation = i % 2 == 0;
+    target.orientation = random.uniform(-pi, pi);
+    target.reach_angle = 0.1;
+    const Pose2 from = random_pose(random);
+    Pose2 pose = from;
+    Before before{.time = kLap};
+    Step step;
+    double aside = 0.0;  // of the straight line
+    const orca::Vec2 way = target.place - from.position();
+    for (int laps = 0; laps < 4000 && step.kind != Step::Kind::reached; ++laps) {
+      step = step_towards(target, pose, limits, before);
+      before = {step.near, step.speed, kLap};
+      const double rate = step.turn_rate ? *step.turn_rate : 2.0 * step.direction;
+      const orca::Vec2 moved = step.speed * kLap * orca::direction(pose.yaw + step.direction);
+      pose = {pose.x + moved.x, pose.y + moved.y, wrapped(pose.yaw + std::clamp(rate, -0.5, 0.5) * kLap)};
+      aside = std::max(aside, std::abs(cross(way, pose.position() - from.position())) / norm(way));
+    }
+    CAPTURE(i);
+    CHECK(step.kind == Step::Kind::reached);
+    CHECK(within_reach(target, pose));
+    CHECK(aside < 1e-6);
+    if (target.use_orientation) CHECK(std::abs(wrapped(target.orientation - pose.yaw)) <= target.reach_angle);
+  }
+}
+
 TEST_CASE("a target of radius zero is never reached, not even on the spot", "[components][goto]") {
   Target target = target_at(1.0, 2.0);
   target.reach_radius = 0.0;

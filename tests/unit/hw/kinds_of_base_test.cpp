@@ -27,7 +27,7 @@ bool offers(ScoutBase& base, const std::string& port) {
 
 Loan<idl::HolonomicVelocity> straight_velocity(double forward, double left) {
   auto made = make_object<idl::HolonomicVelocity>();
-  made->forward(forward);
+  made->speed(forward);
   made->left(left);
   return made;
 }
@@ -81,6 +81,21 @@ PATIENT_CASE("a holonomic velocity starts an idle base, is carried out, and expi
   CHECK(base.robot.notes("drive 0.25 0 left -0.5"));
   CHECK(base.robot.notes("drive 0 0 left 0"));
   CHECK(base.gets(HardwareState::ready));
+}
+
+EXECUTIVE_CASE(
+    "a motion command with a sideways speed is carried out by a base that can, and refused by others",
+    "[hw][server][motion]") {
+  ScoutBase omni(executive, {}, with(idl::HOLONOMIC));
+  omni.run();
+  REQUIRE(omni.client.motion.send(slide(0.25, -0.5, 0.125)).ok());
+  CHECK(omni.robot.notes("drive 0.25 0.125 left -0.5"));
+  ScoutBase plain(executive);
+  plain.run();
+  REQUIRE(plain.client.motion.send(slide(0.25, -0.5, 0.125)).ok());
+  const auto& port = static_cast<SendServerEndpoint&>(plain.bench.peer().endpoint("MotionCommandSend"));
+  CHECK(eventually(executive, [&] { return port.counters().failed == 1; }));
+  CHECK_FALSE(plain.robot.diary.has("drive 0.25 0.125"));
 }
 
 EXECUTIVE_CASE("a holonomic velocity of zero stops a moving base at once and releases it",

@@ -40,7 +40,7 @@ DriveLimits omni() {
 
 Loan<idl::HolonomicVelocity> velocity(double forward, double left, double turn_rate) {
   auto made = make_object<idl::HolonomicVelocity>();
-  made->forward(forward);
+  made->speed(forward);
   made->left(left);
   made->turn_rate(turn_rate);
   return made;

@@ -18,7 +18,7 @@ struct ObstructedBase {
 
   Status drive(double forward, double turn_rate = 0.0, double left = 0.0) {
     auto velocity = make_object<idl::HolonomicVelocity>();
-    velocity->forward(forward);
+    velocity->speed(forward);
     velocity->left(left);
     velocity->turn_rate(turn_rate);
     return motion.command(*velocity, kNow);

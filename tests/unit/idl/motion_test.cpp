@@ -33,6 +33,9 @@ TEST_CASE("a command with a number that is not finite, or with a negative weight
   CHECK(orca::check_command(velocity).ok());
   velocity.left(nan);
   CHECK(orca::check_command(velocity).error().code == orca::Code::invalid_argument);
+  const ObjectPtr<MotionCommand> sideways = orca::Loan<MotionCommand>(orca::slide(0.1, nan, 0.0));
+  CHECK(orca::check_command(*sideways).ok());
+  CHECK(orca::check_command(sideways).error().code == orca::Code::invalid_argument);
   orca::idl::TurretCommand turret;
   CHECK(orca::check_command(turret).ok());
   turret.angle(-INFINITY);
@@ -44,6 +47,17 @@ TEST_CASE("a full stop is never refused, whatever its other fields hold", "[idl]
   stop->speed(std::numeric_limits<double>::quiet_NaN());
   stop->weight(-1.0);
   CHECK(orca::check_command(*stop).ok());
+}
+
+TEST_CASE("a velocity for a base that moves sideways is a motion command with one speed more",
+          "[idl][motion]") {
+  const ObjectPtr<MotionCommand> sideways = orca::Loan<MotionCommand>(orca::slide(0.1, -0.3, 0.5, 2.0));
+  CHECK(sideways->speed() == 0.1);
+  CHECK(sideways->turn_rate() == 0.5);
+  CHECK(sideways->weight() == 2.0);
+  CHECK(orca::sideways_speed(sideways) == -0.3);
+  const ObjectPtr<MotionCommand> ahead = orca::turn(0.5, 0.1);
+  CHECK(orca::sideways_speed(ahead) == 0.0);
 }
 
 TEST_CASE("head asks for a direction and turn for a turn rate", "[idl][motion]") {

@@ -29,14 +29,25 @@ namespace orca {
 /// @param weight [1]  share when fused with the commands of others, at least 0.
 [[nodiscard]] Loan<idl::MotionCommand> turn(double rate, double speed, double weight = 1.0);
 
+/// Returns the command to move in any direction and turn, for a base that can move sideways.
+/// @param speed [m/s]  forward positive.   @param left [m/s]  positive to the left.
+/// @param rate [rad/s]  positive to the left.
+/// @param weight [1]  share when fused with the commands of others, at least 0.
+[[nodiscard]] Loan<idl::HolonomicVelocity> slide(double speed, double left, double rate, double weight = 1.0);
+
+/// Returns the sideways speed [m/s] of a command, positive to the left: 0 unless it is a HolonomicVelocity.
+[[nodiscard]] double sideways_speed(const ObjectPtr<idl::MotionCommand>& command);
+
 /// Checks the numbers of a command, the same way for all who take commands. Whether a base can carry it out is
 /// another question (hw::MotionHW).
 /// @errors  invalid_argument for a number that is not finite and for a negative weight. A full stop is never refused,
 ///          whatever its numbers are.
-/// @thread  pure function, as the next two; any thread.
+/// @thread  pure function, as the next ones; any thread.
 [[nodiscard]] Status check_command(const idl::MotionCommand& command);
-/// @errors  invalid_argument for a number that is not finite.
+/// @errors  those of a MotionCommand, and invalid_argument for a sideways speed that is not finite.
 [[nodiscard]] Status check_command(const idl::HolonomicVelocity& velocity);
+/// Checks a command as what it is.
+[[nodiscard]] Status check_command(const ObjectPtr<idl::MotionCommand>& command);
 /// @errors  invalid_argument for an angle that is not finite.
 [[nodiscard]] Status check_command(const idl::TurretCommand& turret);
 /// @errors  invalid_argument for a motion that there is not, as damaged data may hold.

@@ -19,6 +19,16 @@ struct Twist2 {
   return std::isfinite(twist.forward) && std::isfinite(twist.left) && std::isfinite(twist.turn_rate);
 }
 
+/// Returns the motion along the same arc at a share [1] of the speed.
+[[nodiscard]] constexpr Twist2 operator*(double share, const Twist2& twist) {
+  return {share * twist.forward, share * twist.left, share * twist.turn_rate};
+}
+
+/// Returns how fast [m/s] the origin of the body's frame moves, in whatever direction.
+[[nodiscard]] inline double speed_of(const Twist2& twist) {
+  return std::sqrt(twist.forward * twist.forward + twist.left * twist.left);
+}
+
 /// The distance that a body travels at a constant twist. The lengths are those of the arc that it follows,
 /// not of its chord.
 ///

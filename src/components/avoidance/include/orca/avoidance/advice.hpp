@@ -36,6 +36,8 @@ struct Limits {
   /// Whether the way to the goal counts as well as the way ahead. A behaviour that has turned the robot away and falls silent,
   /// because the way ahead is free now, is turned back by the one that drives to the goal.
   bool watches_goal = false;
+  /// Whether the robot moves in any direction without turning to it. Then its circle counts, whatever its body.
+  bool slides = false;
 };
 
 /// The other things that an advice depends on.
@@ -57,6 +59,7 @@ struct Situation {
   bool passes_goal = false;  ///< Whether the goal is a point on the way, where the robot does not stop.
   Vec2 place = {};           ///< [m] Of the robot, in the frame of `heading`; the origin if it does not know.
   bool is_heeded = true;     ///< Whether anybody takes the advice.
+  std::optional<double> course = {};  ///< [rad] robot frame, in which it moves; nothing if it stands.
 };
 
 /// The advice to a robot: nothing, or to drive in a direction or along an arc.
@@ -69,6 +72,7 @@ struct Advice {
   std::optional<double> turn_rate = {};
   /// Whether the echoes are to be forgotten: the robot may be elsewhere now.
   bool forgets = false;
+  bool slides = false;  ///< Whether it is to move in the direction without turning to it.
 };
 
 /// Returns how far [m] the robot can go straight in a direction before its body, with margin, touches an
@@ -122,7 +126,7 @@ struct TurnRoom {
 [[nodiscard]] double urgency(double way, bool may_turn, const Limits& limits);
 
 /// Steers to the nearest direction with a long enough free way when the way ahead is blocked, or when turning to the goal
-/// would touch something.
+/// would touch something. To a robot that slides, ahead is where its goal is, without one where it moves.
 [[nodiscard]] Advice avoid(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits);
 
 }  // namespace orca::avoid

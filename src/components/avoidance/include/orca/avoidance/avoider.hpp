@@ -123,7 +123,7 @@ class Avoider : public Component {
   [[nodiscard]] double farthest() const;
 
  private:
-  static constexpr std::uint32_t kStateVersion = 3;
+  static constexpr std::uint32_t kStateVersion = 4;
 
   // The robot's body, as the base reports it.
   struct Body {
@@ -131,6 +131,7 @@ class Avoider : public Component {
     double sensor_interval;  // [s] between two readings of the sensor; 0: not known.
     double length;           // [m] of the rectangle that holds the body; 0: the circle is all.
     double width;            // [m]
+    bool slides = false;     // Whether it can move sideways.
   };
 
   Outcome work() override;
@@ -190,8 +191,8 @@ class Avoider : public Component {
   std::optional<QueryId> question_;  // To the base, as long as it has not answered.
   std::optional<Body> body_;
   EchoMemory memory_;
-  Pose2 pose_;    // In the frame of the odometry.
-  Twist2 twist_;  // Without the sideways part.
+  Pose2 pose_;  // In the frame of the odometry.
+  Twist2 twist_;
   std::optional<TimePoint> moved_at_;
   std::optional<TimePoint> heard_at_;
   double last_direction_ = 0.0;

@@ -32,6 +32,8 @@ struct Step {
   double direction = 0.0;  ///< [rad] robot frame, counter-clockwise positive, in (-pi, pi].
   double speed = 0.0;      ///< [m/s]
   bool near = false;       ///< The robot comes to rest at the target.
+  /// [rad/s] If given, the robot moves in the direction without turning to it, and turns at this rate meanwhile.
+  std::optional<double> turn_rate = {};
 };
 
 /// Returns whether the pose lies within the target's reach radius.

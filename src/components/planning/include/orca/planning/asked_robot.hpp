@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "orca/component.hpp"
 #include "orca/idl/hardware.hpp"
@@ -30,10 +32,10 @@ struct Body {
 /// Thread contract: as the component that owns it.
 class AskedRobot {
  public:
-  explicit AskedRobot(Component& owner)
-      : port_(owner, "robot",
-              {.text = "Base that is asked about the robot's outline and how fast it can be.",
-               .optional = true}) {}
+  explicit AskedRobot(
+      Component& owner,
+      std::string text = "Base that is asked about the robot's outline and how fast it can be.")
+      : port_(owner, "robot", {.text = std::move(text), .optional = true}) {}
 
   /// Returns what is wrong if nobody can be asked, for a component that cannot do without.
   [[nodiscard]] Status check() const {
@@ -46,6 +48,7 @@ class AskedRobot {
   /// @errors  those of the port.
   Status ask() {
     body_.reset();
+    slides_ = false;
     if (!port_.connected()) return ok();
     const Result<QueryId> sent = port_.query_request(port_.loan());
     if (!sent) return fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
@@ -66,6 +69,7 @@ class AskedRobot {
       body_->max_speed = drive.max_speed();
       body_->max_rate = drive.max_steer_speed();
       body_->acceleration = drive.speed_change();
+      slides_ = drive.type() == idl::HOLONOMIC;
     }
     return ok();
   }
@@ -77,6 +81,8 @@ class AskedRobot {
   /// Returns whether the answer is still to come.
   [[nodiscard]] bool is_asked() const { return question_.has_value(); }
   [[nodiscard]] const std::optional<Body>& body() const { return body_; }
+  /// Returns whether the base has said that it can move sideways.
+  [[nodiscard]] bool slides() const { return slides_; }
   /// Names what a successor of the component goes on with.
   [[nodiscard]] auto state() { return std::tie(body_); }
 
@@ -84,6 +90,7 @@ class AskedRobot {
   QueryProxy<idl::Ask, idl::Robot> port_;
   std::optional<QueryId> question_;  // to the base, as long as it has not answered
   std::optional<Body> body_;
+  bool slides_ = false;
 };
 
 }  // namespace orca::planning

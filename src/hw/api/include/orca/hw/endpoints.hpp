@@ -98,6 +98,8 @@ struct DriveLimits {
 /// Returns the velocity that a base with these limits makes of a crisp command: 0 for a FULLSTOP.
 /// @thread  pure function; any thread.
 [[nodiscard]] Twist2 twist_of(const idl::MotionCommand& command, const DriveLimits& limits);
+/// Returns the same of a command for a base that can move sideways. A velocity beyond the limits keeps its direction.
+[[nodiscard]] Twist2 twist_of(const idl::HolonomicVelocity& velocity, const DriveLimits& limits);
 
 /// A crisp set-point for the motors of a base of any kind.
 struct DriveSetpoint {
@@ -119,6 +121,10 @@ struct DriveSetpoint {
 /// Thread contract: command() from any strand; the rest from the container's, if nothing else is said.
 class MotionHW {
  public:
+  /// The refusal of a HolonomicVelocity by a base of another kind.
+  static constexpr const char* kNotSideways =
+      "this base cannot move sideways; send it a MotionCommand, not a HolonomicVelocity";
+
   MotionHW(const DriveLimits& limits, Duration max_command_age);
 
   /// Checks whether any base can carry out the command.
@@ -131,7 +137,7 @@ class MotionHW {
 
   /// Takes a velocity, to be carried out at the container's next turn. A velocity beyond the limits keeps its
   /// direction.
-  /// @errors  failed_precondition unless the base is holonomic, those of check_command(), and unavailable as above.
+  /// @errors  failed_precondition unless the base is holonomic, and as above.
   Status command(const idl::HolonomicVelocity& velocity, TimePoint now);
 
   /// Returns the set-point that holds now. The base stands when the last command is older than
@@ -180,8 +186,6 @@ class MotionHW {
   [[nodiscard]] std::uint64_t expired_count() const;
 
  private:
-  [[nodiscard]] Twist2 within_limits(const idl::HolonomicVelocity& velocity) const;
-  [[nodiscard]] double within_limits(double turn_rate) const;
   Status move(const DriveSetpoint& wanted, std::uint64_t mission, TimePoint now);
   void stand();
   [[nodiscard]] Status check_held() const;

@@ -21,7 +21,7 @@ namespace orca::hw {
 /// A component that wraps a hardware container, whatever endpoints it has (thesis 10.2-10.3). Each sensor of
 /// the chosen source becomes a Push and a Query port named after its object type (`OdometryPush`,
 /// `OdometryQuery`); where several devices deliver one type, their names come first (`rear_LaserRangeReadingsPush`). The motion of a base becomes a Send port `MotionCommandSend`, and
-/// `HolonomicVelocitySend` if it moves sideways. Each other actuator becomes a Send port named after the object type of its
+/// `HolonomicVelocitySend` if it moves sideways; the former takes these velocities as well. Each other actuator becomes a Send port named after the object type of its
 /// commands (`TurretCommandSend`, `GripperCommandSend`). A device that hangs on a line has `DeviceStatisticsQuery`. A new type
 /// of sensor or actuator needs no change here. A Query is answered with the latest reading, unless it was sensed before the time that the client
 /// asks for: then with an error, unavailable. RobotBaseServer, LaserServer and TruthLocalizer add a few lines of
