@@ -63,6 +63,9 @@ class EchoMemory {
   /// Returns all echoes that count now, robot frame. Valid until the next change.
   [[nodiscard]] std::span<const Vec2> echoes() const { return echoes_; }
 
+  /// Returns whether `echoes()[i]` was heard at least twice.
+  [[nodiscard]] bool is_confirmed(std::size_t i) const { return traces_[i].confirmed; }
+
   /// Returns how sure it is that something is still at `echoes()[i]`: 1 when it was just heard, falling evenly to 0
   /// when it will be forgotten.
   [[nodiscard]] double certainty(std::size_t i, const Limits& limits) const;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "orca/avoidance/echo_memory.hpp"
+#include "orca/base/time.hpp"
+#include "orca/geometry/objects/plane.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
+
+namespace orca::avoid {
+
+/// The ear for one ring of sonars: it takes each firing once. A base reports its whole ring more often than the ring makes its
+/// round, and a repeated echo would confirm itself, each time at another place, as the motion since it was heard is a guess.
+///
+/// An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below the minimum range
+/// may be at the sonar itself.
+///
+/// Thread contract: as for a container.
+class SonarEar {
+ public:
+  /// Calls `note(echo, fired)` for each echo of a sonar that has fired since the last round: its place in the robot frame of that
+  /// moment [m], and when that was.
+  /// @param now      the moment of firings without a stamp.
+  /// @param repeats  whether firings that were reported before count again.
+  template <class Note>
+  void take(const idl::SonarRangeReadings& round, TimePoint now, bool repeats, Note note) {
+    const std::size_t count = std::min(round.ranges().size(), round.poses().size());
+    fired_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const TimePoint fired = i < round.stamps().size() ? to_time_point(round.stamps()[i]) : now;
+      const bool is_news = fired_[i] != fired;
+      fired_[i] = fired;
+      if (!is_news && !repeats) continue;
+      const auto echo =
+          echo_of(round.ranges()[i], round.min_range(), round.max_range(), plane_pose(round.poses()[i]));
+      if (echo) note(*echo, fired);
+    }
+  }
+  /// Returns when a sonar of the round has fired last; nothing if they have no stamps.
+  [[nodiscard]] static std::optional<TimePoint> last_firing(const idl::SonarRangeReadings& round) {
+    std::optional<TimePoint> last;
+    for (const idl::TimeValue& stamp : round.stamps())
+      last = std::max(last, std::optional(to_time_point(stamp)));
+    return last;
+  }
+  void clear() { fired_.clear(); }
+
+ private:
+  std::vector<std::optional<TimePoint>> fired_;  // by sonar: the stamp of its last reading
+};
+
+}  // namespace orca::avoid
