@@ -9,6 +9,7 @@
 #include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/sim/robot_file.hpp"
+#include "orca/sim/stand.hpp"
 #include "orca/sim/world_file.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -76,17 +77,6 @@ void report(const SharedWorld::Inbox::Contact& contact, hw::HardwareHost& host) 
   host.report(touched);
 }
 
-// Returns the name of an obstacle or item in which a robot would stand. Where walkers are at first is drawn, so they are not known yet.
-std::optional<std::string> what_is_at(const Pose2& X_WB, const RobotModel& robot, const WorldModel& world) {
-  const Shape body = placed(robot.footprint, X_WB);
-  if (const Obstacle* const obstacle = world.obstacle_at(body, robot.bottom, robot.top))
-    return obstacle->name;
-  for (const Item& item : world.items)
-    if (item.height > robot.bottom && overlap(body, Circle{item.pose.position(), item.radius}))
-      return item.name;
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<HardwareFault> SimulatedRobot::prepare() {
@@ -143,14 +133,12 @@ void SimulatedRobot::find_start(std::vector<HardwareFault>& errors) {
 }
 
 void SimulatedRobot::check_start_is_free(std::vector<HardwareFault>& errors) const {
-  if (robot_->fixed) return;
-  const std::optional<std::string> hit = what_is_at(start_, *robot_, *world_);
-  if (!hit) return;
-  errors.push_back({start_param(),
-                    "the robot \"" + *name_ + "\" would start inside \"" + *hit + "\" at x " +
-                        xml::number_text(start_.x) + " m, y " + xml::number_text(start_.y) +
-                        " m; choose a free place",
-                    {"world", "robot", "place", "x", "y", "heading"}});
+  for (const StandsIn& there : what_holds(*robot_, start_, *world_))
+    errors.push_back({start_param(),
+                      "the robot \"" + *name_ + "\" would start inside \"" + there.name + "\" at x " +
+                          xml::number_text(start_.x) + " m, y " + xml::number_text(start_.y) + " m, " +
+                          how_to_clear(there) + "; choose a free place",
+                      {"world", "robot", "place", "x", "y", "heading"}});
 }
 
 std::vector<HardwareFault> SimulatedRobot::conflicts_with(const HardwareContainer& earlier) const {
@@ -170,10 +158,11 @@ std::vector<HardwareFault> SimulatedRobot::conflicts_with(const HardwareContaine
     faults.push_back({setting_unlike(other), "another robot, " + whose + ", has this world with " +
                                                  other.settings() + ", and this one wants " + settings() +
                                                  "; robots that share a world need the same"});
-  if (overlap(placed(robot_->footprint, start_), placed(other.robot_->footprint, other.start_)))
-    faults.push_back({start_param(), "the robot " + in_quotes(*name_) +
-                                         " would start where another one starts, " + whose +
-                                         "; choose a free place"});
+  if (stand_in_each_other(*robot_, start_, *other.robot_, other.start_, Extent::with_paddles))
+    faults.push_back(
+        {start_param(), "the robot " + in_quotes(*name_) + " would start where another one starts, " + whose +
+                            ", " + how_to_clear(way_out_of(*other.robot_, other.start_, *robot_, start_)) +
+                            "; choose a free place"});
   return faults;
 }
 

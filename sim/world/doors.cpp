@@ -22,18 +22,6 @@ double yaw_of(const Segment& segment) {
   return portable::atan2(way.y, way.x);
 }
 
-// Returns where the middle of a leaf is that is open by a share.
-Pose2 pose_at(const Door& door, double share) {
-  const double yaw = yaw_of(door.shut);
-  if (door.slides) {
-    const Vec2 middle = middle_of(door.shut) - share * (door.shut.b - door.shut.a);
-    return {middle.x, middle.y, yaw};
-  }
-  const double turned = wrapped(yaw + share * door.swing);
-  const Vec2 middle = door.shut.a + 0.5 * length_of(door) * direction(turned);
-  return {middle.x, middle.y, turned};
-}
-
 double distance_to(const Segment& segment, Vec2 point) {
   const Vec2 way = segment.b - segment.a;
   const double along = std::clamp(dot(point - segment.a, way) / dot(way, way), 0.0, 1.0);
@@ -46,6 +34,17 @@ Duration drawn_time(const DoorTurn& turn, RandomStream random) {
 }
 
 }  // namespace
+
+Pose2 pose_at(const Door& door, double share) {
+  const double yaw = yaw_of(door.shut);
+  if (door.slides) {
+    const Vec2 middle = middle_of(door.shut) - share * (door.shut.b - door.shut.a);
+    return {middle.x, middle.y, yaw};
+  }
+  const double turned = wrapped(yaw + share * door.swing);
+  const Vec2 middle = door.shut.a + 0.5 * length_of(door) * direction(turned);
+  return {middle.x, middle.y, turned};
+}
 
 Doors::Doors(const WorldModel& world, std::uint64_t seed) {
   for (const Door& door : world.doors) leaves_.push_back({&door, door.open, door.open ? 1.0 : 0.0});

@@ -11,6 +11,9 @@
 
 namespace orca::sim::detail {
 
+// Returns where the middle of a leaf is that is open by a share of its way.
+[[nodiscard]] Pose2 pose_at(const Door& door, double share);
+
 // The doors of a running world. A leaf opens for people who come to it and when the world's events say so; it stops at a robot that is in
 // its way, and goes on as soon as that has gone.
 class Doors {

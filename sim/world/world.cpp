@@ -13,6 +13,8 @@
 #include "movers.hpp"
 #include "orca/base/team.hpp"
 #include "orca/geometry/arc.hpp"
+#include "orca/sim/sections.hpp"
+#include "orca/sim/stand.hpp"
 #include "robot.hpp"
 #include "robot_solids.hpp"
 #include "schedule.hpp"
@@ -121,17 +123,18 @@ Status World::Impl::check_stand(const std::string& name, const RobotModel& robot
   if (!is_near(X_WB)) return fail(Code::invalid_argument, who + ": its pose is not finite or beyond 100 km");
   const std::string there = who + " cannot stand at " + text(X_WB) + ": it would stand in ";
   const std::string remedy = "; choose a free place";
-  const Shape body = placed(robot_model.footprint, X_WB);
   for (const detail::Robot& other : robots)
-    if (other.name != name && overlap(body, placed(other.model.footprint, other.body)))
+    if (other.name != name && stand_in_each_other(robot_model, X_WB, other.model, other.body, Extent::solid))
       return fail(Code::failed_precondition, there + "robot '" + other.name + "'" + remedy);
-  const Obstacle* const o =
-      robot_model.fixed ? nullptr : model.obstacle_at(body, robot_model.bottom, robot_model.top);
-  if (o != nullptr)
+  if (const std::optional<std::string> o = obstacle_in(robot_model, X_WB, model))
     return fail(Code::failed_precondition,
-                there + "obstacle '" + o->name + "' of world '" + model.name + "'" + remedy);
-  if (const std::string* name_there = movers.at(body, robot_model.bottom))
-    return fail(Code::failed_precondition, there + "'" + *name_there + "'" + remedy);
+                there + "obstacle '" + *o + "' of world '" + model.name + "'" + remedy);
+  for (const Part& part : robot_model.parts) {
+    const auto [bottom, top] = height_range_of(part);
+    for (const Shape& plan : plans_between({part}, bottom, top))
+      if (const std::string* mover = movers.at(placed(plan, X_WB), bottom))
+        return fail(Code::failed_precondition, there + "'" + *mover + "'" + remedy);
+  }
   return ok();
 }
 

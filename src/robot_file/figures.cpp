@@ -45,11 +45,10 @@ void place_gripper(Figures& figures, const LinkTree& tree) {
   Gripper& gripper = *figures.gripper;
   const Eigen::Isometry3d place = tree.place_of(gripper.link);
   gripper.mount = plane_pose(place);
-  const double top = place.translation().z() + gripper.lift + kAbove;
+  gripper.height = place.translation().z();
+  figures.paddles = paddles_of(gripper, gripper.lift);
   const double side = 0.5 * gripper.opening;
-  figures.paddles = {before(gripper, side, side + kPaddle, top),
-                     before(gripper, -side - kPaddle, -side, top)};
-  figures.load = {before(gripper, -side, side, top)};
+  figures.load = {before(gripper, -side, side, figures.paddles.front().top)};
 }
 
 Figures figures_of(const xml::Element& robot, xml::Reporter& reporter) {
@@ -70,6 +69,12 @@ Figures figures_of(const xml::Element& robot, xml::Reporter& reporter) {
 }
 
 }  // namespace
+
+std::vector<BodyPart> paddles_of(const Gripper& gripper, double raised) {
+  const double top = gripper.height + raised + kAbove;
+  const double side = 0.5 * gripper.opening;
+  return {before(gripper, side, side + kPaddle, top), before(gripper, -side - kPaddle, -side, top)};
+}
 
 std::optional<Figures> read_figures(const std::string& path, xml::Diagnostics& diagnostics) {
   const Result<std::string> bytes = xml::read_bytes(path);

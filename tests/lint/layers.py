@@ -53,7 +53,7 @@ LAYERS = (
     Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("carmen", "recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base"), ("eigen",), ("eigen",)),
-    Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("fcl",)),
+    Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("eigen", "fcl"), ("eigen",)),
     Layer("navigation", ("src/navigation",), ("orca/navigation/",), ("geometry", "base"), ("eigen",)),
     Layer("tracking", ("src/tracking",), ("orca/tracking/",), ("navigation", "geometry", "base")),
     Layer("image", ("src/image",), ("orca/image/",), ("base",), ("png",)),
@@ -117,7 +117,7 @@ LAYERS = (
     Layer("sim_generators", ("sim/generators",), ("orca/sim/generate.hpp",), SIM_RAYS, ("fmt",), module="sim"),
     Layer("sim_sensors", ("sim/sensors",), (), SIM_SENSORS, ("eigen", "fmt"), module="sim"),
     Layer("sim_motion", ("sim/motion",), (), SIM_MOTION, ("bullet", "eigen", "fmt"), module="sim"),
-    Layer("sim_world", ("sim/world",), ("orca/sim/world.hpp",), SIM_WORLD, ("eigen", "fmt"), module="sim"),
+    Layer("sim_world", ("sim/world",), ("orca/sim/stand.hpp", "orca/sim/world.hpp"), ("collision", *SIM_WORLD), ("eigen", "fmt"), module="sim"),
     Layer("sim_files", ("sim/files",), ("orca/sim/bitmap.hpp", "orca/sim/robot_file.hpp", "orca/sim/world_file.hpp"),
           SIM_FILES, ("urdfdom", "zlib", "bullet", "eigen", "fmt"), module="sim"),  # Bullet: transforms
     Layer("emulators", ("sim/emulators",), ("orca/emulators/",), ("hw_framing", "geometry", "base")),

@@ -114,6 +114,7 @@ void mount_gripper(RobotModel& model, const UrdfBody& body, const UrdfJoint* tur
   const auto link = body.links.find(gripper.link);
   if (link == body.links.end()) return;
   gripper.mount = flat(link->second);
+  gripper.height = link->second.z;
   if (is_on(turret, gripper.link))
     return e.error_at(
         "link", robot_codes::kContradiction,

@@ -12,6 +12,7 @@
 #include "orca/base/text.hpp"
 #include "orca/robot_file/values.hpp"
 #include "orca/sim/bitmap.hpp"
+#include "orca/sim/stand.hpp"
 #include "walker_reader.hpp"
 #include "world_rules.hpp"
 
@@ -406,19 +407,11 @@ void WorldReader::check_walkers() {
 }
 
 void WorldReader::check_items() {
-  for (std::size_t i = 0; i < world_.items.size(); ++i) {
-    const Item& item = world_.items[i];
-    const auto stands_in = [&](const std::string& what) {
+  for (std::size_t i = 0; i < world_.items.size(); ++i)
+    for (const StandsIn& there : what_holds(world_.items[i], world_))
       reporter_.error(world_codes::kBadItem, item_positions_[i],
-                      "item \"" + item.name + "\" stands in " + what + "; put it on free floor");
-    };
-    const Circle plan{item.pose.position(), item.radius};
-    if (const Obstacle* o = world_.obstacle_at(plan, 0.0, item.height))
-      stands_in("obstacle \"" + o->name + "\"");
-    for (std::size_t k = 0; k < i; ++k)
-      if (overlap(plan, Circle{world_.items[k].pose.position(), world_.items[k].radius}))
-        stands_in("item \"" + world_.items[k].name + "\"");
-  }
+                      "item " + in_quotes(world_.items[i].name) + " stands in " + in_quotes(there.name) +
+                          ", " + how_to_clear(there) + "; put it on free floor");
 }
 
 void WorldReader::check_seed() {

@@ -162,6 +162,7 @@ struct Turret {
 struct Gripper {
   std::string link;         ///< The URDF link at the root of the paddles.
   Pose2 mount;              ///< Pose of that link in the base frame; its x axis points out of the gripper.
+  double height = 0.0;      ///< [m] Height of that link above the floor while the lift is down.
   double opening = 0.0;     ///< [m] Gap between the open paddles, > 0.
   double depth = 0.0;       ///< [m] Length of the paddles, along x from the root, > 0.
   double lift = 0.0;        ///< [m] How high the lift raises them, > 0.

@@ -22,6 +22,11 @@ struct Figures : Devices {
   std::string usual;  ///< Figures that the file lacks, and those that are taken instead, for people.
 };
 
+/// Returns the open paddles of a gripper whose place is known, from the floor to where they reach when the lift is so high.
+/// @param raised  [m] of the lift.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::vector<BodyPart> paddles_of(const Gripper& gripper, double raised);
+
 /// Reads a robot file (docs/robot-files.md).
 /// @param diagnostics  gets what is wrong.
 /// @return the figures; nothing if something is wrong.
