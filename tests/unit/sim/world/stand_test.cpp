@@ -2,10 +2,14 @@
 #include "orca/sim/stand.hpp"
 
 #include <catch2/catch.hpp>
+#include <filesystem>
 #include <string>
 
+#include "motion/physics.hpp"
+#include "orca/base/random.hpp"
 #include "orca/sim/robot_file.hpp"
 #include "orca/sim/world.hpp"
+#include "orca/sim/world_file.hpp"
 
 using namespace orca;
 using namespace orca::sim;
@@ -146,4 +150,38 @@ TEST_CASE("a world takes a robot where nothing holds it, and nowhere else", "[si
   World world(model, {});
   CHECK_FALSE(world.add_robot("one", masted(), {0.3, 0.0, 0.0}));
   CHECK(world.add_robot("two", masted(), {0.7, 0.0, 0.0}));
+}
+
+TEST_CASE("FCL and the contacts of a running world agree on who stands in what", "[sim][stand]") {
+  int held = 0, free = 0;
+  for (const char* name : {"office", "warehouse", "court"}) {
+    xml::Diagnostics wrong;
+    const auto world = read_world(std::string(ORCA_SOURCE_DIR "/sim/worlds/") + name + ".xml", {}, wrong);
+    REQUIRE(world);
+    const auto [low, high] = world->bounds();
+    RandomStream random(1, name, "poses");
+    for (const auto& entry : std::filesystem::directory_iterator(ORCA_SOURCE_DIR "/sim/robots")) {
+      const RobotModel robot = shipped(entry.path().stem());
+      detail::Physics physics(*world);
+      const std::size_t number = physics.add_robot(robot, {});
+      for (int i = 0; i < 60; ++i) {
+        const Pose2 pose{random.uniform(low.x, high.x), random.uniform(low.y, high.y),
+                         random.uniform(-3.1, 3.1)};
+        physics.place_robot(number, pose);
+        const double clearance = physics.clearance(number, 1.0);
+        const auto there = obstacle_in(robot, pose, *world);
+        CAPTURE(name, robot.name, pose.x, pose.y, pose.yaw, clearance, there.value_or("nothing"));
+        // The sides of polygons have no inside there.
+        if (clearance < -2e-4) CHECK(there);
+        if (clearance > 0.0 && there)
+          CHECK(std::ranges::any_of(world->obstacles, [&](const Obstacle& o) {
+            return o.name == *there && std::holds_alternative<Outline>(o.shape) &&
+                   contains(o.shape, pose.position());
+          }));
+        ++(there ? held : free);
+      }
+    }
+  }
+  CHECK(held > 200);
+  CHECK(free > 200);
 }
