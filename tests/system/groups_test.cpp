@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -225,5 +226,29 @@ TEST_CASE(
   const std::string before = program.out();
   std::this_thread::sleep_for(Seconds(2));
   CHECK(program.out() == before);
+  stop(program);
+}
+
+TEST_CASE("a task in a process of its own sets a parameter in another one, and sets it back",
+          "[system][groups]") {
+  const TempFolder folder;
+  const std::string task = folder.write("task.xml",
+                                        "<task name=\"test\" version=\"1\"><With set=\"pilot.max_speed\" "
+                                        "to=\"0.3 m/s\"><Wait for=\"4 s\"/></With>"
+                                        "<Wait for=\"60 s\"/></task>\n");
+  ShippedGraph shipped("pioneer_tasks");
+  shipped.add("<process name=\"thinking\"/>");
+  std::string graph = shipped.text();
+  const std::string component = "<component name=\"task\"";
+  const std::size_t at = graph.find(component);
+  REQUIRE(at != std::string::npos);
+  graph.insert(at + component.size(), " process=\"thinking\"");
+  Subprocess program(deployer({folder.write("apart.xml", graph), "--set", "task.task=" + task}));
+  const auto is = [](const std::string& value) {
+    const Run run = run_orcactl({"get", "pilot.max_speed"});
+    return run.exit_code() == 0 && run.out.find(value) != std::string::npos;
+  };
+  CHECK(comes_true([&] { return is("0.3"); }, Seconds(10)));
+  CHECK(comes_true([&] { return is("0.5"); }, Seconds(10)));
   stop(program);
 }

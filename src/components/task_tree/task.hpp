@@ -22,6 +22,7 @@ enum class Kind {
   repeat,
   retry,
   timeout,
+  with,
   attempt,
   on,
   caught,
@@ -48,8 +49,10 @@ struct Step {
   std::vector<std::size_t> children{};  ///< An attempt has what is tried, then its handlers.
   xml::Position position{};
 
-  go::Trip trip{};                       ///< Drive.
-  std::string words{};                   ///< Say, ask; of a caught failure the kind, empty: any.
+  go::Trip trip{};          ///< Drive.
+  std::string words{};      ///< Say, ask; of a caught failure the kind, empty: any; with: the value.
+  std::string component{};  ///< With: that of the parameter.
+  std::string param{};      ///< With.
   std::optional<Condition> condition{};  ///< Check, on.
   Then then = Then::fail;                ///< On, caught.
   std::uint32_t count =

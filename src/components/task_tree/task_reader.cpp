@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -95,6 +96,11 @@ class TaskReader {
                     "two branches of <Parallel> ask at the same time; an answer would be to both");
     if (drivers > 1)
       element.error(codes::kTwoDrivers, "two branches of <Parallel> drive the one robot at the same time");
+    std::set<std::string> set;
+    for (const std::size_t branch : branches)
+      for (const std::string& param : set_in(branch))
+        if (!set.insert(param).second)
+          element.error(codes::kTwoDrivers, "two branches of <Parallel> set " + param + " at the same time");
     if (const auto need = element.integer("need"); need && *need > static_cast<std::int64_t>(branches.size()))
       element.error_at("need", codes::kBadValue,
                        "there are " + std::to_string(branches.size()) + " branches only");
@@ -104,6 +110,15 @@ class TaskReader {
     const Step& s = task_.steps[step];
     return s.kind == kind ||
            std::ranges::any_of(s.children, [&](std::size_t child) { return holds(child, kind); });
+  }
+
+  // Returns the parameters that are set in a step.
+  [[nodiscard]] std::set<std::string> set_in(std::size_t step) const {
+    const Step& s = task_.steps[step];
+    std::set<std::string> set;
+    if (s.kind == Kind::with) set.insert(s.component + "." + s.param);
+    for (const std::size_t child : s.children) set.merge(set_in(child));
+    return set;
   }
 
   [[nodiscard]] bool takes_time(std::size_t step) const {
@@ -141,6 +156,7 @@ class TaskReader {
         break;
       case Kind::retry: step.count = count(e, "attempts"); break;
       case Kind::timeout: step.time = e.number("after").value_or(0.0); break;
+      case Kind::with: read_setting(e, step); break;
       case Kind::on: read_handler(e, step), read_condition(e, step); break;
       case Kind::caught: read_handler(e, step), read_reason(e, step); break;
       case Kind::drive: read_drive(e, step); break;
@@ -164,6 +180,21 @@ class TaskReader {
 
   static std::uint32_t count(const Attributes& e, const char* attribute) {
     return e.has(attribute) ? static_cast<std::uint32_t>(e.integer(attribute).value_or(1)) : 0;
+  }
+
+  static void read_setting(const Attributes& e, Step& step) {
+    step.words = e.text("to").value_or("");
+    const std::string what = e.text("set").value_or("");
+    const std::size_t dot = what.rfind('.');
+    if (dot == std::string::npos || dot == 0 || dot + 1 == what.size()) {
+      if (!what.empty())
+        e.error_at(
+            "set", codes::kBadValue,
+            in_quotes(what) + " names no parameter; write COMPONENT.PARAM, for example pilot.max_speed");
+      return;
+    }
+    step.component = what.substr(0, dot);
+    step.param = what.substr(dot + 1);
   }
 
   static void read_handler(const Attributes& e, Step& step) {

@@ -24,6 +24,7 @@ inline constexpr const char* kPlace = "K010";
 inline constexpr const char* kTwoDrivers = "K011";
 inline constexpr const char* kHandlers = "K012";
 inline constexpr const char* kNeverEnds = "K013";
+inline constexpr const char* kRight = "K014";
 }  // namespace codes
 
 extern const xml::ElementRule kTaskRule;

@@ -8,6 +8,8 @@
 namespace orca::tasks {
 namespace {
 
+constexpr double kObeyTime = 15.0;  // [s] for a parameter to be set
+
 bool is_action(Kind kind) { return kind == Kind::drive || kind == Kind::ask; }
 
 std::string seconds(double time) {
@@ -33,6 +35,35 @@ void collect(const Task& task, const std::vector<TaskRun::Memory>& memories, std
   } else if (runs && memory.at < s.children.size()) {
     collect(task, memories, s.children[memory.at], steps);
   }
+}
+
+// Returns the handler that catches a failure of the attempt; 0: none.
+std::size_t catcher(const Task& task, const std::vector<TaskRun::Memory>& memories, std::size_t attempt,
+                    const std::string& reason) {
+  const auto& children = task.steps[attempt].children;
+  for (std::size_t i = 1; i < children.size(); ++i) {
+    const Step& handler = task.steps.at(children[i]);
+    if (handler.kind != Kind::caught || memories[children[i]].count >= handler.count) continue;
+    if (handler.words.empty() || handler.words == kind_of_failure(reason)) return i;
+  }
+  return 0;
+}
+
+// Makes a step and all below it as if they had never begun.
+void reset(const Task& task, std::vector<TaskRun::Memory>& memories, std::size_t step) {
+  memories[step] = {};
+  for (const std::size_t child : task.steps[step].children) reset(task, memories, child);
+}
+
+// Makes what has failed ready to go on there, and what was interrupted too.
+void revive(const Task& task, std::vector<TaskRun::Memory>& memories, std::size_t step) {
+  TaskRun::Memory& memory = memories[step];
+  if (memory.state != TaskRun::State::failed) return;
+  const Step& failed = task.steps[step];
+  if (failed.kind != Kind::sequence && failed.kind != Kind::repeat) return reset(task, memories, step);
+  memory.state = TaskRun::State::running;
+  memory.reason.clear();
+  for (const std::size_t child : failed.children) revive(task, memories, child);
 }
 
 }  // namespace
@@ -78,6 +109,9 @@ void TaskRun::go_on_from(std::vector<Memory> memories, std::string last_failure)
   last_failure_ = std::move(last_failure);
   for (std::size_t i = 0; i < memory_.size(); ++i)
     if (is_action(step_of(i).kind) && memory_[i].state == State::running) memory_[i].state = State::idle;
+  // After the loss of a process the parameter may be as in the graph again.
+  for (std::size_t i = 0; i < memory_.size(); ++i)
+    if (step_of(i).kind == Kind::with) memory_[i].known = false;
 }
 
 TaskRun::State TaskRun::run(std::size_t step) {
@@ -91,16 +125,19 @@ TaskRun::State TaskRun::run(std::size_t step) {
     case Kind::repeat: return memory.state = run_repeat(step);
     case Kind::retry: return memory.state = run_retry(step);
     case Kind::timeout: return memory.state = run_timeout(step);
+    case Kind::with: return memory.state = run_with(step);
     case Kind::attempt: return memory.state = run_attempt(step);
     case Kind::sequence: return memory.state = run_sequence(step);
     case Kind::on:
-    case Kind::caught: {
-      const State state = run(step_of(step).children[0]);
-      return state == State::failed ? fail(step, memory_[step_of(step).children[0]].reason)
-                                    : memory.state = state;
-    }
+    case Kind::caught: return memory.state = run_wrapped(step);
     default: return run_leaf(step);
   }
+}
+
+TaskRun::State TaskRun::run_wrapped(std::size_t step) {
+  const std::size_t child = step_of(step).children[0];
+  const State state = run(child);
+  return state == State::failed ? fail(step, memory_[child].reason) : state;
 }
 
 TaskRun::State TaskRun::run_sequence(std::size_t step) {
@@ -151,7 +188,7 @@ TaskRun::State TaskRun::run_repeat(std::size_t step) {
   ++memory_[step].count;
   if (repeat.count > 0 && memory_[step].count >= repeat.count) return State::done;
   if (repeat.time > 0.0 && time_ - memory_[step].since >= repeat.time) return State::done;
-  reset(child);
+  reset(task_, memory_, child);
   return State::running;
 }
 
@@ -160,7 +197,7 @@ TaskRun::State TaskRun::run_retry(std::size_t step) {
   const State state = run(child);
   if (state != State::failed) return state;
   if (++memory_[step].count >= step_of(step).count) return fail(step, memory_[child].reason);
-  reset(child);
+  reset(task_, memory_, child);
   return State::running;
 }
 
@@ -173,6 +210,37 @@ TaskRun::State TaskRun::run_timeout(std::size_t step) {
   return fail(step, "timed out: not done within " + seconds(step_of(step).time));
 }
 
+TaskRun::State TaskRun::run_with(std::size_t step) {
+  const Step& with = step_of(step);
+  Memory& memory = memory_[step];
+  if (!memory.known) {
+    if (memory.order == 0) memory.order = actor_->setter().order(with);
+    const std::optional<Ending> ending = actor_->setter().outcome(memory.order);
+    if (!ending && time_ - memory.since < kObeyTime) return State::running;
+    if (!ending) {
+      set_back(step);
+      return fail(step, "timed out: nobody has set " + with.param);
+    }
+    memory.order = 0;
+    if (!ending->done) return fail(step, "refused: " + ending->reason);
+    memory.known = true;
+    if (memory.before.empty()) memory.before = ending->reason;
+  }
+  const State state = run_wrapped(step);
+  if (state != State::running) set_back(step);
+  return state;
+}
+
+// The parameter of a step becomes as it was before, also if it is only about to be set.
+void TaskRun::set_back(std::size_t step) {
+  Memory& memory = memory_[step];
+  if (memory.known || memory.order != 0)
+    actor_->setter().set_back(step_of(step), memory.order, memory.before);
+  memory.known = false;
+  memory.order = 0;
+  memory.before.clear();
+}
+
 // at: 0 while it is tried, else the handler that is on.
 TaskRun::State TaskRun::run_attempt(std::size_t step) {
   const auto& children = step_of(step).children;
@@ -182,17 +250,17 @@ TaskRun::State TaskRun::run_attempt(std::size_t step) {
     if (memory_[step].at != 0) interrupted.known = false;                               // it is seen again,
     if (step_of(children[memory_[step].at]).kind == Kind::caught) --interrupted.count;  // or caught again
     memory_[step].at = static_cast<std::uint32_t>(handler);
-    reset(children[handler]);
+    reset(task_, memory_, children[handler]);
     memory_[children[handler]].known = true;
   }
   if (memory_[step].at != 0) return run_handler(step);
   const State state = run(children[0]);
   if (state != State::failed) return state;
   const std::string reason = memory_[children[0]].reason;
-  const std::size_t handler = catcher(step, reason);
+  const std::size_t handler = catcher(task_, memory_, step, reason);
   if (handler == 0) return fail(step, reason);
   const std::uint32_t caught = memory_[children[handler]].count + 1;
-  reset(children[handler]);
+  reset(task_, memory_, children[handler]);
   memory_[children[handler]].count = caught;
   memory_[step].at = static_cast<std::uint32_t>(handler);
   return State::running;
@@ -230,24 +298,13 @@ TaskRun::State TaskRun::handled(std::size_t attempt, std::size_t handler) {
   memory_[attempt].at = 0;
   switch (step.then) {
     case Then::resume:
-      if (step.kind == Kind::caught) revive(tried);  // what else has failed is caught again
+      if (step.kind == Kind::caught) revive(task_, memory_, tried);  // what else has failed is caught again
       return State::running;
-    case Then::again: reset(tried); return State::running;
+    case Then::again: reset(task_, memory_, tried); return State::running;
     case Then::done: return State::done;
     case Then::fail: break;
   }
   return fail(attempt, step.condition ? "interrupted: " + step.condition->text : memory_[tried].reason);
-}
-
-// Returns the handler that catches a failure of the attempt; 0: none.
-std::size_t TaskRun::catcher(std::size_t attempt, const std::string& reason) const {
-  const auto& children = step_of(attempt).children;
-  for (std::size_t i = 1; i < children.size(); ++i) {
-    const Step& handler = step_of(children[i]);
-    if (handler.kind != Kind::caught || memory_[children[i]].count >= handler.count) continue;
-    if (handler.words.empty() || handler.words == kind_of_failure(reason)) return i;
-  }
-  return 0;
 }
 
 TaskRun::State TaskRun::run_leaf(std::size_t step) {
@@ -285,23 +342,7 @@ void TaskRun::pause(std::size_t step) {
     memory.state = State::idle;
   }
   for (const std::size_t child : step_of(step).children) pause(child);
-}
-
-// Makes a step and all below it as if they had never begun.
-void TaskRun::reset(std::size_t step) {
-  memory_[step] = {};
-  for (const std::size_t child : step_of(step).children) reset(child);
-}
-
-// Makes what has failed ready to go on there, and what was interrupted too.
-void TaskRun::revive(std::size_t step) {
-  Memory& memory = memory_[step];
-  if (memory.state != State::failed) return;
-  const Step& failed = step_of(step);
-  if (failed.kind != Kind::sequence && failed.kind != Kind::repeat) return reset(step);
-  memory.state = State::running;
-  memory.reason.clear();
-  for (const std::size_t child : failed.children) revive(child);
+  if (step_of(step).kind == Kind::with) set_back(step);
 }
 
 }  // namespace orca::tasks

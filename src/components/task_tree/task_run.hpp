@@ -11,14 +11,32 @@
 
 namespace orca::tasks {
 
+/// The end of something that takes time.
+struct Ending {
+  bool done = false;
+  std::string reason;  ///< Why it has failed, for people: "blocked: ...".
+};
+
+/// Who sets parameters of components for a task.
+class Setter {
+ public:
+  /// Orders that the parameter of a step be set. @return the number of the order, not 0.
+  virtual std::uint64_t order(const Step& step) = 0;
+  /// Returns how such an order has ended, if it has; done with the value before as its reason.
+  virtual std::optional<Ending> outcome(std::uint64_t number) = 0;
+  /// Sets the parameter of a step back.
+  /// @param number  of the order that must end before; 0: none.
+  /// @param before  the value; empty: the one before that order.
+  virtual void set_back(const Step& step, std::uint64_t number, const std::string& before) = 0;
+
+ protected:
+  ~Setter() = default;
+};
+
 /// The hands and ears of a task.
 class Actor {
  public:
-  /// The end of something that takes time.
-  struct Ending {
-    bool done = false;
-    std::string reason;  ///< Why it has failed, for people: "blocked: ...".
-  };
+  using Ending = tasks::Ending;
 
   /// Begins to drive or to ask.
   virtual std::optional<Ending> begin(const Step& step) = 0;
@@ -26,6 +44,8 @@ class Actor {
   virtual std::optional<Ending> go_on(const Step& step) = 0;
   /// Gives up what has begun and has not ended.
   virtual void halt(const Step& step) = 0;
+  /// Returns who sets parameters for the steps With.
+  [[nodiscard]] virtual Setter& setter() = 0;
   virtual void say(const std::string& text) = 0;
   [[nodiscard]] virtual bool holds(const Condition& condition) = 0;
 
@@ -48,9 +68,11 @@ class TaskRun {
     State state = State::idle;
     std::uint32_t at = 0;     ///< Which of its children is on.
     std::uint32_t count = 0;  ///< Rounds, attempts, or how often it has caught.
+    std::uint64_t order = 0;  ///< With: number of the order that is under way; 0: none.
     double since = 0.0;       ///< [s] When it began.
-    bool known = false;       ///< On: its condition was seen, and has held since.
+    bool known = false;       ///< On: its condition was seen, and has held since. With: its parameter is set.
     std::string reason{};     ///< Why it has failed.
+    std::string before{};     ///< With: the value that the parameter had.
   };
 
   /// @param task  outlives this object.
@@ -84,12 +106,14 @@ class TaskRun {
 
  private:
   State run(std::size_t step);
+  State run_wrapped(std::size_t step);
   State run_sequence(std::size_t step);
   State run_fallback(std::size_t step);
   State run_parallel(std::size_t step);
   State run_repeat(std::size_t step);
   State run_retry(std::size_t step);
   State run_timeout(std::size_t step);
+  State run_with(std::size_t step);
   State run_attempt(std::size_t step);
   State run_leaf(std::size_t step);
   State run_action(std::size_t step);
@@ -97,12 +121,10 @@ class TaskRun {
   std::size_t watch(std::size_t attempt);
   State run_handler(std::size_t attempt);
   State handled(std::size_t attempt, std::size_t handler);
-  std::size_t catcher(std::size_t attempt, const std::string& reason) const;
 
   State fail(std::size_t step, std::string reason);
   void pause(std::size_t step);
-  void reset(std::size_t step);
-  void revive(std::size_t step);
+  void set_back(std::size_t step);
 
   [[nodiscard]] const Step& step_of(std::size_t step) const { return task_.steps[step]; }
 

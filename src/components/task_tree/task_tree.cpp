@@ -15,6 +15,7 @@
 #include "orca/idl/system.hpp"
 #include "orca/idl/tasks.hpp"
 #include "orca/idl/time.hpp"
+#include "settings.hpp"
 #include "task.hpp"
 #include "task_rules.hpp"
 #include "task_run.hpp"
@@ -30,6 +31,13 @@ using orca::tasks::Task;
 using orca::tasks::TaskRun;
 
 constexpr const char* kQuestion = "QUESTION";  // kind of the alarm while it asks
+
+std::optional<orca::tasks::Ending> ending_of(const std::optional<MissionProxy::Ending>& ending) {
+  if (!ending) return std::nullopt;
+  return orca::tasks::Ending{
+      ending->reached,
+      ending->reached ? "" : ending->reason + " (mission " + std::to_string(ending->mission) + ")"};
+}
 
 /// A component that does a task (thesis 6.1, 11.5): it drives from place to place, waits, asks and looks, as a task file says, and
 /// reacts to what the system says meanwhile. Each drive is a mission. When the task is done the component is done, and when the task
@@ -56,6 +64,7 @@ class TaskTree final : public orca::Component, private Actor {
     orca::xml::Diagnostics diagnostics;
     std::optional<Task> task = orca::tasks::read_task(*task_file_, lookout_.sights(), diagnostics);
     if (task) look_up_places(*task, diagnostics);
+    if (task) settings_.check(*task, diagnostics);
     if (task && !diagnostics.has_errors()) {
       task_ = std::move(*task);
       return orca::ok();
@@ -75,6 +84,7 @@ class TaskTree final : public orca::Component, private Actor {
 
   orca::Outcome work() override {
     lookout_.take_all();
+    for (const std::string& fault : settings_.go_on()) log_warning(fault);
     alarms_ = kept_alarms();
     if (!paused_ && is_on()) run_->tick(*this, orca::to_seconds(now().time_since_epoch()));
     show();
@@ -118,6 +128,7 @@ class TaskTree final : public orca::Component, private Actor {
     }
   }
 
+  orca::tasks::Setter& setter() override { return settings_; }
   void say(const std::string& text) override { log_info(text); }
 
   [[nodiscard]] bool holds(const Condition& condition) override {
@@ -131,13 +142,6 @@ class TaskTree final : public orca::Component, private Actor {
     return std::ranges::any_of(alarms_, [&](const orca::idl::Alarm& alarm) {
       return alarm.active() && orca::kind_text(alarm) == kind && (source.empty() || alarm.source() == source);
     });
-  }
-
-  static std::optional<Ending> ending_of(const std::optional<MissionProxy::Ending>& ending) {
-    if (!ending) return std::nullopt;
-    return Ending{
-        ending->reached,
-        ending->reached ? "" : ending->reason + " (mission " + std::to_string(ending->mission) + ")"};
   }
 
   orca::Result<orca::Loan<orca::idl::TaskState>> on_order(
@@ -246,6 +250,8 @@ class TaskTree final : public orca::Component, private Actor {
     state.write(step_texts(), run_->memories(), run_->last_failure(), paused_, paused_at_);
   }
 
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+
   orca::Status load_state(orca::StateReader& state) override {
     std::vector<std::string> texts;
     std::vector<TaskRun::Memory> memories;
@@ -309,6 +315,7 @@ class TaskTree final : public orca::Component, private Actor {
   Task task_;
   std::unique_ptr<TaskRun> run_;
   orca::tasks::Lookout lookout_;
+  orca::tasks::Settings settings_{host()};
   std::vector<orca::idl::Alarm> alarms_;  // of this lap
   bool paused_ = false;
   orca::TimePoint paused_at_{};

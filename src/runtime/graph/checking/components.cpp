@@ -108,6 +108,7 @@ class ComponentReader {
     checked_.value.restore_last = attribute<std::string>("restore") == "last";
     checked_.value.may_fail = attribute<bool>("may_fail").value_or(false);
     checked_.value.start_after = split_names(node_.value("start_after"));
+    checked_.value.may_set = split_names(node_.value("may_set"));
   }
 
   void read_loading() {
@@ -235,6 +236,40 @@ void check_start_after(const std::vector<Node>& nodes, const Model& model, Repor
   }
 }
 
+// Returns what is wrong with a right to set a parameter of a component whose contract is known.
+std::string fault_of_right(const std::string& param, const Contract& contract, Report& report) {
+  const ParamContract* const found = contract.param(param);
+  if (found != nullptr && !found->fixed) return "";
+  if (found != nullptr) return "is fixed while the component runs; nobody can set it then";
+  std::vector<std::string> names;
+  for (const ParamContract& one : contract.params)
+    if (!one.fixed) names.push_back(one.name);
+  return "is no parameter of " + contract.type + "; those that can be set are: " + listed(names) +
+         report.hint(param, names);
+}
+
+void check_rights(const std::vector<Node>& nodes, const Model& model, Report& report) {
+  for (const Node& node : nodes)
+    for (const std::string& right : split_names(node.value("may_set"))) {
+      const std::size_t dot = right.rfind('.');
+      const auto refuse = [&](const std::string& why) {
+        report.error(codes::kRight, node.place("may_set"),
+                     node.title() + ": may_set: " + in_quotes(right) + " " + why);
+      };
+      if (dot == std::string::npos || dot == 0 || dot + 1 == right.size()) {
+        refuse("names no parameter of a component; write COMPONENT.PARAM, for example pilot.max_speed");
+        continue;
+      }
+      const std::string name = right.substr(0, dot);
+      if (!check_component_exists(name, node.place("may_set"), node.title() + ": may_set", model, report))
+        continue;
+      const CheckedComponent& component = *model.component(name);
+      if (!component.contract) continue;
+      const std::string fault = fault_of_right(right.substr(dot + 1), *component.contract, report);
+      if (!fault.empty()) refuse(fault);
+    }
+}
+
 }  // namespace
 
 void check_components(const std::vector<Node>& nodes, Types& types, Model& model, Report& report) {
@@ -249,6 +284,7 @@ void check_components(const std::vector<Node>& nodes, Types& types, Model& model
               !node.value("name").empty() && !node.duplicate);
   }
   check_start_after(nodes, model, report);
+  check_rights(nodes, model, report);
 }
 
 }  // namespace orca::graph

@@ -76,5 +76,6 @@ inline constexpr const char* kNothingFits = "G071";
 inline constexpr const char* kTrade = "G072";
 inline constexpr const char* kGroup = "G073";
 inline constexpr const char* kChange = "G074";
+inline constexpr const char* kRight = "G075";
 
 }  // namespace orca::graph::codes

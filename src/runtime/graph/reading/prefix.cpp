@@ -34,6 +34,7 @@ void prefix_component(Node& node, const std::string& context) {
   prefix_name(node, "hardware", context);
   prefix_process(node, "process", context);
   prefix_names(node, "start_after", context);
+  prefix_names(node, "may_set", context);
 }
 
 }  // namespace

@@ -196,6 +196,9 @@ constexpr std::array kComponent{
         "What it begins with after its process was lost: the last state that it has saved (last), or "
         "nothing (none); none if not given.",
         one_of(kRestore)},
+    AttributeRule{"may_set", false,
+                  "Parameters of other components that the component may set while it runs, for example "
+                  "pilot.max_speed."},
     AttributeRule{"may_fail", false,
                   "Whether a run may count as finished well although the component ends in WORK_FAILED.",
                   kBoolean}};

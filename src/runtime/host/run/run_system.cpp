@@ -25,6 +25,7 @@
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
 #include "system/live_view.hpp"
+#include "system/peer_calls.hpp"
 #include "system/system.hpp"
 #include "system/watched_system.hpp"
 
@@ -167,6 +168,7 @@ class Run {
     while (!stop_.requested() && executive().now() < end && !has_ended() && !report_standstill(all_wait)) {
       if (door_ && door_->obey()) return conclusion_.stop("");
       choose_edges();
+      carry_out_peer_orders(watched_);
       const Result<TimePoint> next = changes_.go_on();
       if (!next) return conclusion_.report_failure(next.error());
       const TimePoint until = std::min(end, *next);

@@ -132,7 +132,7 @@ void transfer(auto& archive, Trigger& trigger) {
 // Ports are transferred by name; what a component may subscribe to by name is not.
 void transfer(auto& archive, graph::ComponentNode& node) {
   transfer_all(archive, node.name, node.type, node.hardware, node.process, node.priority, node.autonomous,
-               node.watchable, node.trigger, node.restore_last);
+               node.watchable, node.trigger, node.restore_last, node.may_set);
   std::vector<std::pair<std::string, std::string>> aliases;
   for (const auto& [port, setting] : node.ports) aliases.emplace_back(port, setting.alias);
   transfer(archive, aliases);

@@ -38,6 +38,9 @@ void fields(auto& archive, AddComponent& m) { transfer_all(archive, m.node, m.va
 void fields(auto& archive, RemoveComponent& m) { transfer(archive, m.component); }
 void fields(auto& archive, NoteProcess& m) { transfer_all(archive, m.process, m.place, m.is_of_fibers); }
 void fields(auto& archive, OpenGate& m) { transfer(archive, m.component); }
+void fields(auto& archive, ConcludeCall& m) {
+  transfer_all(archive, m.component, m.number, m.outcome, m.before);
+}
 
 void fields(auto& archive, Outlive& m) { transfer_all(archive, m.output, m.wait); }
 void fields(auto& /*archive*/, Adopt& /*m*/) {}
@@ -77,6 +80,9 @@ void fields(auto& archive, ExchangedCode& m) {
 void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
 void fields(auto& /*archive*/, Leaving& /*m*/) {}
 void fields(auto& archive, LogWished& m) { transfer(archive, m.is_wanted); }
+void fields(auto& archive, PeerCalled& m) {
+  transfer_all(archive, m.by, m.number, m.component, m.param, m.value);
+}
 
 Message encode(Order order, std::uint64_t request) { return encode_any(order, request); }
 Message encode(Report report, std::uint64_t request) { return encode_any(report, request); }

@@ -248,23 +248,22 @@ graph::Params Operating::with_changes(const std::string& owner, graph::Params pa
   return params;
 }
 
-void Operating::add_param(const Owner& owner, const std::string& name, Reply& reply) {
-  const ParamContract* const param = owner.contract == nullptr ? nullptr : owner.contract->param(name);
-  reply.add(Record{{"component", owner.name},
-                   {"param", name},
-                   {"value", graph::print_value(owner.params.at(name))},
-                   {"unit", param == nullptr ? "" : param->unit},
-                   {"fixed", owner.hardware != nullptr || (param != nullptr && param->fixed)},
-                   {"text", param == nullptr ? "" : param->text}});
-}
-
 void Operating::get(const std::string& what, const ReplyPtr& reply) const {
-  const Result<ParamName> name = find(what);
-  if (!name) return reply->refuse(name.error());
-  if (!name->param.empty()) return add_param(name->owner, name->param, *reply);
+  const auto add_param = [&](const Owner& owner, const std::string& name) {
+    const ParamContract* const param = owner.contract == nullptr ? nullptr : owner.contract->param(name);
+    reply->add(Record{{"component", owner.name},
+                      {"param", name},
+                      {"value", graph::print_value(owner.params.at(name))},
+                      {"unit", param == nullptr ? "" : param->unit},
+                      {"fixed", owner.hardware != nullptr || (param != nullptr && param->fixed)},
+                      {"text", param == nullptr ? "" : param->text}});
+  };
+  const Result<ParamName> found = find(what);
+  if (!found) return reply->refuse(found.error());
+  if (!found->param.empty()) return add_param(found->owner, found->param);
   const Result<std::vector<Owner>> all = owners(what);
   for (const Owner& owner : *all)
-    for (const auto& [param, value] : owner.params) add_param(owner, param, *reply);
+    for (const auto& [param, value] : owner.params) add_param(owner, param);
 }
 
 void Operating::note_set(const std::string& owner, const std::map<std::string, std::string>& texts) {
@@ -288,7 +287,7 @@ Status Operating::change(const std::map<std::string, graph::Params>& wanted) {
   return change(settings);
 }
 
-Status Operating::change(const std::vector<Setting>& settings) {
+Status Operating::change(const std::vector<Setting>& settings, const std::string& who) {
   std::vector<std::string> components;
   std::vector<JointStep> steps;
   for (const Setting& setting : settings) {
@@ -299,8 +298,24 @@ Status Operating::change(const std::vector<Setting>& settings) {
   if (Status end = carry_out(steps); !end.ok()) return end;
   for (const Setting& setting : settings)
     for (const auto& [param, value] : setting.values)
-      log::info(setting.component, "an operator has set " + param + " to " + graph::print_value(value));
+      log::info(setting.component, who + " has set " + param + " to " + graph::print_value(value));
   return ok();
+}
+
+Result<std::string> Operating::set_for(const PeerCalled& call) {
+  const graph::ComponentNode* const by = graph_.find_component(call.by);
+  const std::string what = call.component + "." + call.param;
+  if (by == nullptr || std::ranges::find(by->may_set, what) == by->may_set.end())
+    return fail(Code::failed_precondition, "the graph gives no right to set " + what, call.by);
+  const graph::ComponentNode* const node = graph_.find_component(call.component);
+  const Contract* const contract = contract_of(facts_.contracts, call.component);
+  if (node == nullptr || contract == nullptr) return gone(call.component);
+  const Result<graph::Params> read = graph::read_settings(contract->params, {{call.param, call.value}});
+  if (!read) return read.error();
+  std::string before = graph::print_value(params_of(*node).at(call.param));
+  const Status end = change({{call.component, {{call.param, call.value}}, *read}}, call.by);
+  if (!end.ok()) return end.error();
+  return before;
 }
 
 // Returns the present values of what is to change. Since the order was given, the component may have gone or got another

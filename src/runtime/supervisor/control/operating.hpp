@@ -53,6 +53,10 @@ class Operating {
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Does the same with values that have been read and checked, by component. It waits.
   Status change(const std::map<std::string, graph::Params>& wanted);
+  /// Sets a parameter for a component that the graph gives the right. It waits.
+  /// @return the value before.
+  /// @errors  failed_precondition without the right; as change().
+  Result<std::string> set_for(const PeerCalled& call);
   /// Carries out steps of several components, all of them or none, when no other joint order is under way. It waits.
   Status carry_out(const std::vector<JointStep>& steps) { return joint_orders_.carry_out(steps); }
   /// Learns where components are that are not in the graph, because they come or go; by name.
@@ -101,7 +105,6 @@ class Operating {
   [[nodiscard]] Result<std::vector<Owner>> owners(const std::string& name) const;
   [[nodiscard]] Result<ParamName> find(const std::string& what) const;
   [[nodiscard]] graph::Params with_changes(const std::string& owner, graph::Params params) const;
-  static void add_param(const Owner& owner, const std::string& name, Reply& reply);
 
   // What is to change in one component.
   struct Setting {
@@ -113,7 +116,7 @@ class Operating {
 
   void pause(const std::string& name, bool suspends, const ReplyPtr& reply);
   [[nodiscard]] Status are_ready(const std::vector<std::string>& components) const;
-  Status change(const std::vector<Setting>& settings);
+  Status change(const std::vector<Setting>& settings, const std::string& who = "an operator");
   [[nodiscard]] Result<graph::Params> present_of(const Setting& setting) const;
   [[nodiscard]] JointStep step_of(const Setting& setting);
   [[nodiscard]] Result<Member*> ready_member_of(const std::string& component) const;

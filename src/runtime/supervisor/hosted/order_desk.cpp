@@ -56,6 +56,14 @@ std::optional<host::PartOrder> part_order(const Order& order) {
   if (const auto* resume = std::get_if<Resume>(&order)) return about(Kind::resume, resume->component);
   if (const auto* gate = std::get_if<OpenGate>(&order)) return about(Kind::open_gate, gate->component);
   if (const auto* gone = std::get_if<RemoveComponent>(&order)) return about(Kind::remove, gone->component);
+  if (const auto* call = std::get_if<ConcludeCall>(&order)) {
+    host::PartOrder conclusion = about(Kind::conclude, call->component);
+    Result<std::string> outcome = call->before;
+    if (!call->outcome.ok()) outcome = call->outcome.error();
+    conclusion.outcome =
+        std::make_shared<std::pair<std::uint64_t, Result<std::string>>>(call->number, outcome);
+    return conclusion;
+  }
   if (const auto* set = std::get_if<SetParams>(&order))
     return host::PartOrder{Kind::set_params, set->component, {set->values.begin(), set->values.end()}};
   return std::nullopt;

@@ -106,6 +106,10 @@ void ReportSender::state_kept(const std::string& component, const host::KeptStat
   send(StateKept{component, state.tag.type, state.tag.version, state.bytes});
 }
 
+void ReportSender::peer_called(const host::PeerCall& call) {
+  send(PeerCalled{call.by, call.number, call.setting.component, call.setting.param, call.setting.value});
+}
+
 void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{error}); }
 
 void ReportSender::show(const host::RunGlance& glance) {

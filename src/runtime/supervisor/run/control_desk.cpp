@@ -80,6 +80,14 @@ void ControlDesk::recall(const Standing& standing) {
   operating_.recall(standing.params);
 }
 
+void ControlDesk::obey(const PeerCalled& call) {
+  conductor_.begin("an order of " + call.by, [this, call] {
+    const Result<std::string> before = operating_.set_for(call);
+    ConcludeCall end{call.by, call.number, before ? ok() : Status(before.error()), before ? *before : ""};
+    operating_.tell(call.by, std::move(end));
+  });
+}
+
 void ControlDesk::add_to(std::vector<pollfd>& all) const {
   if (server_) server_->add_to(all);
 }

@@ -35,6 +35,7 @@ class NapListener final : public PartListener {
   void rest_changed(bool /*at_rest*/) override {}
   void counted(const RunCounters& /*counters*/, const std::vector<RunResult::Way>& /*ways*/) override {}
   void state_kept(const std::string& /*component*/, const KeptState& /*state*/) override {}
+  void peer_called(const PeerCall& /*call*/) override {}
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

@@ -44,6 +44,7 @@ class StateListener final : public PartListener {
     else
       others[component] = state;
   }
+  void peer_called(const PeerCall& /*call*/) override {}
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

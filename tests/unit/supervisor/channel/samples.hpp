@@ -92,7 +92,7 @@ inline std::vector<supervisor::Order> all_orders() {
                null_device(),
                true},
       NoteGraph{"<graph name=\"robot\"/>"}, rewire(), newcomer(), RemoveComponent{"avoid"}, OpenGate{"avoid"},
-      NoteProcess{"brain", 2, true});
+      NoteProcess{"brain", 2, true}, ConcludeCall{"task", 3, ok(), "0.5 m/s"});
 }
 
 /// Returns at least one of each report.
@@ -111,7 +111,8 @@ inline std::vector<supervisor::Report> all_reports() {
       Orphaned{"base", 17, {{"seed", "7"}}, null_device(), null_device(), {"base", "avoid"}, {"main"}},
       ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
       Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},
-      LogWished{true}, StateKept{"command", "orca.Command", 2, some_bytes()});
+      LogWished{true}, StateKept{"command", "orca.Command", 2, some_bytes()},
+      PeerCalled{"task", 3, "pilot", "max_speed", "0.8 m/s"});
 }
 
 /// Returns one of each word that a client of the control socket hears.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "orca/base/contract.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/random.hpp"
+#include "orca/base/result.hpp"
 #include "orca/component/device.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/patterns/port_owner.hpp"
@@ -41,6 +43,13 @@ class PluginHost {
   /// Returns a stream that depends only on the run's seed, this instance's name and `stream`.
   [[nodiscard]] virtual RandomStream random(std::string_view stream) const = 0;
   virtual void write_log(log::Level level, std::string_view text) const = 0;
+};
+
+/// A wish of a component that a parameter of another one be set.
+struct PeerSetting {
+  std::string component;  ///< By its name in the graph.
+  std::string param;
+  std::string value;  ///< As written in a graph, with its unit.
 };
 
 /// The services that a process offers to a component. The runtime implements it; a component author does not
@@ -75,6 +84,19 @@ class ComponentHost : public PluginHost {
   [[nodiscard]] virtual std::vector<idl::Alarm> take_alarms() { return {}; }
   /// Returns the alarms of the whole system that nobody has acknowledged yet.
   [[nodiscard]] virtual std::vector<idl::Alarm> kept_alarms() const { return {}; }
+
+  /// Returns whether the graph gives this component the right to set a parameter of another one: may_set="pilot.max_speed".
+  [[nodiscard]] virtual bool may_set(const std::string& /*component*/, const std::string& /*param*/) const {
+    return false;
+  }
+  /// Orders that a parameter of another component be set, between two of its laps, in whatever process it is.
+  /// @return the number of the order.
+  virtual std::uint64_t set_peer(const PeerSetting& /*setting*/) { return 0; }
+  /// Returns the outcome of such an order once it is there, and forgets it: the value before, as text.
+  /// @errors  failed_precondition without the right; those of the component and of the runtime, with their reasons.
+  [[nodiscard]] virtual std::optional<Result<std::string>> take_set(std::uint64_t /*number*/) {
+    return std::nullopt;
+  }
 };
 
 }  // namespace orca

@@ -30,16 +30,15 @@ namespace {
 constexpr Duration kOrderLimit = 5s;
 
 SystemOptions system_options(const PartOptions& options, PartListener& listener) {
-  return {options.seed,
-          {.moments = !options.outputs.picture.file.empty(), .motion = false},
-          options.failures,
-          options.log_name,
-          options.missions,
-          options.doorbell,
-          [&listener](const std::string& component, const KeptState& state) {
-            listener.state_kept(component, state);
-          },
-          options.states};
+  return {.seed = options.seed,
+          .scene = {.moments = !options.outputs.picture.file.empty(), .motion = false},
+          .failures = options.failures,
+          .log_name = options.log_name,
+          .missions = options.missions,
+          .doorbell = options.doorbell,
+          .state_sink = [&listener](const std::string& component,
+                                    const KeptState& state) { listener.state_kept(component, state); },
+          .states = options.states};
 }
 
 }  // namespace
@@ -206,9 +205,17 @@ class HostedPart::Inside {
       case PartOrder::Kind::remove: return remove(order.component);
       case PartOrder::Kind::open_gate: return changes_.open_gate(order.component);
       case PartOrder::Kind::rewire: return changes_.rewire(*order.connections, limit);
+      case PartOrder::Kind::conclude: return conclude(order);
       case PartOrder::Kind::swap: break;  // is no matter of one step
     }
     return fail(Code::internal, "an unknown order");
+  }
+
+  Status conclude(const PartOrder& order) {
+    const Result<ComponentInstance*> component = watched_.system().instance(order.component);
+    if (!component) return component.error();
+    (*component)->parts().peer_orders->conclude(order.outcome->first, order.outcome->second);
+    return ok();
   }
 
   Status remove(const std::string& name) {
@@ -241,6 +248,8 @@ class HostedPart::Inside {
   }
 
   void report_change(const ComponentInstance& component) {
+    while (const auto order = component.parts().peer_orders->take_order())
+      place_.listener.peer_called({component.name(), order->first, order->second});
     const ComponentReport report = component.report();
     const auto [known, is_new] = reported_.try_emplace(component.name(), report);
     if (!is_new && known->second == report) return;

@@ -67,6 +67,7 @@ struct ComponentNode {
   bool may_fail = false;           ///< Its WORK_FAILED at the end of a run does not make the run a failure.
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.
+  std::vector<std::string> may_set;      ///< Parameters of others that it may set: "pilot.max_speed".
   Params params;
   Properties properties;                     ///< Those that the graph declares.
   std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.

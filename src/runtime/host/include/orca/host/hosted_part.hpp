@@ -18,6 +18,7 @@
 #include "orca/host/component_report.hpp"
 #include "orca/host/kept_state.hpp"
 #include "orca/host/part_access.hpp"
+#include "orca/host/peer_call.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_outputs.hpp"
@@ -43,6 +44,9 @@ class PartListener : public RunListener {
   /// Takes the state of a component that is to begin with it if the process is lost.
   /// @thread  the component's strand.
   virtual void state_kept(const std::string& component, const KeptState& state) = 0;
+  /// Takes the order of a component about another one, in whatever process that is.
+  /// @thread  the part's main task.
+  virtual void peer_called(const PeerCall& call) = 0;
   /// Reports that an output could not be written.
   /// @thread  the part's main task, or the thread that calls HostedPart::write_outputs().
   virtual void output_failed(const Error& error) = 0;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/descriptor.hpp"
@@ -42,6 +44,7 @@ struct PartOrder {
     remove,  ///< Ends a component that nobody is connected to any more.
     open_gate,     ///< Lets one component work.
     rewire,        ///< Makes and removes connections, between two laps of the components at their ends.
+    conclude,      ///< Gives a component the outcome of its order about another one.
     check_unused,  ///< Does nothing; refused if a component is in use, with its name.
     swap,          ///< Exchanges a component's code. Other orders are carried out meanwhile.
   };
@@ -55,6 +58,8 @@ struct PartOrder {
   bool keeps_states = false;  ///< Whether components hand out their states when they are taken down.
   /// The component to add, if that is the order. Its parameters are those in `params`.
   std::shared_ptr<graph::ComponentNode> node{};
+  /// The number of the component's own order and its outcome, if the order is to conclude it.
+  std::shared_ptr<std::pair<std::uint64_t, Result<std::string>>> outcome{};
   std::shared_ptr<SwapOrder> swap{};  ///< What is to be exchanged, if that is the order.
   /// The connections of one component to make and to remove, in this order, if that is the order: of a client, or of a server
   /// whose client is in another process. What is so already is made anew, or left alone. All of them change, or none.

@@ -18,6 +18,7 @@
 #include "orca/component/device.hpp"
 #include "order_queue.hpp"
 #include "parameters.hpp"
+#include "peer_orders.hpp"
 #include "port_set.hpp"
 #include "run/reporting/run_context.hpp"
 
@@ -63,6 +64,7 @@ struct ComponentParts {
   FailureInjector injector;
   Parameters params;
   OrderQueue orders;
+  const std::unique_ptr<PeerOrders> peer_orders = std::make_unique<PeerOrders>();
   std::map<std::string, idl::Alarm> own_alarms;  // the last of each kind
 };
 

@@ -18,16 +18,17 @@ namespace orca::host {
 struct ComponentSettings {
   std::string name;
   int priority = 0;
-  std::optional<bool> autonomous;  ///< Replaces what the component says by stay_active().
-  bool watchable = false;          ///< Works also while somebody looks at what it pushes.
-  std::optional<Trigger> trigger;  ///< Replaces the author's trigger.
-  LapTime takes{};                 ///< Virtual time that computing a lap takes.
-  Cores* cores = nullptr;          ///< Those on which its laps compute with others; null: its own.
-  bool on_demand = false;          ///< Loaded when first asked for.
-  bool stay_warm = false;          ///< Stays in memory once it is loaded.
-  Duration idle_time{0};           ///< An on-demand component that is not used for that long is unloaded.
-  bool keeps_state = false;        ///< Its state is kept for the case that its process is lost.
-  std::optional<KeptState> state;  ///< That it begins with, because its process was lost.
+  std::optional<bool> autonomous;    ///< Replaces what the component says by stay_active().
+  bool watchable = false;            ///< Works also while somebody looks at what it pushes.
+  std::optional<Trigger> trigger;    ///< Replaces the author's trigger.
+  LapTime takes{};                   ///< Virtual time that computing a lap takes.
+  Cores* cores = nullptr;            ///< Those on which its laps compute with others; null: its own.
+  bool on_demand = false;            ///< Loaded when first asked for.
+  bool stay_warm = false;            ///< Stays in memory once it is loaded.
+  Duration idle_time{0};             ///< An on-demand component that is not used for that long is unloaded.
+  bool keeps_state = false;          ///< Its state is kept for the case that its process is lost.
+  std::optional<KeptState> state;    ///< That it begins with, because its process was lost.
+  std::vector<std::string> may_set;  ///< Parameters of others that it may set: "pilot.max_speed".
   std::map<std::string, ParamValue> params;
   std::optional<PlannedFailure> failure;  ///< How it is made to fail.
   /// Names of ports in the graph, by the author's names.

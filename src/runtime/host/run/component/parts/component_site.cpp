@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "component_site.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -60,6 +61,23 @@ std::vector<idl::Alarm> ComponentSite::take_alarms() {
 
 std::vector<idl::Alarm> ComponentSite::kept_alarms() const {
   return parts_->run.reporter.alarm_news().kept();
+}
+
+bool ComponentSite::may_set(const std::string& component, const std::string& param) const {
+  return std::ranges::find(parts_->settings.may_set, component + "." + param) !=
+         parts_->settings.may_set.end();
+}
+
+// The main task of whoever runs the system looks for it. In a trial nobody does.
+std::uint64_t ComponentSite::set_peer(const PeerSetting& setting) {
+  const std::string what = setting.component + "." + setting.param;
+  if (!may_set(setting.component, setting.param))
+    return parts_->peer_orders->refuse(
+        fail(Code::failed_precondition, "the graph gives no right to set " + what + "; add may_set=" +
+                                            in_quotes(what) + " to component " + in_quotes(name())));
+  const std::uint64_t number = parts_->peer_orders->begin(setting);
+  parts_->run.changed();
+  return number;
 }
 
 }  // namespace orca::host

@@ -57,6 +57,11 @@ class ComponentSite final : public ComponentHost {
   void clear_alarm(std::string_view kind, std::string_view text) override;
   [[nodiscard]] std::vector<idl::Alarm> take_alarms() override;
   [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const override;
+  [[nodiscard]] bool may_set(const std::string& component, const std::string& param) const override;
+  std::uint64_t set_peer(const PeerSetting& setting) override;
+  [[nodiscard]] std::optional<Result<std::string>> take_set(std::uint64_t number) override {
+    return parts_->peer_orders->take(number);
+  }
 
  private:
   ComponentParts* parts_;

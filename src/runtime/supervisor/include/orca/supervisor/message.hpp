@@ -43,6 +43,7 @@ enum class Kind : std::uint16_t {
   remove_component = 75,
   open_gate = 76,
   note_process = 77,
+  conclude_call = 78,
   // Reports: from a host process to the supervisor.
   answer = 101,
   built,
@@ -66,6 +67,7 @@ enum class Kind : std::uint16_t {
   log_wish = 151,
   exchanged_code = 171,
   state_kept,
+  peer_called,
   // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
   ask = 201,
   record_answer = 301,

@@ -240,10 +240,20 @@ struct NoteGraph {
   std::string graph;  ///< As graph::print() writes it.
 };
 
-using Order = std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend,
-                           Resume, SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors,
-                           Count, OpenLine, Meet, Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode,
-                           NoteGraph, Rewire, AddComponent, RemoveComponent, OpenGate, NoteProcess>;
+/// Gives a component the outcome of what it has ordered by PeerCalled.
+struct ConcludeCall {
+  static constexpr Kind kKind = Kind::conclude_call;
+  std::string component;
+  std::uint64_t number = 0;
+  Status outcome;
+  std::string before{};  ///< The value that the parameter had.
+};
+
+using Order =
+    std::variant<Setup, Build, OpenHardware, Configure, OpenGates, TakeDown, StopMotors, Suspend, Resume,
+                 SetParams, RenewEdge, CutEdge, TellAlarm, ForgetAlarm, ReleaseMotors, Count, OpenLine, Meet,
+                 Say, Outlive, Adopt, MoveEdge, AskUse, TellLines, SwapCode, NoteGraph, Rewire, AddComponent,
+                 RemoveComponent, OpenGate, NoteProcess, ConcludeCall>;
 
 // ---- Reports, from a host process to the supervisor.
 
@@ -375,6 +385,15 @@ struct Standing {
   bool motors_held = false;                           ///< By StopMotors.
   std::vector<std::pair<std::string, Pairs>> params;  ///< By component: those that SetParams has changed.
 };
+/// A component orders that a parameter of another one be set.
+struct PeerCalled {
+  static constexpr Kind kKind = Kind::peer_called;
+  std::string by;
+  std::uint64_t number = 0;  ///< Of the order, among those of the component.
+  std::string component;
+  std::string param;
+  std::string value;  ///< As in the graph, with its unit.
+};
 /// Everything is taken down on order or at a signal, and the process ends.
 struct Leaving {
   static constexpr Kind kKind = Kind::leaving;
@@ -383,7 +402,7 @@ struct Leaving {
 using Report =
     std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
                  AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep,
-                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode, StateKept>;
+                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode, StateKept, PeerCalled>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.
