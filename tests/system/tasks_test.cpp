@@ -244,7 +244,7 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
   Operated robot(with_task("tour.xml"));
   robot.step("30s");  // on the way to the library
   CHECK_THAT(robot.order({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out,
-             Contains("orca.TaskTree/1"));
+             Contains("orca.TaskTree/2"));
   const std::string tree = robot.order({"tasks"}).out;
   CHECK_THAT(tree, Contains("task: tour, on the way"));
   CHECK_THAT(tree, Contains("done            Drive to=kitchen"));
