@@ -38,7 +38,8 @@ orca_package(runtime science "component framework for mobile robots: deployer an
 localisation, planning and tasks, the program that brings them up, graphs,
 and a systemd unit that runs one from the start of the computer."
   RECOMMENDS orca-simulator orca-tools)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CPACK_ORCA_FILES}/postinst ${CPACK_ORCA_FILES}/postrm)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CPACK_ORCA_FILES}/postinst ${CPACK_ORCA_FILES}/prerm
+    ${CPACK_ORCA_FILES}/postrm)
 orca_package(tools science "component framework for mobile robots: tools of operators"
   DETAILS "orcactl shows and commands running robot systems, records them and exchanges
 their code. hwprobe finds out which device is at which serial port."

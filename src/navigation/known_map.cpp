@@ -87,14 +87,16 @@ Explanation KnownMap::explain(std::span<const SurfacePoint> scan, Vec2 sensor, c
   const Vec2 from = X_MR * sensor;
   const Vec2 turned = direction(X_MR.yaw);
   double all = 0.0;
-  double without_near = 0.0;  // of the shorts
+  double all_of_room = 0.0;
   for (const SurfacePoint& point : scan) {
     const Vec2 to = X_MR.position() + rotated(point.at, turned);
     const double off = distance_to_surface(to);
     const double range = norm(to - from);
     const double closeness = 1.0 / (1.0 + off * off / (kSoft * kSoft));
     all += 1.0;
+    all_of_room += 1.0;
     result.fit += closeness;
+    result.fit_of_room += closeness;
     if (off <= kOff) {
       result.hits += 1.0;
       continue;
@@ -104,12 +106,16 @@ Explanation KnownMap::explain(std::span<const SurfacePoint> scan, Vec2 sensor, c
       result.shorts += 1.0;
       // Echoes in front count half, those where the map knows nothing in full: a wrong place would gain by these.
       all -= 0.5;
-      without_near += 0.5 * (1.0 - std::min(1.0, range / kNear));
+      const double left_out = 1.0 - 0.5 * std::min(1.0, range / kNear);
+      all_of_room -= left_out;
+      result.fit_of_room -= left_out * closeness;
     }
     if (sight.end == Sight::End::wall) result.longs += 1.0;
   }
-  if (all > 0.0) result.fit_of_room = std::min(1.0, result.fit / (all - without_near));
   if (all > 0.0) result.fit /= all;
+  // Where nearly all is hidden the rest says nothing.
+  const bool sees_room = all_of_room > 0.0 && all_of_room >= kRest * static_cast<double>(scan.size());
+  result.fit_of_room = sees_room ? result.fit_of_room / all_of_room : result.fit;
   return result;
 }
 

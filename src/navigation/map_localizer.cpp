@@ -313,7 +313,9 @@ void MapLocalizer::drop_unlikely() {
 
 void MapLocalizer::believe() {
   // A search that found more places than it keeps may have left out the right one.
-  if (places_.size() != 1 || left_some_out_) return;
+  constexpr double kAlone = 3.0;  // [m] on which it alone has fitted
+  if (places_.size() != 1) alone_since_ = way_;
+  if (places_.size() != 1 || (left_some_out_ && way_ - alone_since_ < kAlone)) return;
   Candidate& place = places_.front();
   if (place.belief.quick >= options_.believed_from) place.belief.believed = true;
   was_known_ |= known(now_) == Known::localized;
@@ -346,7 +348,7 @@ void MapLocalizer::go_on_searching() {
 
 // Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
 void MapLocalizer::take_found() {
-  left_some_out_ = search_->places.is_full();
+  left_some_out_ = search_->places.left_some_out();
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
   const std::size_t known = places_.size();

@@ -126,6 +126,8 @@ class CollisionMonitor final : public orca::Component {
     if (Status sound = orca::hw::MotionHW::check(*command); !sound.ok()) return sound;
     if (Status sound = orca::check_command(command); !sound.ok()) return sound;
     const Twist2 wanted = machine_->twist_of(command);
+    if (wanted.left != 0.0 && !machine_->slides())
+      return orca::fail(orca::Code::failed_precondition, orca::hw::MotionHW::kNotSideways);
     if (wanted == Twist2{}) return send(orca::copy_value(command), wanted);
     commanded_at_ = now();
     stay_active(true);
@@ -156,8 +158,9 @@ class CollisionMonitor final : public orca::Component {
   }
 
   Status send(orca::Loan<MotionCommand> command, const Twist2& twist) {
-    sent_ = twist;
-    return base_.send(std::move(command));
+    orca::Status taken = base_.send(std::move(command));
+    if (taken.ok()) sent_ = twist;
+    return taken;
   }
 
   void stop_at_once() {
@@ -371,8 +374,7 @@ class CollisionMonitor final : public orca::Component {
   orca::PushProxyArray<LaserRangeReadings> lasers_{
       *this,
       "lasers",
-      {.text = "Scans of the robot's lasers. The robot stands while one of them is silent.",
-       .optional = true}};
+      {.text = "Scans of its lasers. The robot stands while one is silent.", .optional = true}};
   orca::PushProxyArray<SonarRangeReadings> sonars_{
       *this,
       "sonars",
@@ -380,8 +382,7 @@ class CollisionMonitor final : public orca::Component {
   orca::PushProxyArray<SonarRangeReadings> flank_sonars_{
       *this,
       "flanks",
-      {.text =
-           "Readings of sonars that hear who comes from where no laser looks; they count beside \"moving\".",
+      {.text = "Sonars that hear who comes from where no laser looks; they count beside \"moving\".",
        .optional = true}};
   orca::PushProxy<orca::idl::GripperState> gripper_{
       *this,

@@ -53,8 +53,10 @@ class Foresight {
       const Brakes& brakes = stops ? rules_.hard : rules_.gentle;
       const Twist2 aim = stops ? Twist2{} : wanted;
       if (time >= rules_.reaction) {
-        twist.forward = towards(twist.forward, aim.forward, brakes.deceleration * kStep);
-        twist.left = towards(twist.left, aim.left, brakes.deceleration * kStep);
+        const Vec2 change{aim.forward - twist.forward, aim.left - twist.left};
+        const double share = std::min(1.0, brakes.deceleration * kStep / std::max(norm(change), 1e-9));
+        twist.forward += share * change.x;
+        twist.left += share * change.y;
         twist.turn_rate = towards(twist.turn_rate, aim.turn_rate, brakes.turn_deceleration * kStep);
       }
       pose = pose * moved(twist, kStep);

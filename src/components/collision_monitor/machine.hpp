@@ -26,6 +26,8 @@ class Machine {
     const auto velocity = command.as<idl::HolonomicVelocity>();
     return velocity ? hw::twist_of(*velocity, limits_) : hw::twist_of(*command, limits_);
   }
+  /// Returns whether the base can move sideways.
+  [[nodiscard]] bool slides() const { return limits_.type == idl::HOLONOMIC; }
   /// @param reaction  [s] until the base gets a command; its own delay is added.
   [[nodiscard]] Rules rules(double reaction, double margin) const;
 

@@ -27,7 +27,8 @@ class Goto final : public orca::go::GoalFollower {
   }
 
   orca::Outcome work() override {
-    if (const orca::Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
+    if (const orca::Status learnt = robot_.learn(); !learnt.ok())
+      log_warning(learnt.error().text() + "; it drives as a base that cannot move sideways");
     slides_ = slides_ || robot_.slides();
     return GoalFollower::work();
   }

@@ -48,7 +48,7 @@ Decision blend(std::span<const Voice> voices, const std::vector<std::size_t>& ch
   std::size_t largest = 0;
   for (std::size_t j = 0; j < chosen.size(); ++j) {
     decision.shares[chosen[j]] = fused.shares[j];
-    decision.command.left += fused.shares[j] * wishes[j].left;
+    decision.command.left += fused.agreement * fused.shares[j] * wishes[j].left;
     if (fused.shares[j] > fused.shares[largest]) largest = j;
   }
   decision.decided_by = voices[chosen[largest]].name;

@@ -57,7 +57,8 @@ Voice::Said said(const idl::MotionCommand& command) {
 Wish wish_of(const ObjectPtr<idl::MotionCommand>& command) {
   const double speed = std::clamp(command->speed(), -kFastest, kFastest);
   const double left = std::clamp(sideways_speed(command), -kFastest, kFastest);
-  if (command->steering() == idl::BY_DIRECTION)
+  // The direction of a velocity with a sideways part does not count.
+  if (command->steering() == idl::BY_DIRECTION && !command.as<idl::HolonomicVelocity>())
     return {Wish::Kind::direction, command->direction(), speed, command->weight(), left};
   return {Wish::Kind::turn_rate, std::clamp(command->turn_rate(), -kFastestTurn, kFastestTurn), speed,
           command->weight(), left};

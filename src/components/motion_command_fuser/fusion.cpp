@@ -75,7 +75,7 @@ Fused fuse_weighted(std::span<const Wish> wishes, double steer_gain) {
 Fused sum_vectors(std::span<const Wish> wishes, double steer_gain) {
   const Sums sums = sums_of(wishes, steer_gain);
   const double agreement = std::min(1.0, portable::hypot(sums.forward, sums.left) / sums.weight);
-  return {along(sums, agreement * sums.speed / sums.weight), shares_of(wishes, sums.weight)};
+  return {along(sums, agreement * sums.speed / sums.weight), shares_of(wishes, sums.weight), agreement};
 }
 
 namespace {

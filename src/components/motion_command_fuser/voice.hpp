@@ -21,6 +21,7 @@ struct Wish {
 struct Fused {
   Wish command;                ///< Its weight is the sum of those that made it.
   std::vector<double> shares;  ///< [1] of each wish in it, in their order; the sum is 1.
+  double agreement = 1.0;      ///< [1] The part of their speeds that is left where wishes cancel out.
 };
 
 /// The last message of a behaviour that the fuser listens to.

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -60,8 +61,8 @@ class PathPlanner final : public orca::Component {
     while (world_.new_data_arrived()) take_world(*world_.get_update());
     if (!senders_.accepts(*pose)) return orca::again();
     X_WR_ = orca::plane_pose(*pose);
-    stands_ =
-        std::fabs(pose->translational_velocity()) < kSlow && std::fabs(pose->steering_velocity()) < kSlow;
+    stands_ = orca::portable::hypot(pose->translational_velocity(), pose->sideways_velocity()) < kSlow &&
+              std::fabs(pose->steering_velocity()) < kSlow;
     if (!stands_) moved_at_ = now();
     const auto goal = goal_.latest();
     const bool drives = goal && orca::to_seconds(now() - orca::to_time_point(goal->creation_time())) < kStale;

@@ -196,8 +196,15 @@ Result<Loan<idl::DeviceStatistics>> HardwareServer::on_statistics(const ObjectPt
   return make_object<idl::DeviceStatistics>(seat_->statistics());
 }
 
+// Every base stops, also for a velocity that it could not drive.
+bool HardwareServer::is_stop(const idl::HolonomicVelocity& velocity) {
+  const bool stands = velocity.speed() == 0.0 && velocity.left() == 0.0 && velocity.turn_rate() == 0.0;
+  return stands || velocity.kind() == idl::FULLSTOP;
+}
+
 Status HardwareServer::on_motion(const ObjectPtr<idl::MotionCommand>& command) {
-  if (const auto velocity = command.as<idl::HolonomicVelocity>()) return on_velocity(velocity);
+  const auto velocity = command.as<idl::HolonomicVelocity>();
+  if (velocity && (velocity_ || !is_stop(*velocity))) return on_velocity(velocity);
   if (Status checked = MotionHW::check(*command); !checked.ok()) return checked;
   ask_about(*command);
   return carry_out(command, command->kind() == idl::FULLSTOP);
@@ -208,8 +215,7 @@ Status HardwareServer::on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velo
   if (Status checked = MotionHW::check(*velocity); !checked.ok()) return checked;
   if (Status checked = check_command(*velocity); !checked.ok()) return checked;
   ask_about(*velocity);
-  const bool stands = velocity->speed() == 0.0 && velocity->left() == 0.0 && velocity->turn_rate() == 0.0;
-  return carry_out(velocity, stands || velocity->kind() == idl::FULLSTOP);
+  return carry_out(velocity, is_stop(*velocity));
 }
 
 // The command of an actuator has no age, so idle hardware takes it before it is started.

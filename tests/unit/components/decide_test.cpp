@@ -71,6 +71,17 @@ TEST_CASE("in every mode the command moves sideways by the shares of those who w
   }
 }
 
+TEST_CASE("a vector sum of wishes that cancel out stands, sideways, too", "[components][fuser]") {
+  const double pi = 3.14159265358979323846;
+  Voice ahead = wishes("goto", 0.0, 1.0);
+  Voice back = wishes("avoid", 0.0, 1.0);
+  ahead.wish = {Wish::Kind::direction, 0.0, 0.3, 1.0, 0.4};
+  back.wish = {Wish::Kind::direction, pi, 0.3, 1.0, 0.4};
+  const Decision decision = decide(std::vector{ahead, back}, rules_of("vector_sum"), 0.0);
+  CHECK(decision.command.speed == Approx(0.0).margin(1e-9));
+  CHECK(decision.command.left == Approx(0.0).margin(1e-9));
+}
+
 TEST_CASE("in every mode a command without an opinion or weight, or that is too old, does not count",
           "[components][fuser]") {
   for (const std::string& mode : kModes) {

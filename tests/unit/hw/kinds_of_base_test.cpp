@@ -96,6 +96,12 @@ EXECUTIVE_CASE(
   const auto& port = static_cast<SendServerEndpoint&>(plain.bench.peer().endpoint("MotionCommandSend"));
   CHECK(eventually(executive, [&] { return port.counters().failed == 1; }));
   CHECK_FALSE(plain.robot.diary.has("drive 0.25 0.125"));
+  // It stops all the same.
+  REQUIRE(plain.client.motion.send(turn(0.25, 0.5)).ok());
+  CHECK(plain.robot.notes("drive 0.5 0.25"));
+  REQUIRE(plain.client.motion.send(slide(0.0, 0.0, 0.0)).ok());
+  CHECK(plain.robot.notes("drive 0 0"));
+  CHECK(port.counters().failed == 1);
 }
 
 EXECUTIVE_CASE("a holonomic velocity of zero stops a moving base at once and releases it",

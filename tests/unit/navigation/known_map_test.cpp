@@ -92,4 +92,8 @@ TEST_CASE("a map explains a scan but for what stands in front of it or behind", 
   CHECK(map.explain({}, {}, here).share() == 0.0);
   CHECK(people.fit_of_room > people.fit);  // What is near hides little of the room.
   CHECK(people.fit_of_room <= 1.0);
+  for (SurfacePoint& point : scan) point.at = 0.3 / norm(point.at) * point.at;
+  const Explanation hidden = map.explain(scan, {}, here);
+  CHECK(hidden.fit_of_room == hidden.fit);
+  CHECK(hidden.fit < 0.2);
 }

@@ -52,6 +52,7 @@ struct Explanation {
   double fit = 0.0;  ///< [1] mean closeness: 1 on a surface, 0.5 at 10 cm from it. Those in front count half.
   /// [1] The same, where echoes count the less the nearer they are: a crate before the robot takes many beams, however little of the
   /// room it is.
+  /// As `fit` where so much is hidden that the rest says nothing.
   double fit_of_room = 0.0;
 
   /// Returns how many echoes count: those that stand in front by a half, those where the map knows nothing not at all.
@@ -100,6 +101,7 @@ class KnownMap {
   static constexpr double kSoft = 0.1;    // [m]
   static constexpr double kBeside = 0.2;  // [m]
   static constexpr double kNear = 3.0;    // [m] up to which beams lie denser on a surface than others count
+  static constexpr double kRest = 0.2;    // [1] of the echoes, by which a place is judged at least
 
   FloorGrid grid_;
   std::vector<std::uint8_t> distance_;  // [cm] to the next occupied cell

@@ -153,6 +153,7 @@ class MapLocalizer {
   bool was_known_ = false;
   bool left_some_out_ = false;  // The last search found more places than it keeps.
   double way_ = 0.0;            // [m] driven
+  double alone_since_ = 0.0;    // [m] driven when there was more than one place, or none
   double changed_ = 0.0;        // [m] by which the view has changed since places were compared
   double seen_way_ = 0.0;       // [m] when something was sensed last that says where it is
   double seen_time_ = 0.0;      // [s] when anything was

@@ -69,7 +69,7 @@ class AskedRobot {
       body_->max_speed = drive.max_speed();
       body_->max_rate = drive.max_steer_speed();
       body_->acceleration = drive.speed_change();
-      slides_ = drive.type() == idl::HOLONOMIC;
+      slides_ = slides_ || drive.type() == idl::HOLONOMIC;
     }
     return ok();
   }

@@ -60,6 +60,7 @@ class HardwareServer : public Component {
 
   Result<Loan<idl::DeviceStatistics>> on_statistics(const ObjectPtr<idl::Ask>& ask);
   Status on_motion(const ObjectPtr<idl::MotionCommand>& command);
+  static bool is_stop(const idl::HolonomicVelocity& velocity);
   Status on_velocity(const ObjectPtr<idl::HolonomicVelocity>& velocity);
   Status on_actuator(const HardwareSeat::Actuator& actuator, const ObjectRef& command);
   template <class Command>
