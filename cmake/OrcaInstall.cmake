@@ -106,6 +106,7 @@ function(orca_install_files)
   install(FILES ${CMAKE_BINARY_DIR}/share/orca/build.txt DESTINATION ${ORCA_SHARE} COMPONENT simulator)
   install(DIRECTORY web/ DESTINATION ${ORCA_SHARE}/web COMPONENT web
     FILES_MATCHING PATTERN *.js PATTERN *.html PATTERN *.css PATTERN *.svg)
+  install(DIRECTORY python/orca_robots DESTINATION lib/python3/dist-packages COMPONENT simulator FILES_MATCHING PATTERN *.py)
   install(FILES docs/hardware/60-orca-serial.rules DESTINATION lib/udev/rules.d COMPONENT drivers)
   install(FILES cmake/install/orca@.service DESTINATION lib/systemd/system COMPONENT runtime)
   install(FILES cmake/install/orca.sysusers DESTINATION lib/sysusers.d RENAME orca.conf COMPONENT runtime)

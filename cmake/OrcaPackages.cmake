@@ -55,8 +55,9 @@ Users of serial ports must be in the group dialout."
   DEPENDS "${same}")
 orca_package(simulator science "component framework for mobile robots: simulator and comparisons"
   DETAILS "Simulated robots and emulated devices, worlds, and simbatch, which compares
-algorithms in worlds with seeds and reports what is established."
-  DEPENDS "${same}")
+algorithms in worlds with seeds and reports what is established. The Python
+package orca_robots uses both."
+  DEPENDS "${same}" RECOMMENDS orca-tools python3)
 orca_package(dev libdevel "component framework for mobile robots: files for development"
   DETAILS "Headers, libraries and the CMake package with which components and drivers
 are compiled and tested."
