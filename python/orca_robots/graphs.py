@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Graphs: what is wrong with them, and how they are changed."""
 import dataclasses
-import json
 import xml.etree.ElementTree as ET
-
-from .programs import call, run_options
 
 
 @dataclasses.dataclass(frozen=True)
@@ -20,15 +17,6 @@ class Fault:
 
     def __str__(self):
         return f"{self.file}:{self.line}:{self.column}: {self.severity} {self.code}: {self.message}"
-
-
-def check(graph, set=None, profile=None):  # noqa: A002: the word of the command line
-    """Returns all that is wrong with a graph file, as `deployer --check` finds it; nothing if it may run.
-
-    Raises OrcaError if the deployer is not found.
-    """
-    done = call("deployer", graph, "--check", "--json", *run_options(set=set, profile=profile), good=(0, 2))
-    return [Fault(**message) for message in json.loads(done.stdout)["messages"]]
 
 
 class Graph:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "companions.hpp"
 #include "console.hpp"
 #include "describe.hpp"
+#include "guest/guest_types.hpp"
+#include "guest/steering.hpp"
 #include "laps.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
@@ -42,9 +45,14 @@ ExitCode show(const std::string& text) {
 
 plugin::PluginIndex index_of(const Options& options) { return plugin::PluginIndex(plugin_folders(options)); }
 
+// Types of the program that has started this one, if it has any. They outlive all components.
+std::unique_ptr<guest::GuestTypes> g_guests;
+
 // A graph, and the catalogue that has checked it.
 struct Loaded {
-  explicit Loaded(const Options& options) : catalogue(index_of(options), options.run.executive.clock) {}
+  explicit Loaded(const Options& options) : catalogue(index_of(options), options.run.executive.clock) {
+    if (g_guests) g_guests->add_to(catalogue);
+  }
 
   xml::Diagnostics diagnostics;
   host::PluginCatalogue catalogue;
@@ -225,6 +233,21 @@ ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions r
   return run_here(loaded, options, run, stop, **attendance);
 }
 
+// Runs everything in this process, in steps of virtual time that a program asks for.
+ExitCode run_steered(Loaded& loaded, const Options& options, host::RunOptions run, host::StopSignal& stop,
+                     Console& console) {
+  if (!run.changes.empty())
+    return refuse_option(
+        codes::kExcluding,
+        fail(Code::invalid_argument, "a change at a given time (--change, <change>) excludes steps"));
+  std::vector<graph::PortRef> ports;
+  for (const graph::ListedPort& port : graph::list_ports(*loaded.graph, loaded.catalogue))
+    if (host::is_source(port.contract) && !port.disabled) ports.push_back(port.ref);
+  guest::Steering steering(Descriptor(options.steering_socket), std::move(ports));
+  run.visitors = &steering;
+  return run_here(loaded, options, run, stop, console);
+}
+
 ExitCode run(const Options& options) {
   // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
   // while the last destructors and atexit handlers run.
@@ -277,6 +300,7 @@ ExitCode run(const Options& options) {
                                                  "--machine: here everything runs in this process; leave it "
                                                  "out"));
   if (options.view || options.pace) return run_attended(loaded, options, std::move(run), stop, console);
+  if (options.steering_socket >= 0) return run_steered(loaded, options, std::move(run), stop, console);
   return run_here(loaded, options, run, stop, console);
 }
 
@@ -303,6 +327,12 @@ ExitCode refuse(const Options& options) {
 ExitCode act(const Options& options) {
   if (options.problems.has_errors()) return refuse(options);
   if (options.answer) return show(*options.answer);
+  if (options.guest_socket >= 0) {
+    Result<std::unique_ptr<guest::GuestTypes>> guests =
+        guest::GuestTypes::receive(Descriptor(options.guest_socket));
+    if (!guests) return refuse_option(codes::kOptionValue, guests.error());
+    g_guests = std::move(guests).value();
+  }
   switch (options.action) {
     case Action::schema: return show(graph::schema());
     case Action::describe: return describe(options);

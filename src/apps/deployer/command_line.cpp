@@ -65,6 +65,10 @@ std::vector<OptionSpec> running_options() {
        "with --clock virtual: how fast time passes by the clock, from 0.01 to 1000; 0: paused; fast: as fast "
        "as it "
        "can; orcactl pace, pause and step change it. The result is the same at any pace"},
+      {"--guest", "FD[,FD]",
+       "with --clock virtual or --check, for the Python package: open sockets to a program that has "
+       "component "
+       "types of its own, and that steps the run"},
       {"--watch", "",
        "while you develop: when the plugin of a component is built anew, its code is exchanged while the "
        "system runs; if it fails when it is tried out, the log says why and the old one goes on. A graph "

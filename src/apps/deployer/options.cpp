@@ -11,6 +11,7 @@
 #include "common/manual.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
+#include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
 #include "orca/xml/values.hpp"
 
@@ -117,15 +118,27 @@ Status set_pace(Options& options, const std::string& value) {
   return fits.ok() ? fits : wrong("--pace: " + fits.error().message);
 }
 
+// Reads FD or FD,FD.
+Status set_guest(Options& options, const std::string& value) {
+  const std::vector<std::string> words = apps::split(value, ',');
+  std::vector<int> sockets;
+  for (const std::string& word : words)
+    if (const Result<std::int64_t> number = xml::parse_integer(word);
+        number && *number > 2 && *number < 65536)
+      sockets.push_back(static_cast<int>(*number));
+  if (sockets.empty() || sockets.size() != words.size() || sockets.size() > 2)
+    return expected("--guest", "one or two open sockets, such as 5 or 5,6", value);
+  options.guest_socket = sockets.front();
+  if (sockets.size() == 2) options.steering_socket = sockets.back();
+  return ok();
+}
+
 // Options whose values the table does not describe.
 using Setter = Status (*)(Options&, const std::string&);
-constexpr std::pair<const char*, Setter> kOfOwnForm[] = {{"--computing", set_computing},
-                                                         {"--pace", set_pace},
-                                                         {"--fail", add_failure},
-                                                         {"--change", add_change},
-                                                         {"--record", add_recording},
-                                                         {"--picture", set_picture},
-                                                         {"--hide", hide}};
+constexpr std::pair<const char*, Setter> kOfOwnForm[] = {
+    {"--computing", set_computing}, {"--pace", set_pace},     {"--guest", set_guest},
+    {"--fail", add_failure},        {"--change", add_change}, {"--record", add_recording},
+    {"--picture", set_picture},     {"--hide", hide}};
 
 const char* code_of(apps::Problem::Kind kind) {
   switch (kind) {
@@ -153,6 +166,7 @@ class Reader {
     choose_action();
     report(codes::kFiles, take_files());
     check_company();
+    check_company_of_guests();
     report(codes::kExcluding, choose_executor());
     return std::move(options_);
   }
@@ -232,6 +246,14 @@ class Reader {
       report(codes::kExcluding, wrong("--values goes with --trace FILE"));
     if (call_.has("--progress") && call_.has("--no-progress"))
       report(codes::kExcluding, wrong("--progress and --no-progress exclude each other"));
+  }
+
+  void check_company_of_guests() {
+    if (options_.guest_socket >= 0 && options_.action != Action::check &&
+        options_.run.executive.clock != ClockKind::virtual_time)
+      report(codes::kExcluding, wrong("--guest goes with --clock virtual or --check"));
+    if (options_.steering_socket >= 0 && (options_.pace || options_.view))
+      report(codes::kExcluding, wrong("--guest with two sockets excludes --pace and --view"));
   }
 
   // The default depends on the clock; a wrong clock says nothing about which executors fit.

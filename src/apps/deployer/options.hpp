@@ -31,6 +31,8 @@ struct Options {
   std::optional<double> pace;               ///< Of virtual time, see Pace; nothing: not given.
   bool in_process = false;                  ///< No host processes, whatever the graph says.
   bool chooses_executor = false;            ///< --executor was given.
+  int guest_socket = -1;                    ///< To a program with component types; -1: there is none.
+  int steering_socket = -1;                 ///< To a program that steps the run; -1: there is none.
   std::string laps_file;                    ///< Where the time of laps is written; empty: nowhere.
   std::string machine;                      ///< The one of the graph that this is; empty: not given.
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
