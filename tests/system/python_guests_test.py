@@ -77,6 +77,12 @@ class Stepping(WithGraph):
             self.assertIsNone(system.step(1))
             self.assertTrue(system.is_over)
 
+    def test_a_stepped_run_is_recorded(self):
+        file = self.graph.parent / "drive.mcap"
+        with orca.System(GOTO, until=5, record=file) as system:
+            system.step(1)
+        self.assertEqual(orca.read_record(file, "base.OdometryPush").column("stamp")[-1], 1)
+
     def test_a_parameter_that_is_set_changes_the_run_the_same_way_each_time(self):
         def drive(margin):
             with orca.System(GOTO, until=20) as system:

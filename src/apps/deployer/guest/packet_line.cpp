@@ -2,11 +2,12 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "packet_line.hpp"
 
+#include <fcntl.h>
 #include <sys/socket.h>
 
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
+#include <utility>
 
 namespace orca::guest {
 namespace {
@@ -38,6 +39,12 @@ std::optional<Packet> words_of(std::string_view bytes) {
 }
 
 }  // namespace
+
+PacketLine::PacketLine(Descriptor socket) : socket_(std::move(socket)) {
+  fcntl(socket_.number(), F_SETFD, FD_CLOEXEC);
+}
+
+void PacketLine::end_input() { shutdown(socket_.number(), SHUT_RD); }
 
 void PacketLine::send(const Packet& packet) {
   std::string body;

@@ -3,7 +3,6 @@
 #include "steering.hpp"
 
 #include <signal.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,12 +24,9 @@ Packet over() { return {"over"}; }
 }  // namespace
 
 Steering::Steering(Descriptor socket, std::vector<graph::PortRef> ports)
-    : line_(Descriptor(dup(socket.number()))), socket_(socket.release()), ports_(std::move(ports)) {}
+    : line_(std::move(socket)), ports_(std::move(ports)) {}
 
-Steering::~Steering() {
-  leave();
-  close(socket_);
-}
+Steering::~Steering() { leave(); }
 
 void Steering::enter(host::PartAccess& run) {
   run.open_descriptors([&] {
@@ -50,7 +46,7 @@ void Steering::leave() {
     run_ = nullptr;
   }
   if (!thread_.joinable()) return;
-  shutdown(socket_, SHUT_RD);
+  line_.end_input();
   thread_.join();
 }
 

@@ -47,7 +47,6 @@ class Steering final : public host::RunVisitors {
 
   Pace pace_{0.0};
   PacketLine line_;
-  const int socket_;
   const std::vector<graph::PortRef> ports_;
   std::atomic<bool> is_up_{false};
   std::atomic<bool> is_over_{false};
