@@ -64,6 +64,12 @@ class Installation(unittest.TestCase):
             self.assertTrue((self.orca / f"share/man/man1/{program}.1").exists(), program)
             self.assertIn(f"_{program} {program}", (self.orca / f"share/bash-completion/completions/{program}").read_text())
 
+    def test_python_finds_the_package_and_the_package_the_programs(self):
+        code = "import orca_robots as orca\nwith orca.System('graphs/scout_goto.xml') as s: print(s.step(1), s.latest('base.OdometryPush').seq)"
+        done = subprocess.run([*without_tree(), "python3", "-B", "-c", code], cwd=self.folder, capture_output=True, text=True, timeout=120,
+                              env=dict(os.environ, PYTHONPATH=str(self.orca / "lib/python3/dist-packages")))
+        self.assertEqual(done.stdout, "1.0 20\n", done.stderr)
+
     def test_a_component_is_built_tried_and_driven_outside(self):
         reader = Reader("docs/first_component.md", self.folder, self.orca, without_tree())
         reader.follow()
