@@ -4,7 +4,7 @@ for components.
 
 It drives the programs of an Orca that is installed or built; it is not a second implementation of anything they do.
 """
-from .components import Component, Interrupted, Param, PushProxy, PushServer, QueryProxy, SendProxy
+from .components import Component, Interrupted, Param, PushProxy, PushServer, QueryProxy, QueryServer, SendProxy, SendServer
 from .graphs import Fault, Graph
 from .objects import Object
 from .programs import OrcaError
@@ -12,5 +12,5 @@ from .runs import Run, read_record, report, run, simulate
 from .systems import System, check
 from .table import Table
 
-__all__ = ["Component", "Fault", "Graph", "Interrupted", "Object", "OrcaError", "Param", "PushProxy", "PushServer", "QueryProxy", "Run",
-           "SendProxy", "System", "Table", "check", "read_record", "report", "run", "simulate"]
+__all__ = ["Component", "Fault", "Graph", "Interrupted", "Object", "OrcaError", "Param", "PushProxy", "PushServer", "QueryProxy",
+           "QueryServer", "Run", "SendProxy", "SendServer", "System", "Table", "check", "read_record", "report", "run", "simulate"]

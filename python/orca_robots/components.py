@@ -90,6 +90,29 @@ class QueryProxy(_Port):
             return self._lap.ask_object("query", self._name, repr(float(timeout)), *self._lap.words(self._type, objects, fields))
 
 
+class SendServer(_Port):
+    """Takes objects that others send: with  order = SendServer("GoalPoint")  the method on_order(self, object) is called for each,
+    between two laps. It returns nothing, or self.failed(reason) if it takes the object not."""
+
+    def reply(self, _types, _answer):
+        return ("again",)
+
+
+class QueryServer(_Port):
+    """Answers questions: with  robot = QueryServer("Ask", "Robot")  the method on_robot(self, question) is called for each, between
+    two laps. It returns the answer, as an object or a dict of its fields, or self.failed(reason)."""
+
+    def __init__(self, type, reply, text=""):  # noqa: A002: the word of the layouts
+        super().__init__(type, True, text)
+        self.types = (type, reply)
+
+    def reply(self, types, answer):
+        made = types.make(self.types[1], answer) if isinstance(answer, dict) else answer
+        if made is None:
+            raise TypeError(f"on_{self.name}() must return a {self.types[1]}, a dict of its fields, or self.failed(reason)")
+        return ("reply", made._type, types.encode(made))
+
+
 class Param(_Member):
     """A parameter: Param(0.5, unit="m", min=0). Its value, read through the object, is a bool, int, float or str in SI units."""
 
@@ -130,6 +153,7 @@ class Component:
         """Prepares for work, each time that a first client comes."""
 
     def work(self):
+        """Does one lap."""
         raise NotImplementedError(f"{self.__class__.__name__} has no work()")
 
     def stop(self):

@@ -88,18 +88,25 @@ class Lap:
 
     def _serve(self):
         while (words := self._said.get()) is not None:
-            self._line.send(*self._call(words[0].decode(), [word.decode() for word in words[1:]]))
+            self._line.send(*self._call(words[0].decode(), words[1:]))
 
     def _call(self, hook, more):
         try:
+            if hook == "handle":
+                return self._handle(more[0].decode(), self._types.decode(more[1].decode(), more[2]))
             if hook in ("start", "params"):
-                self._component._set_params(more)
+                self._component._set_params([word.decode() for word in more])
             last = None if hook == "params" else getattr(self._component, hook)()
             return last if isinstance(last, tuple) else ("again",)
         except Interrupted:
             return ("again",)
         except Exception as error:  # noqa: BLE001: whatever it is, it is the component's failure
             return ("raised", traceback.format_exception_only(error)[-1].strip(), traceback.format_exc())
+
+
+    def _handle(self, port, taken):
+        answer = getattr(self._component, f"on_{port}")(taken)
+        return answer if isinstance(answer, tuple) else getattr(type(self._component), port).reply(self._types, answer)
 
 
 class Guests:

@@ -220,6 +220,52 @@ class Components(WithGraph):
             self.assertGreater(system.latest("asker.found").x, 0.1)
             self.assertGreater(system.latest("base.OdometryPush").x, 0.2)
 
+    def test_it_is_asked_and_is_sent_to(self):
+        class Server(orca.Component):
+            type = "test.Server"
+            goal = orca.SendServer("GoalPoint")
+            robot = orca.QueryServer("Ask", "Robot")
+            last = orca.PushServer("RobotPose")
+            taken = 0
+
+            def on_goal(self, goal):
+                if goal.name == "nowhere":
+                    return self.failed("there is no such place")
+                self.taken += goal.coordinate.point.x
+
+            def on_robot(self, question):
+                return {"radius": self.taken} if question.about == "mine" else self.failed("whose?")
+
+            def work(self):
+                self.sleep(10)
+
+        class Client(orca.Component):
+            type = "test.Client"
+            lap_every = 0.1
+            goal = orca.SendProxy("GoalPoint")
+            robot = orca.QueryProxy("Ask", "Robot")
+            seen = orca.PushServer("RobotPose")
+
+            def work(self):
+                self.goal.send(name="a", coordinate={"point": {"x": 2.0}})
+                self.goal.send(name="nowhere")
+                try:
+                    self.robot.query()
+                except orca.OrcaError as error:
+                    self.log(error)
+                self.seen.push(x=self.robot.query(about="mine").radius)
+
+        ends = '<connect from="b.goal" to="a.goal"/><connect from="b.robot" to="a.robot"/>'
+        with self.system(Server, Client, edge=ends, until=1) as system:
+            system.step(0.35)
+            laps = system.latest("b.seen").x / 2
+            done = system.run()
+        self.assertEqual(laps, round(laps))
+        self.assertGreaterEqual(laps, 3)
+        self.assertTrue(done.ended_well, done.log)
+        self.assertIn("whose?", done.log)
+        self.assertIn("there is no such place", done.log)
+
     def test_a_lap_without_end_ends_the_run(self):
         class Endless(Taker):
             type = "test.Endless"

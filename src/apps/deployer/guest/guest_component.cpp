@@ -67,6 +67,8 @@ struct GuestComponent::Ports {
   std::map<std::string, Server> servers;
   std::map<std::string, Asker> askers;
   std::map<std::string, Sender> senders;
+  std::map<std::string, SendServerHandle> takers;
+  std::map<std::string, QueryServerHandle> repliers;
   std::map<std::string, const PortContract*> contracts;
 };
 
@@ -82,21 +84,40 @@ GuestComponent::~GuestComponent() = default;
 
 void GuestComponent::declare_ports() {
   for (const PortContract& port : type_.ports) {
-    const PortOptions options{.text = port.text, .optional = !port.required};
-    const auto add = [&](auto& map, const auto&... types) {
-      map.try_emplace(port.name, *this, port.name, types..., options);
-    };
-    if (port.pattern == Pattern::query) {
-      add(ports_->askers, port.type, *port.reply);
-    } else if (port.pattern == Pattern::send) {
-      add(ports_->senders, port.type);
-    } else if (port.role == Role::proxy) {
-      add(ports_->proxies, port.type);
-    } else {
-      add(ports_->servers, port.type);
-    }
+    declare_port_of(port);
     ports_->contracts[port.name] = &port;
   }
+}
+
+void GuestComponent::declare_port_of(const PortContract& port) {
+  const PortOptions options{.text = port.text, .optional = !port.required};
+  const auto add = [&](auto& map, const auto&... more) {
+    map.try_emplace(port.name, *this, port.name, port.type, more..., options);
+  };
+  const bool serves = port.role == Role::server;
+  if (port.pattern == Pattern::push) return serves ? add(ports_->servers) : add(ports_->proxies);
+  if (port.pattern == Pattern::send && !serves) return add(ports_->senders);
+  if (port.pattern == Pattern::send)
+    return add(ports_->takers,
+               SendHandler([this, &port](const ObjectRef& object) { return take(port.name, object); }));
+  if (!serves) return add(ports_->askers, *port.reply);
+  add(ports_->repliers, *port.reply,
+      QueryHandler([this, &port](const ObjectRef& question) { return reply(port, question); }));
+}
+
+Status GuestComponent::take(const std::string& port, const ObjectRef& object) {
+  Packet words = packet_of(object);
+  words.front() = port;
+  const Packet last = call("handle", words);
+  return last.front() == "failed" ? Status(fail(Code::failed_precondition, last.back())) : ok();
+}
+
+Result<ObjectLoan> GuestComponent::reply(const PortContract& port, const ObjectRef& question) {
+  Packet words = packet_of(question);
+  words.front() = port.name;
+  const Packet last = call("handle", words);
+  if (last.front() == "failed") return fail(Code::failed_precondition, last.back());
+  return object_of(Packet(last.begin() + 1, last.end()), *port.reply);
 }
 
 void GuestComponent::declare_params() {
@@ -153,7 +174,7 @@ Packet GuestComponent::await_end() {
     const std::optional<Packet> said = line_.receive();
     if (!said) throw std::runtime_error("the program that has its code has ended");
     const std::string& word = said->front();
-    if (word == "again" || word == "done" || word == "failed" || word == "raised") {
+    if (word == "again" || word == "done" || word == "failed" || word == "reply" || word == "raised") {
       if (interruption) std::rethrow_exception(interruption);
       return *said;
     }

@@ -32,11 +32,16 @@ class GuestComponent final : public Component {
   Status params_changed() override;
 
   void declare_ports();
+  void declare_port_of(const PortContract& port);
   void declare_params();
   // Calls a hook of the program's object, and returns its last word.
   Packet call(const std::string& hook, const Packet& more = {});
   Packet await_end();
   [[nodiscard]] Packet params() const;
+
+  // What others send to the program's object, and ask it.
+  Status take(const std::string& port, const ObjectRef& object);
+  Result<ObjectLoan> reply(const PortContract& port, const ObjectRef& question);
 
   // What the program asks for in a lap.
   Packet answer(const Packet& wish);

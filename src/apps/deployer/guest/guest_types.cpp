@@ -41,10 +41,9 @@ Result<Trigger> trigger_of(const std::string& kind, const std::string& value) {
 // A port, in words: kind, name, type, reply, whether it may stay unconnected, text.
 Result<PortContract> port_of(const Packet& words) {
   static const std::pair<const char*, std::pair<Pattern, Role>> kKinds[] = {
-      {"PushProxy", {Pattern::push, Role::proxy}},
-      {"PushServer", {Pattern::push, Role::server}},
-      {"QueryProxy", {Pattern::query, Role::proxy}},
-      {"SendProxy", {Pattern::send, Role::proxy}}};
+      {"PushProxy", {Pattern::push, Role::proxy}},   {"PushServer", {Pattern::push, Role::server}},
+      {"QueryProxy", {Pattern::query, Role::proxy}}, {"QueryServer", {Pattern::query, Role::server}},
+      {"SendServer", {Pattern::send, Role::server}}, {"SendProxy", {Pattern::send, Role::proxy}}};
   const auto kind = std::ranges::find(kKinds, words[1], [](const auto& known) { return known.first; });
   if (kind == std::end(kKinds)) return wrong("a port cannot be a " + words[1]);
   PortContract port;

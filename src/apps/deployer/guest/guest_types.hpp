@@ -15,9 +15,9 @@ namespace orca::guest {
 
 /// A component type whose code is in another program. A plain value.
 struct GuestType {
-  std::string type;                   ///< "my.Avoid"
-  Trigger trigger{};                  ///< Unless the graph sets another one.
-  std::vector<PortContract> ports{};  ///< Proxies of all patterns, and PushServers.
+  std::string type;   ///< "my.Avoid"
+  Trigger trigger{};  ///< Unless the graph sets another one.
+  std::vector<PortContract> ports{};
   std::vector<ParamContract> params{};
 };
 
