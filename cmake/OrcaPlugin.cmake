@@ -71,7 +71,8 @@ function(orca_add_component name)
   target_compile_definitions(${name} PRIVATE ORCA_BUILD_ID="${ORCA_BUILD_ID}")
   target_link_libraries(${name} PRIVATE ${ORCA_PLUGIN_LINK} ${arg_LINK})
   orca_use_plugin_layouts(${name})
-  list(TRANSFORM arg_UNPARSED_ARGUMENTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  set(sources ${arg_UNPARSED_ARGUMENTS})
+  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
   add_custom_command(TARGET ${name} PRE_LINK
     COMMAND ${CMAKE_COMMAND} -DOUT=${ORCA_PLUGIN_DIR}/${name}.types "-DSOURCES=${sources}"
             -P ${ORCA_PLUGIN_SUPPORT_DIR}/write_types.cmake VERBATIM)

@@ -6,6 +6,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from tree import made
+
 TOOL = "clang-format-14"
 TOGETHER = 200  # Files of one call, whose names fit into a command line.
 STYLE = Path(__file__).resolve().parents[2] / ".clang-format"
@@ -33,7 +35,8 @@ def find(tree):
         for path in paths:
             copy = Path(folder, path)
             copy.parent.mkdir(parents=True, exist_ok=True)
-            copy.write_text(tree.text(path), encoding="utf-8")
+            text = tree.text(path)
+            copy.write_text(made(text, "owl") if path.startswith("templates/") else text, encoding="utf-8")
         return [fault for i in range(0, len(paths), TOGETHER) for fault in _faults(folder, paths[i : i + TOGETHER])]
 
 

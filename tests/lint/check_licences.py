@@ -17,7 +17,7 @@ LINE = re.compile(r"SPDX-License-Identifier: *([^\s*<>]+)")
 
 def wanted(path):
     folder = max((f for f in LICENCE_OF_FOLDER if path.startswith(f)), key=len)
-    if folder == "tests/" and path.startswith("tests/data/"):
+    if path.startswith(("tests/data/", "templates/")):  # the latter become files of whoever calls orcactl new
         return None
     if path.endswith(DATA):
         return None if path.startswith("tests/") else {LGPL, GPL}

@@ -38,6 +38,15 @@ class MadeUpTree(Tree):
         return any(p == path or p.startswith(path.rstrip("/") + "/") for p in self.files)
 
 
+def made(text, name):
+    """Returns the text of a template as `orcactl new KIND NAME` makes it, of an Orca that was built in ~/orca."""
+    own = "".join(part[:1].upper() + part[1:] for part in name.split("_"))
+    for mark, value in (("@NAME@", name), ("@CLASS@", own), ("@TYPE@", f"my.{own}"), ("@ORCA@", "~/orca/build/release/share/orca"),
+                        ("@BIN@", "~/orca/build/release/bin")):
+        text = text.replace(mark, value)
+    return text
+
+
 def _listed_by_git(root):
     """Returns tracked files and new ones that are not ignored; empty outside a git work tree (a source archive)."""
     command = ["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard"]

@@ -28,9 +28,9 @@ bool is_code(const std::string& line) {
 }  // namespace
 
 TEST_CASE("the example component is a file of at most 25 lines of code", "[system][avoid]") {
-  const auto lines = split_lines(read_text(source_file("tests/data/plugins/avoid.cpp")));
+  const auto lines = split_lines(read_text(source_file("templates/component/@NAME@.cpp")));
   CHECK(std::ranges::count_if(lines, is_code) <= 25);
-  CHECK(std::ranges::count(lines, std::string("ORCA_COMPONENT(Avoid, \"orca.Avoid\")")) == 1);
+  CHECK(std::ranges::count(lines, std::string("ORCA_COMPONENT(@CLASS@, \"@TYPE@\")")) == 1);
 }
 
 TEST_CASE("the example component commands a full stop while an echo is nearer than its parameter says",

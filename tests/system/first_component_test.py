@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md, docs/first_component.md and docs/first_comparison.md say, done as they say it: the files are
-pasted into a new folder, the commands run.
+"""What README.md, docs/first_component.md and docs/first_comparison.md say, done as they say it, and what `orcactl new` makes.
 
     tests/system/first_component_test.py BUILD
 
@@ -21,31 +20,51 @@ class Pages(unittest.TestCase):
         self.folder = tempfile.mkdtemp(prefix="orca_first_component_")
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def test_readme(self):
-        reader = Reader("README.md", self.folder)
-        reader.follow()
-        self.assertIn("trace-hash", reader.out)
-        self.assertNotIn("contact", reader.out)
-        self.assertTrue((reader.folder / "walk.svg").exists())
-        self.assertIn("contact", self.run_without_avoider(reader))
-
-    def run_without_avoider(self, reader):
-        graph = reader.folder / "walk.xml"
-        text = graph.read_text()
-        self.assertIn('value="walk; avoid"', text)
-        graph.write_text(text.replace('value="walk; avoid"', 'value="walk"').replace("RandomWalk\"/>",
-                         'RandomWalk"><param name="blocked_at" value="0.05 m"/></component>'))
-        reader.out = ""
-        reader.run("$ORCA/build/release/bin/deployer walk.xml --set orca=$ORCA --clock virtual --until 60s\n")
-        return reader.out
-
     def test_first_component(self):
         reader = Reader("docs/first_component.md", self.folder)
         reader.follow()
         self.assertIn("stop_distance = 0.5 m", reader.out)
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
-        self.assertIn("trace-hash", reader.out)
+        self.assertEqual(reader.out.count("trace-hash"), 2)
         self.assertNotIn("contact", reader.out)
+        self.assertTrue((reader.folder / "avoid/run.svg").exists())
+        self.assertIn("contact", self.run_without_avoider(reader))
+
+    def run_without_avoider(self, reader):
+        graph = reader.folder / "avoid/avoid.xml"
+        text = graph.read_text()
+        self.assertIn('value="walk; avoid"', text)
+        graph.write_text(text.replace('value="walk; avoid"', 'value="walk"').replace("RandomWalk\"/>",
+                         'RandomWalk"><param name="blocked_at" value="0.05 m"/></component>'))
+        return reader.run("deployer avoid.xml --clock virtual --until 60s\n")
+
+    def test_what_orcactl_new_prints_is_what_pages_show_and_a_readme_explains(self):
+        """README.md, docs/first_component.md and docs/first_driver.md."""
+        for kind, name, page in (("component", "avoid", "README.md"), ("component", "avoid", "docs/first_component.md"),
+                                 ("driver", "owl", "docs/first_driver.md")):
+            with tempfile.TemporaryDirectory() as folder:
+                printed = Reader(page, folder).run(f"orcactl new {kind} {name}\n")
+                files = {path.name for path in pathlib.Path(folder, name).iterdir()}
+                readme = pathlib.Path(folder, name, "README.md").read_text()
+            self.assertEqual(printed.splitlines()[0], f"# made {name}: {', '.join(sorted(files))}")
+            commands = printed.split("\n", 1)[1]
+            self.assertIn(f"{commands}```", (TREE / page).read_text())
+            self.assertIn(f"```sh\n{commands.removeprefix(f'cd {name}' + chr(10))}```", readme)
+            self.assertEqual(len(readme.splitlines()[-4:]), sum(line[0].isdigit() for line in readme.splitlines()[-4:]))
+            self.assertLessEqual(len(readme.splitlines()), 17)
+
+    def test_a_new_experiment_runs(self):
+        reader = Reader("orcactl new experiment", self.folder)
+        commands = reader.run("orcactl new experiment two\n")
+        self.assertIn("xdg-open two.batch/report.html\n", commands)
+        reader.run(commands.replace("xdg-open", "ls"))
+        self.assertEqual(reader.out.count("vfh_plus: 3 runs"), 1)
+        self.assertIn("laser_avoid - vfh_plus, success:", reader.out)
+        self.assertIn("</html>", (reader.folder / "two/two.batch/report.html").read_text())
+
+    def test_orcactl_prints_the_path_that_is_missing(self):
+        done = subprocess.run([BUILD / "bin/orcactl", "new", "experiment", "two"], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertIn(f"\nexport PATH='{BUILD}/bin':$PATH\ncd two\n", done.stdout)
 
     def test_first_comparison(self):
         reader = Reader("docs/first_comparison.md", self.folder)
@@ -87,7 +106,7 @@ class Faults(unittest.TestCase):
         (self.folder / "CMakeLists.txt").write_text(
             "cmake_minimum_required(VERSION 3.25)\nproject(mine LANGUAGES CXX)\nfind_package(Orca REQUIRED)\n" + targets)
         said = ""
-        for command in (["cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DOrca_DIR={BUILD}"], ["cmake", "--build", "build"]):
+        for command in (["cmake", "-S", ".", "-B", "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={BUILD}"], ["cmake", "--build", "build"]):
             done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=300)
             said += done.stdout + done.stderr
         return " ".join(said.split())

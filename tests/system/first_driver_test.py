@@ -4,13 +4,9 @@
 
     tests/system/first_driver_test.py BUILD
 """
-import contextlib
 import csv
 import math
-import os
-import pathlib
 import shutil
-import signal
 import tempfile
 import unittest
 
@@ -21,21 +17,13 @@ class Page(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="orca_first_driver_")
         self.addCleanup(shutil.rmtree, self.folder)
-        self.addCleanup(self.end_emulator)
-
-    def end_emulator(self):
-        """Ends the emulator of the page if one of its commands has failed before it did so."""
-        file = pathlib.Path(self.folder) / "emulator.pid"
-        if file.exists():
-            with contextlib.suppress(ProcessLookupError, ValueError):
-                os.kill(int(file.read_text()), signal.SIGKILL)
 
     def test_first_driver(self):
         reader = Reader("docs/first_driver.md", self.folder)
         reader.follow()
         self.assertIn("my.Owl", reader.out)
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
-        with open(reader.folder / "scans.csv", newline="", encoding="utf-8") as table:
+        with open(reader.folder / "owl/scans.csv", newline="", encoding="utf-8") as table:
             scans = list(csv.DictReader(table))
         self.assertGreater(len(scans), 10)
         self.assertAlmostEqual(float(scans[-1]["ranges[30]"]), 2.0, places=3)  # the wall ahead
@@ -44,7 +32,7 @@ class Page(unittest.TestCase):
 
     def assert_finds_faults(self, reader):
         """A driver that never gives up on a silent device, and takes frames with a wrong checksum, does not pass."""
-        source = reader.folder / "owl.cpp"
+        source = reader.folder / "owl/owl.cpp"
         text = source.read_text()
         self.assertIn("return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();", text)
         source.write_text(text.replace("return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();", "return Duration::max();"))

@@ -70,21 +70,28 @@ class Installation(unittest.TestCase):
                               env=dict(os.environ, PYTHONPATH=str(self.orca / "lib/python3/dist-packages")))
         self.assertEqual(done.stdout, "1.0 20\n", done.stderr)
 
-    def test_a_component_is_built_tried_and_driven_outside(self):
-        reader = Reader("docs/first_component.md", self.folder, self.orca, without_tree())
-        reader.follow()
+    def test_a_new_component_is_built_tried_and_driven_outside(self):
+        reader = Reader("orcactl new", self.folder, self.orca, without_tree())
+        reader.run(reader.run("orcactl new component follow_light\n"))
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
         self.assertIn("trace-hash", reader.out)
         self.assertNotIn("contact", reader.out)
+        self.assertTrue((reader.folder / "follow_light/run.svg").exists())
+
+    def test_a_new_experiment_is_right(self):
+        reader = Reader("orcactl new", self.folder, self.orca, without_tree())
+        reader.run("orcactl new experiment two\ncd two\ndeployer graph.xml --check\nsimbatch two.xml --check 2>&1\n")
+        self.assertIn("two.xml: no errors", reader.out)
 
     def test_a_component_is_built_with_pkg_config(self):
-        shutil.copy(TREE / "tests/data/plugins/avoid.cpp", self.folder)
+        self.call("orcactl", "new", "component", "avoid")
         shown = re.search(r"^```make\n(.*?)^```", (TREE / "docs/install.md").read_text(), re.MULTILINE | re.DOTALL)
-        pathlib.Path(self.folder, "Makefile").write_text(shown[1])
-        done = subprocess.run([*without_tree(), "make"], cwd=self.folder, capture_output=True, text=True, timeout=120,
+        folder = pathlib.Path(self.folder, "avoid")
+        (folder / "Makefile").write_text(shown[1])
+        done = subprocess.run([*without_tree(), "make"], cwd=folder, capture_output=True, text=True, timeout=120,
                               env=dict(os.environ, PKG_CONFIG_PATH=str(self.orca / "share/pkgconfig")))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("stop_distance = 0.5 m", self.call("deployer", "--describe", "avoid.so"))
+        self.assertIn("stop_distance = 0.5 m", self.call("deployer", "--describe", "avoid/avoid.so"))
 
 
 if __name__ == "__main__":

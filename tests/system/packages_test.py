@@ -82,11 +82,11 @@ class Packages(unittest.TestCase):
         self.assertIn("arrived meeting", self.call("deployer", "graphs/scout_goto.xml", "--clock", "virtual"))
         self.call("deployer", "graphs/scout_goto.xml", "--until", "2s")
         first_drive = time.monotonic() - begin
-        self.install("orca-dev", "ninja-build")
+        self.install("orca-dev", "orca-tools", "ninja-build")
         installed = time.monotonic() - begin
         (self.debian / "hello").mkdir()
-        reader = Reader("docs/first_component.md", self.debian / "hello", pathlib.Path("/usr"), self.inside("/hello"))
-        reader.follow()
+        reader = Reader("orcactl new", self.debian / "hello", pathlib.Path("/usr"), self.inside("/hello"))
+        reader.run(reader.run("orcactl new component follow_light\n"))
         self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
         self.assertIn("trace-hash", reader.out)
         self.assertNotIn("contact", reader.out)
@@ -106,7 +106,7 @@ class Packages(unittest.TestCase):
 
     def check_others(self):
         """The other packages can be installed, each program says what it does, and all of them can be removed again."""
-        self.install("orca-tools", "orca-web", "orca-drivers", "orca-doc")
+        self.install("orca-web", "orca-drivers", "orca-doc")
         for program in ("orcactl", "orcaview", "hwprobe", "simbatch"):
             self.assertIn(program, self.call(program, "--help"))
         self.assertIn("orca.hw.P2os", self.call("deployer", "--types"))

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A page of docs/ done as it says: the files that it shows are pasted into a new folder, its commands run. A test that imports this
-is called with the folder of the build, which stands for build/release of the pages."""
+"""A page of docs/ done as it says: its commands run in a new folder, and the files that it shows are pasted there, or are what
+`orcactl new` has made there. A test that imports this is called with the folder of the build, which stands for ~/orca/build/release of
+the pages."""
+import contextlib
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 
 TREE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
-BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|read by \S+) -->\n```\w+\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
+BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|made of templates/\w+/(?P<made>\S+)|read by \S+) -->\n```\w+\n(?P<text>.*?)^```$",
+                   re.MULTILINE | re.DOTALL)
 SAID = re.compile(r"^<!-- compared by \S+ -->\n```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -29,6 +33,7 @@ class Reader:
 
     def __init__(self, page, folder, installed=None, inside=()):
         self.page, self.folder, self.installed, self.inside = page, pathlib.Path(folder), installed, inside
+        self.within = ""  # the folder that the commands have gone into
         self.out = ""
 
     def follow(self):
@@ -36,17 +41,31 @@ class Reader:
             if block["file"]:
                 with open(self.folder / block["file"], "a") as file:
                     file.write(block["text"])
+            elif block["made"]:
+                self.compare(block["made"], block["text"])
             else:
                 self.run(block["text"])
 
+    def compare(self, name, shown):
+        """Compares a file that `orcactl new` has made with what the page shows."""
+        made = (self.folder / self.within / name.replace("@NAME@", self.within)).read_text()
+        if made.replace(str(self.installed or BUILD), "~/orca/build/release") != shown:
+            raise AssertionError(f"{self.page} does not show {name} as it is made: {made}")
+
     def run(self, commands):
-        orca = TREE
-        if self.installed:
-            commands = commands.replace("-DOrca_DIR=$ORCA/build/release", f"-DCMAKE_PREFIX_PATH={self.installed}")
-            orca = self.installed / "share/orca"
-        commands = commands.replace("$ORCA/build/release", str(self.installed or BUILD))
-        done = subprocess.run([*self.inside, "sh", "-e", "-c", commands], cwd=self.folder, env=dict(os.environ, ORCA=str(orca)),
-                              capture_output=True, text=True, timeout=300)
-        self.out += done.stdout
-        if done.returncode != 0:
-            raise AssertionError(f"{self.page}: {commands}ended with {done.returncode}:\n{done.stdout}{done.stderr}")
+        """Runs commands as one script. Returns what they have printed."""
+        orca = self.installed / "share/orca" if self.installed else TREE
+        script = f"PATH={self.installed or BUILD}/bin:$PATH\ncd ./{self.within}\n{commands}"
+        if (folder := re.search(r"^cd (\w+)$", commands, re.MULTILINE)):
+            self.within = folder[1]
+        shell = subprocess.Popen([*self.inside, "sh", "-e", "-c", script], cwd=self.folder, env=dict(os.environ, ORCA=str(orca)),
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
+        try:
+            out, err = shell.communicate(timeout=300)
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(shell.pid, signal.SIGKILL)  # what the commands have left running
+        self.out += out
+        if shell.returncode != 0:
+            raise AssertionError(f"{self.page}: {commands}ended with {shell.returncode}:\n{out}{err}")
+        return out

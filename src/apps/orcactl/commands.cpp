@@ -367,9 +367,23 @@ std::vector<Command> pacing_commands() {
   };
 }
 
+constexpr std::string_view kNewDetails =
+    "component: a behaviour, its test without a robot, and a graph in which it drives a simulated Scout. "
+    "driver: "
+    "a made-up laser on a line, an emulation of it, and a test over good and bad lines. experiment: two "
+    "avoid behaviours in three worlds. NAME consists of letters, digits and _; the type of follow_light is "
+    "my.FollowLight. What it prints can be pasted: the commands that build, try and run it, which the "
+    "folder's "
+    "README.md explains. The templates are in share/orca/templates. Nothing is overwritten.";
+
 // For shells and people.
 std::vector<Command> shell_commands() {
   return {
+      {.name = "new",
+       .arguments = {{"component|driver|experiment"}, {"NAME"}},
+       .text =
+           "begin a component, driver or experiment of your own, in a folder NAME; no system needs to run",
+       .details = kNewDetails},
       {.name = "names",
        .arguments = {{"KIND"}},
        .text = "names for completion, one per line: component, group, port, param, process or system"},

@@ -20,6 +20,7 @@
 #include "recording.hpp"
 #include "tapping/tapping.hpp"
 #include "tasks.hpp"
+#include "template_folder.hpp"
 
 namespace {
 
@@ -33,7 +34,8 @@ ExitCode carry_out(const apps::Call& call) {
                                                     {"query", offer},        {"names", print_names},
                                                     {"record", record},      {"bag", handle_bag},
                                                     {"map", handle_map},     {"calibrate", calibrate},
-                                                    {"tasks", handle_tasks}, {"go", handle_go}};
+                                                    {"tasks", handle_tasks}, {"go", handle_go},
+                                                    {"new", handle_new}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

@@ -10,7 +10,7 @@ using namespace orca::plugin;
 using namespace orca::test;
 
 TEST_CASE("the example component has at most 25 lines of code", "[plugin][example]") {
-  std::ifstream source(ORCA_SOURCE_DIR "/tests/data/plugins/avoid.cpp");
+  std::ifstream source(ORCA_SOURCE_DIR "/templates/component/@NAME@.cpp");
   int code_lines = 0;
   for (std::string line; std::getline(source, line);) {
     const auto first = line.find_first_not_of(' ');

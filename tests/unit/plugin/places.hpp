@@ -16,7 +16,7 @@ namespace orca::test {
 inline const std::string kShipped = ORCA_BINARY_DIR "/plugins";
 inline const std::string kForTests = ORCA_BINARY_DIR "/tests/unit_plugins";
 
-/// The author's example (tests/data/plugins/avoid.cpp).
+/// The author's example (templates/component).
 inline const std::string kExample = ORCA_BINARY_DIR "/tests/plugins/avoid.so";
 
 inline std::string test_plugin(const std::string& name) { return kForTests + "/" + name + ".so"; }

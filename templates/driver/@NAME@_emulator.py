@@ -1,7 +1,6 @@
-# SPDX-License-Identifier: LGPL-3.0-or-later
-# [emulator]
-"""owl_emulator.py --link PATH: an Owl at a pseudo terminal, which PATH leads to."""
+"""@NAME@_emulator.py --link PATH: @CLASS@ at a pseudo terminal, which PATH leads to."""
 import argparse
+import contextlib
 import math
 import os
 import select
@@ -37,13 +36,15 @@ def main():
     link = parser.parse_args().link
     device, host_side = os.openpty()
     tty.setraw(host_side)
+    with contextlib.suppress(FileNotFoundError):
+        os.unlink(link)  # of a run before
     os.symlink(os.ttyname(host_side), link)
     scans, due = False, time.monotonic()
     while True:
         if select.select([device], [], [], 0.02)[0]:
             for command in os.read(device, 64).decode("latin-1"):
                 if command == "V":
-                    os.write(device, frame("v", b"OWL 1.0"))
+                    os.write(device, frame("v", b"@CLASS@ 1.0"))
                 if command in "SQ":
                     scans, due = command == "S", time.monotonic()
         if scans and time.monotonic() >= due:
@@ -52,4 +53,3 @@ def main():
 
 
 main()
-# [/emulator]

@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
-// [driver]
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -26,7 +24,7 @@ using orca::hw::framing::ByteReader;
 using orca::hw::framing::Finding;
 using Bytes = std::span<const std::uint8_t>;
 
-// A frame of the Owl: A5h, its kind, the length of its content in two bytes, the content, a CRC of all that in two bytes.
+// A frame of @CLASS@: A5h, its kind, the length of its content in two bytes, the content, a CRC of all that in two bytes.
 constexpr std::uint8_t kStart = 0xA5;
 constexpr std::size_t kHead = 4, kCheck = 2, kLongestContent = 256;  // [bytes]
 constexpr std::uint8_t kName = 'v', kScan = 's';                     // kinds
@@ -45,12 +43,12 @@ Finding look_for(Bytes bytes) {
   return {Finding::Kind::frame, whole};
 }
 
-/// The conversation with an Owl.
-class OwlSession final : public orca::hw::LineSession {
+/// The conversation with @CLASS@.
+class @CLASS@Session final : public orca::hw::LineSession {
  public:
   using Take = std::function<void(Bytes scan, TimePoint sent)>;
 
-  OwlSession(orca::hw::link::ByteLink& link, Take take) : link_(link), take_(std::move(take)) {}
+  @CLASS@Session(orca::hw::link::ByteLink& link, Take take) : link_(link), take_(std::move(take)) {}
 
   // The line is open: ask who is there, again until it answers.
   Status begin(TimePoint now) override {
@@ -62,7 +60,7 @@ class OwlSession final : public orca::hw::LineSession {
     if (Status read = receive(now); !read.ok()) return read.error();
     if (named_) return true;
     if (now - begun_ > 2s)
-      return orca::fail(orca::Code::deadline_exceeded, "nobody answers as an Owl does; is it switched on?");
+      return orca::fail(orca::Code::deadline_exceeded, "nothing answers as @CLASS@ does; is it switched on?");
     if (now < next()) return false;
     asked_ = now;
     if (Status asked = ask('V'); !asked.ok()) return asked.error();
@@ -93,11 +91,11 @@ class OwlSession final : public orca::hw::LineSession {
   TimePoint begun_{}, asked_{};
 };
 
-/// An Owl, a made-up laser with 61 beams over half a circle, ten times a second.
-class Owl final : public orca::hw::LaserDriver {
+/// @CLASS@, a made-up laser with 61 beams over half a circle, ten times a second.
+class @CLASS@ final : public orca::hw::LaserDriver {
  public:
-  explicit Owl(orca::hw::HardwareHost& host)
-      : LaserDriver(host, {.baud = 115200}, {.vendor = "nobody", .model = "Owl"}) {}
+  explicit @CLASS@(orca::hw::HardwareHost& host)
+      : LaserDriver(host, {.baud = 115200}, {.vendor = "nobody", .model = "@CLASS@"}) {}
 
  protected:
   [[nodiscard]] Scans scans() const override {
@@ -120,7 +118,7 @@ class Owl final : public orca::hw::LaserDriver {
 
   // Called when something has come, and now and then.
   Status look(TimePoint now) override { return session_->receive(now); }
-  // An Owl that nobody uses says nothing.
+  // When nobody uses it, it says nothing.
   [[nodiscard]] Duration longest_silence() const override {
     return state() == orca::hw::HardwareState::active ? Duration(1s) : Duration::max();
   }
@@ -139,10 +137,9 @@ class Owl final : public orca::hw::LaserDriver {
     publish(ranges, sent, 0.0);
   }
 
-  std::optional<OwlSession> session_;
+  std::optional<@CLASS@Session> session_;
 };
 
 }  // namespace
 
-ORCA_HARDWARE(Owl, "my.Owl")
-// [/driver]
+ORCA_HARDWARE(@CLASS@, "@TYPE@")

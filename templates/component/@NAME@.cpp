@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// [avoid]
 #include <algorithm>
 
 #include "orca/component.hpp"
@@ -9,7 +7,7 @@
 namespace {
 
 /// Commands a full stop while anything is nearer than `stop_distance`.
-class Avoid final : public orca::Component {
+class @CLASS@ final : public orca::Component {
  public:
   using Component::Component;
 
@@ -28,5 +26,4 @@ class Avoid final : public orca::Component {
 
 }  // namespace
 
-ORCA_COMPONENT(Avoid, "orca.Avoid")
-// [/avoid]
+ORCA_COMPONENT(@CLASS@, "@TYPE@")

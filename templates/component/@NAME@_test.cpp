@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// [test]
 #include <catch2/catch.hpp>
 
 #include "orca/idl/motion.hpp"
@@ -15,12 +13,12 @@ struct Ports final : orca::testing::Partner {
   orca::PushProxy<orca::idl::MotionCommand> motion{*this, "motion"};
 };
 
-const orca::testing::Trial kAvoid{.type = "orca.Avoid", .params = {{"stop_distance", "0.6 m"}}};
+const orca::testing::Trial kTrial{.type = "@TYPE@", .params = {{"stop_distance", "0.6 m"}}};
 
 }  // namespace
 
 TEST_CASE("it commands a full stop while something is nearer than stop_distance") {
-  orca::testing::try_component<Ports>(kAvoid, [](Ports& test) {
+  orca::testing::try_component<Ports>(kTrial, [](Ports& test) {
     for (const double range : {2.0, 0.61, 0.59, 2.0}) {
       auto readings = test.ranges.loan();
       readings->ranges({3.0, range, 3.0});
@@ -31,4 +29,3 @@ TEST_CASE("it commands a full stop while something is nearer than stop_distance"
     }
   });
 }
-// [/test]
