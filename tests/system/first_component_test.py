@@ -15,6 +15,11 @@ import unittest
 from page_reader import BUILD, SAID, TREE, Reader
 
 
+def lines_of_code(source):
+    lines = (line.strip() for line in source.read_text().splitlines())
+    return sum(bool(line) and not line.startswith("//") for line in lines)
+
+
 class Pages(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="orca_first_component_")
@@ -29,6 +34,8 @@ class Pages(unittest.TestCase):
         self.assertNotIn("contact", reader.out)
         self.assertTrue((reader.folder / "avoid/run.svg").exists())
         self.assertIn("contact", self.run_without_avoider(reader))
+        self.assertEqual(pathlib.Path(reader.folder, "hello.xml").read_text().count("\n"), 3)
+        self.assert_says_hello(reader)
 
     def run_without_avoider(self, reader):
         graph = reader.folder / "avoid/avoid.xml"
@@ -37,6 +44,19 @@ class Pages(unittest.TestCase):
         graph.write_text(text.replace('value="walk; avoid"', 'value="walk"').replace("RandomWalk\"/>",
                          'RandomWalk"><param name="blocked_at" value="0.05 m"/></component>'))
         return reader.run("deployer avoid.xml --clock virtual --until 60s\n")
+
+    def assert_says_hello(self, reader):
+        """The files at the end of the page, built into the same plugin folder, say hello once per second; their lines are as many as
+        it says."""
+        page = " ".join((TREE / reader.page).read_text().split())
+        self.assertIn(f"has {lines_of_code(reader.folder / 'hello.cpp')} lines of code", page)
+        self.assertIn(f"has a parameter, has {lines_of_code(reader.folder / 'avoid/avoid.cpp')}.", page)
+        for file in ("hello.cpp", "hello.xml"):
+            shutil.move(reader.folder / file, reader.folder / "avoid")
+        with open(reader.folder / "avoid/CMakeLists.txt", "a") as build:
+            build.write((reader.folder / "CMakeLists.txt").read_text())
+        said = reader.run("cmake --build build > build.log\ndeployer hello.xml --clock virtual --until 3.5s 2>&1\n")
+        self.assertEqual(len([line for line in said.splitlines() if line.endswith("hello")]), 4)
 
     def test_what_orcactl_new_prints_is_what_pages_show_and_a_readme_explains(self):
         """README.md, docs/first_component.md and docs/first_driver.md."""
