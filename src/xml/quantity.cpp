@@ -109,10 +109,7 @@ std::string_view quantity_name(std::string_view si) {
 
 // Returns the units that may be written where `si` is expected: "m, mm, cm or km".
 std::string units_for(std::string_view si) {
-  std::vector<std::string_view> names;
-  for (const Unit& unit : kUnits)
-    if (unit.si == si) names.push_back(unit.name);
-  if (names.empty()) return std::string(si);
+  const std::vector<std::string_view> names = units_of(si);
   std::string result(names.front());
   for (std::size_t i = 1; i < names.size(); ++i) {
     result += (i + 1 == names.size() ? " or " : ", ");
@@ -135,6 +132,14 @@ Error wrong_unit(std::string_view written, std::string_view si, const Unit* foun
 }
 
 }  // namespace
+
+std::vector<std::string_view> units_of(std::string_view si) {
+  std::vector<std::string_view> names;
+  for (const Unit& unit : kUnits)
+    if (unit.si == si) names.push_back(unit.name);
+  if (names.empty()) names.push_back(si);
+  return names;
+}
 
 Result<double> to_si(double value, std::string_view written, std::string_view si) {
   if (written.empty() || (written == si && find_unit(si) == nullptr)) return value;

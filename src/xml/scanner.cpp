@@ -97,6 +97,18 @@ bool is_utf8(const std::string& encoding) {
   return encoding.empty() || encoding == "utf-8" || encoding == "us-ascii" || encoding == "ascii";
 }
 
+// Returns the size of what leads editors to schemas, at the start of the text. tinyxml2 takes it for another declaration, which it
+// reads only behind the first.
+std::size_t size_of_schema_lines(std::string_view text) {
+  for (std::size_t size = 0;;) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n", size);
+    if (begin == std::string_view::npos || !text.substr(begin).starts_with("<?xml-model ")) return size;
+    const std::size_t end = text.find("?>", begin);
+    if (end == std::string_view::npos) return size;  // instruction() reports it
+    size = end + 2;
+  }
+}
+
 }  // namespace
 
 std::string shown(std::string_view name) {
@@ -203,6 +215,7 @@ void Scanner::declaration() {
     stop(codes::kEncoding, begin,
          "the file declares the encoding " + in_quotes(encoding) + ", only UTF-8 is read; save it as UTF-8");
   }
+  cursor_.advance(size_of_schema_lines(cursor_.rest()));
 }
 
 void Scanner::content() {

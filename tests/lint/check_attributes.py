@@ -11,7 +11,7 @@ WRITTEN_BY_ORCA = {("graph", "expanded")}  # by deployer --print and orcactl gra
 
 def declared(schema):
     """Returns the pairs (element, attribute) of the language."""
-    return {(kind.get("name").removeprefix("given_"), attribute.get("name"))
+    return {(kind.get("name").split("_in_")[0], attribute.get("name"))
             for kind in ElementTree.fromstring(schema.encode()).findall(f"{XS}complexType")
             for attribute in kind.findall(f"{XS}attribute")}
 

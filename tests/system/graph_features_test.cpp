@@ -201,10 +201,6 @@ TEST_CASE("each way to look at a graph prints it and starts nothing", "[system][
   }
 }
 
-TEST_CASE("--schema prints the schema that is shipped", "[system][graph]") {
-  CHECK(run_deployer({"--schema"}).out == read_text(source_file("graphs/orca-graph.xsd")));
-}
-
 TEST_CASE("two things to do at once, and --json where it means nothing, are refused", "[system][graph]") {
   const std::string graph = source_file("graphs/scout_goto.xml");
   for (const Words& words :

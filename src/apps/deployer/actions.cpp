@@ -94,6 +94,26 @@ ExitCode describe(const Options& options) {
   return ExitCode::bad_input;
 }
 
+// Writes the language with the types that are installed. A plugin that cannot be loaded is reported once and left out.
+ExitCode write_schema(const Options& options) {
+  const plugin::PluginIndex index = index_of(options);
+  std::vector<Contract> types;
+  std::set<std::string> faults;
+  for (const PluginKind kind : {PluginKind::component, PluginKind::hardware}) {
+    for (const std::string& type : index.types(kind)) {
+      const Result<std::string> file = index.file_of(type);
+      Result<PluginDescription> plugin = file ? describe_plugin(*file, type) : file.error();
+      if (plugin)
+        types.push_back(std::move(plugin->types.front()));
+      else
+        faults.insert(plugin.error().text());
+    }
+  }
+  for (const std::string& fault : faults) std::fprintf(stderr, "error: %s\n", fault.c_str());
+  show(graph::schema(types));
+  return faults.empty() ? ExitCode::finished : ExitCode::bad_input;
+}
+
 // Returns 0 if both describe the same system, 1 if they do not, 2 if one of them describes none.
 ExitCode compare(const Options& options) {
   Loaded before(options);
@@ -334,7 +354,7 @@ ExitCode act(const Options& options) {
     g_guests = std::move(guests).value();
   }
   switch (options.action) {
-    case Action::schema: return show(graph::schema());
+    case Action::schema: return write_schema(options);
     case Action::describe: return describe(options);
     case Action::types:
       return show(options.json ? types_json(index_of(options)) : types_text(index_of(options)));

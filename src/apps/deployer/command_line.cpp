@@ -127,7 +127,9 @@ std::vector<OptionSpec> other_options() {
       {"--describe", "",
        "ports and parameters, with units, ranges and defaults, of a type such as orca.Goto, or of all types "
        "of a plugin file: --describe PLUGIN.so"},
-      {"--schema", "", "the graph's language as an XML schema, for editors"},
+      {"--schema", "",
+       "the graph's language as an XML schema for editors, with the types of all plugins, their ports and "
+       "parameters"},
       {"--strict", "", "warnings are errors: nothing starts with one", false, "How to check"},
       {"--json", "", "for programs; with --check, --print, --list-ports, --diff, --describe and --types"},
   };

@@ -106,6 +106,7 @@ TEST_CASE("each mistake gives one error at its place", "[xml][reading]") {
       {"<a><!-- x -- y --></a>", "1:11: error G119: \"--\" may not stand inside"},
       {"<a><![CDATA[ x ]></a>", "1:4: error G119: the CDATA section is not closed"},
       {"<a><?php x ?></a>", "1:4: error G120: processing instructions"},
+      {"<?xml version='1.0'?><!-- --><?xml-model href='a.xsd'?><a/>", "1:30: error G120"},
       {"<?xml version='2.0'?><a/>",
        "1:1: error G122: the file declares version \"2.0\" of XML; only 1.0 is read"},
       {"<?xml version='1.1'?><a/>", "1:1: error G122"},

@@ -1,74 +1,101 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "orca/graph/print.hpp"
+#include "orca/xml/schema.hpp"
 
-#include "orca/xml/document.hpp"
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "orca/base/text.hpp"
+#include "orca/graph/print.hpp"
+#include "orca/xml/number.hpp"
 #include "reading/rules.hpp"
 
 namespace orca::graph {
 namespace {
 
-using xml::AttributeRule;
-using xml::ElementRule;
+using xml::SchemaWord;
+using xml::Vocabulary;
 
-std::string documentation(std::string_view text, const std::string& indent) {
-  if (text.empty()) return {};
-  return indent + "<xs:annotation><xs:documentation>" + xml::escaped(text) +
-         "</xs:documentation></xs:annotation>\n";
+const char* element_of(PluginKind kind) { return kind == PluginKind::component ? "component" : "hardware"; }
+
+std::string port_text(const PortContract& port) {
+  std::string text = to_string(port.pattern) + std::string(to_string(port.role)) + " of " + port.type.name;
+  if (port.reply) text += " -> " + port.reply->name;
+  if (port.many) text += ", any number";
+  if (port.required) text += ", required";
+  return text + (port.text.empty() ? "" : ": " + port.text);
 }
 
-// Returns a type that allows one of the words, or a text that contains an argument.
-std::string choices_text(std::span<const std::string_view> choices) {
-  std::string text =
-      "      <xs:simpleType>\n        <xs:union memberTypes=\"with_argument\">\n          <xs:simpleType>\n"
-      "            <xs:restriction base=\"xs:string\">\n";
-  for (const std::string_view choice : choices)
-    text += "              <xs:enumeration value=\"" + std::string(choice) + "\"/>\n";
-  return text +
-         "            </xs:restriction>\n          </xs:simpleType>\n        </xs:union>\n"
-         "      </xs:simpleType>\n";
+std::string param_text(const ParamContract& param) {
+  const std::string unit = param.unit.empty() ? "" : " " + param.unit;
+  std::string text = param.text + (param.text.empty() ? "" : " ") + "(";
+  text += param.choices.empty() ? to_string(param.type) : joined(param.choices, " | ");
+  if (param.min) text += ", from " + xml::number_text(*param.min) + unit;
+  if (param.max) text += ", to " + xml::number_text(*param.max) + unit;
+  if (!param.min && !param.max && !unit.empty()) text += " in" + unit;
+  const std::string otherwise = print_value(param.default_value);
+  if (!otherwise.empty()) text += "; " + otherwise + unit + " if not given";
+  return text + (param.fixed ? "; fixed while it runs" : "") + ")";
 }
 
-std::string attribute_text(const AttributeRule& rule) {
-  std::string start = "    <xs:attribute name=\"" + std::string(rule.name) + "\"";
-  if (rule.value.choices.empty()) start += " type=\"xs:string\"";
-  if (rule.required) start += " use=\"required\"";
-  const std::string content = documentation(rule.text, "      ") +
-                              (rule.value.choices.empty() ? "" : choices_text(rule.value.choices));
-  return content.empty() ? start + "/>\n" : start + ">\n" + content + "    </xs:attribute>\n";
+std::string type_text(const Contract& contract) {
+  std::string text = "In " + contract.library + ".";
+  if (contract.needs_hardware) text += " Wraps hardware, from which more ports come.";
+  for (const PortContract& port : contract.ports) text += "\nport " + port.name + ": " + port_text(port);
+  for (const ParamContract& param : contract.params)
+    text += "\nparam " + param.name + ": " + param_text(param);
+  return text;
 }
 
-std::string children_text(const ElementRule& rule) {
-  std::string text;
-  for (const ElementRule* child : rule.children) {
-    const std::string name(child->name);
-    text += "      <xs:element name=\"" + name + "\" type=\"" + (brings_file(rule) ? "given_" : "") + name +
-            "\"/>\n";
+// Names that types have in common, and what each type says of it, a line each.
+using Names = std::map<std::string, std::string>;
+
+void add_line(Names& names, const std::string& name, const std::string& type, const std::string& text) {
+  std::string& lines = names[name];
+  lines += (lines.empty() ? "" : "\n") + type + ": " + text;
+}
+
+std::vector<SchemaWord> words_of(const Names& names) {
+  std::vector<SchemaWord> words;
+  for (const auto& [name, text] : names) words.push_back({name, text});
+  return words;
+}
+
+// Adds the types of one kind, and their parameters and ports.
+void add_types(std::span<const Contract> contracts, PluginKind kind, std::vector<Vocabulary>& vocabularies) {
+  Names types;
+  Names params;
+  Names ports;
+  for (const Contract& contract : contracts) {
+    if (contract.kind != kind) continue;
+    types[contract.type] = type_text(contract);
+    for (const ParamContract& param : contract.params)
+      add_line(params, param.name, contract.type, param_text(param));
+    for (const PortContract& port : contract.ports)
+      add_line(ports, port.name, contract.type, port_text(port));
   }
-  if (text.empty()) return {};
-  return "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + text + "    </xs:choice>\n";
-}
-
-std::string type_text(const std::string& name, const ElementRule& rule) {
-  std::string text =
-      "  <xs:complexType name=\"" + name + "\">\n" + documentation(rule.text, "    ") + children_text(rule);
-  for (const AttributeRule& attribute : rule.attributes) text += attribute_text(attribute);
-  return text + "  </xs:complexType>\n";
+  vocabularies.push_back({element_of(kind), "", "type", words_of(types)});
+  vocabularies.push_back({"param", element_of(kind), "name", words_of(params)});
+  // Ports that come from hardware are not known before both are chosen.
+  if (kind == PluginKind::component)
+    vocabularies.push_back({"port", element_of(kind), "name", words_of(ports), false});
 }
 
 }  // namespace
 
-std::string schema() {
-  std::string text =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->\n"
-      "<!-- Orca's system graphs, for editors. Written by the deployer from the rules that it reads by -->\n"
-      "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
-      "  <xs:simpleType name=\"with_argument\">\n"
-      "    <xs:restriction base=\"xs:string\"><xs:pattern value=\".*[$]\\{.*\\}.*\"/></xs:restriction>\n"
-      "  </xs:simpleType>\n"
-      "  <xs:element name=\"graph\" type=\"graph\"/>\n";
-  for (const ElementRule* rule : graph_rules().elements) text += type_text(std::string(rule->name), *rule);
-  return text + type_text("given_arg", *graph_rules().find("include")->child("arg")) + "</xs:schema>\n";
+std::string schema(std::span<const Contract> types) {
+  xml::SchemaOptions options{.title = "Orca's system graphs", .has_arguments = true};
+  options.vocabularies = {{"connect", "", "queue", {{"latest", "Only the newest waits."}}, false},
+                          {"connect", "", "drop_limit", {{"any", "Never logged."}}, false}};
+  if (!types.empty())
+    for (const PluginKind kind : {PluginKind::component, PluginKind::hardware})
+      add_types(types, kind, options.vocabularies);
+  options.unique = {{"graph", "machine"},   {"graph", "process"},  {"graph", "arg"},
+                    {"graph", "component"}, {"graph", "hardware"}, {"component", "param"},
+                    {"component", "port"},  {"hardware", "param"}};
+  return xml::schema(graph_rules(), options);
 }
 
 }  // namespace orca::graph

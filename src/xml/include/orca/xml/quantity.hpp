@@ -20,6 +20,9 @@ namespace orca::xml {
 /// @errors  invalid_argument: the unit is unknown or measures something else; says what may be written.
 [[nodiscard]] Result<double> to_si(double value, std::string_view written, std::string_view si);
 
+/// Returns the names of the units that may be written where `si` is expected; `si` as in to_si().
+[[nodiscard]] std::vector<std::string_view> units_of(std::string_view si);
+
 /// Reads "190 mm", "22.5 deg", "10 Hz" or "0.5" as a value in SI; `si` as in to_si().
 /// @errors  as parse_leading_number() and to_si().
 [[nodiscard]] Result<double> parse_quantity(std::string_view text, std::string_view si);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 
+#include "orca/base/contract.hpp"
 #include "orca/graph/graph.hpp"
 
 namespace orca::graph {
@@ -34,7 +36,10 @@ namespace orca::graph {
 [[nodiscard]] std::string mermaid(const Graph& graph, const std::string& profiles);
 
 /// Returns the graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the
-/// rules that the reader follows, but is less strict than the reader: any value may be "${arg}".
-[[nodiscard]] std::string schema();
+/// rules that the reader follows, but is less strict than the reader: any value may be "${arg}", and a parameter
+/// may have any value and be one of any of the types.
+///
+/// @param types  components and hardware that may be used, whose ports and parameters it describes; empty: any.
+[[nodiscard]] std::string schema(std::span<const Contract> types);
 
 }  // namespace orca::graph
