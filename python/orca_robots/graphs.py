@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Graphs: what is wrong with them, and how they are changed."""
 import dataclasses
+import re
 import xml.etree.ElementTree as ET
 
 
@@ -29,6 +30,9 @@ class Graph:
         self.file = str(file)
         builder = ET.TreeBuilder(insert_comments=True)
         self._root = ET.parse(file, ET.XMLParser(target=builder)).getroot()
+        with open(file, encoding="utf-8") as text:
+            self._head = re.split(r"<(?=[A-Za-z])", re.sub(r"<!--.*?-->", lambda it: it[0].replace("<", "\0"), text.read(), flags=re.DOTALL))[0]
+        self._head = self._head.replace("\0", "<")
 
     @property
     def components(self):
@@ -60,7 +64,8 @@ class Graph:
     def write(self, file):
         """Writes the graph into a file, and returns the file's name."""
         ET.indent(self._root)
-        ET.ElementTree(self._root).write(file, encoding="utf-8", xml_declaration=True)
+        with open(file, "w", encoding="utf-8") as text:
+            text.write(self._head + ET.tostring(self._root, encoding="unicode") + "\n")
         return str(file)
 
     def _named(self, name):

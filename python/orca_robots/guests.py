@@ -58,12 +58,16 @@ def ended(words):
     return words[1:]
 
 
+def _word(word):
+    return word if isinstance(word, (str, bytes)) else str(word)
+
+
 class Lap:
     """What an object of a component asks of the run, and the thread on which it works."""
 
     def __init__(self, line, types, name, component_class):
         self._line, self._types, self._said = line, types, queue.SimpleQueue()
-        self._component = component_class(self)
+        self._class, self._component = component_class, None
         self.thread = threading.Thread(target=self._serve, name=name, daemon=True)
         self.thread.start()
 
@@ -92,17 +96,18 @@ class Lap:
 
     def _call(self, hook, more):
         try:
+            if self._component is None:
+                self._component = self._class(self)
             if hook == "handle":
                 return self._handle(more[0].decode(), self._types.decode(more[1].decode(), more[2]))
             if hook in ("start", "params"):
                 self._component._set_params([word.decode() for word in more])
             last = None if hook == "params" else getattr(self._component, hook)()
-            return last if isinstance(last, tuple) else ("again",)
+            return tuple(map(_word, last)) if isinstance(last, tuple) else ("again",)
         except Interrupted:
             return ("again",)
-        except Exception as error:  # noqa: BLE001: whatever it is, it is the component's failure
-            return ("raised", traceback.format_exception_only(error)[-1].strip(), traceback.format_exc())
-
+        except BaseException as error:  # noqa: BLE001: whatever it is, sys.exit() too, it is the component's failure
+            return ("raised", traceback.format_exception_only(type(error), error)[-1].strip(), traceback.format_exc())
 
     def _handle(self, port, taken):
         answer = getattr(self._component, f"on_{port}")(taken)
@@ -118,6 +123,8 @@ class Guests:
     def __init__(self, component_classes):
         self._hello = [packet for one in component_classes for packet in one.declared()]
         self._classes = {one.type: one for one in component_classes}
+        if len(self._classes) < len(component_classes):
+            raise OrcaError("two of the components have the same type; give each class a type of its own")
         here, self.socket_there = socket.socketpair()
         self._line, self._laps = PacketLine(here), {}
         self.types = None
@@ -139,7 +146,7 @@ class Guests:
         return True
 
     def close(self):
-        """Waits until all laps have ended; the deployer has ended before."""
+        """Lets all laps end; the deployer has ended before."""
         if self.types is not None:
             self._thread.join()
         self._line.close()

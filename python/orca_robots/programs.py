@@ -45,5 +45,5 @@ def run_options(seed=None, set=None, profile=None, until=None, record=None):  # 
     """
     words = [word for name, value in (set or {}).items() for word in ("--set", f"{name}={value}")]
     words += [word for name in ([profile] if isinstance(profile, str) else profile or ()) for word in ("--profile", name)]
-    options = {"--seed": seed, "--until": f"{until!r} s" if isinstance(until, (int, float)) else until, "--record": record}
+    options = {"--seed": seed, "--until": f"{float(until)!r} s" if isinstance(until, (int, float)) else until, "--record": record}
     return words + [word for name, value in options.items() if value is not None for word in (name, str(value))]

@@ -83,14 +83,11 @@ Pose2 PlaceSearch::pose_of(const Block& place) const {
 }
 
 // Whether a block can hold a place that is taken. A small one beside a place that was found must be better than that.
-bool PlaceSearch::is_better(const Block& block, int level) {
+bool PlaceSearch::is_better(const Block& block, int level) const {
   if (found_.empty()) return true;
   const double score = block.sum / full_;
   if (score <= found_.front().score - options_.margin) return false;
-  if (found_.size() == options_.most && score <= found_.back().score) {
-    left_some_out_ = true;
-    return false;
-  }
+  if (found_.size() == options_.most && score <= found_.back().score) return false;
   constexpr int kSmall = 2;
   if (level > kSmall) return true;
   const Pose2 pose = pose_of(block);
@@ -127,7 +124,6 @@ void PlaceSearch::keep(const Block& place) {
            std::fabs(wrapped(other.X_MR.yaw - found.X_MR.yaw)) < options_.apart_turn;
   });
   found_.insert(std::ranges::upper_bound(found_, found.score, std::ranges::greater(), &Found::score), found);
-  left_some_out_ |= found_.size() > options_.most;
   while (found_.size() > options_.most || found_.back().score <= found_.front().score - options_.margin)
     found_.pop_back();
 }

@@ -104,7 +104,8 @@ std::size_t size_of_schema_lines(std::string_view text) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n", size);
     if (begin == std::string_view::npos || !text.substr(begin).starts_with("<?xml-model ")) return size;
     const std::size_t end = text.find("?>", begin);
-    if (end == std::string_view::npos) return size;  // instruction() reports it
+    if (end == std::string_view::npos || text.find('<', begin + 1) < end)
+      return size;  // instruction() reports it
     size = end + 2;
   }
 }
@@ -197,6 +198,7 @@ bool Scanner::starts_as_xml() {
 
 void Scanner::declaration() {
   if (cursor_.offset() > 0 || !cursor_.starts_with("<?xml")) return;
+  if (cursor_.starts_with("<?xml-")) return cursor_.advance(size_of_schema_lines(cursor_.rest()));
   const Mark begin = cursor_.mark();
   const std::size_t length = cursor_.distance_to("?>");
   if (length == std::string_view::npos) {

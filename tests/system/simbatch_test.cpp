@@ -393,7 +393,7 @@ TEST_CASE("a graph that changes on the way is refused, not run without its chang
        "--check"});
   INFO(run.err);
   CHECK(run.exit_code() == 2);
-  CHECK(run.says("vfh_on_the_way.xml:9:3: error G074: <change>: simbatch does not carry out changes"));
+  CHECK(run.says("vfh_on_the_way.xml:10:3: error G074: <change>: simbatch does not carry out changes"));
 }
 
 TEST_CASE("wrong words are refused with what there is", "[system][batch]") {

@@ -165,7 +165,11 @@ Result<std::vector<std::string>> make_folder(const fs::path& templates, const st
                                                   {"@ORCA@", fs::path(own_file("")).parent_path().string()},
                                                   {"@BIN@", own_programs()}};
   Files files;
-  for (const auto& [file, text] : *read) files.emplace(replaced(file, values), replaced(text, values));
+  for (const auto& [file, text] : *read)
+    if (!files.emplace(replaced(file, values), replaced(text, values)).second)
+      return fail(Code::invalid_argument,
+                  in_quotes(name) +
+                      " is the name of another file in such a folder; write another one, such as my_" + name);
   if (Status made = make(name, files); !made.ok()) return made.error();
   std::vector<std::string> names;
   for (const auto& [file, text] : files) names.push_back(file);

@@ -65,6 +65,9 @@ Avoider::Avoider(ComponentHost& host, const Manner& manner)
           {.unit = "m", .min = 0.1, .text = "Free way ahead from which on there is nothing to avoid."}),
       stop_distance_(*this, "stop_distance", 0.15,
                      {.unit = "m", .min = 0.0, .text = "Free way ahead at which the robot only turns."}),
+      sideways_(
+          *this, "sideways", false,
+          {.text = "Whether it moves a base that can do that sideways, without turning to where it drives."}),
       max_speed_(
           *this, "max_speed", 0.4,
           {.unit = "m/s", .min = 0.0, .text = "Speed at safe_distance; it falls to 0 at stop_distance."}),
@@ -359,7 +362,7 @@ Limits Avoider::limits() const {
           .safe_distance = *safe_distance_,
           .stop_distance = *stop_distance_,
           .max_speed = *max_speed_,
-          .slides = body_ && body_->slides};
+          .slides = *sideways_ && body_ && body_->slides};
 }
 
 }  // namespace orca::avoid

@@ -39,7 +39,7 @@ Step Pursuit::step(const Pose2& robot, std::span<const Person> people, double ti
     if (went_on_) trail_.pop_back();
     if (!target_) trail_.clear();
     went_on_ = false;
-    target_ = Target{*person, time - person->unseen};
+    target_ = Target{*person, time};
     extend(person->place);
   }
   if (!target_) return {};

@@ -23,7 +23,7 @@ class Settings final : public Setter {
   explicit Settings(ComponentHost& host) : host_(host) {}
 
   std::uint64_t order(const Step& step) override {
-    return host_.set_peer({step.component, step.param, step.words});
+    return host_.set_peer({named(step.component), step.param, step.words});
   }
   std::optional<Ending> outcome(std::uint64_t number) override {
     const auto outcome = host_.take_set(number);
@@ -33,15 +33,15 @@ class Settings final : public Setter {
   }
   void set_back(const Step& step, std::uint64_t number, const std::string& before) override {
     if (number != 0)
-      awaited_.push_back({step.component, step.param, before, number});
+      awaited_.push_back({named(step.component), step.param, before, number});
     else
-      set_back({step.component, step.param, before});
+      set_back({named(step.component), step.param, before});
   }
 
   /// Reports the steps of a task that set what the graph does not let the component set.
   void check(const Task& task, xml::Diagnostics& diagnostics) const {
     for (const Step& step : task.steps) {
-      if (step.kind != Kind::with || host_.may_set(step.component, step.param)) continue;
+      if (step.kind != Kind::with || host_.may_set(named(step.component), step.param)) continue;
       const std::string what = step.component + "." + step.param;
       diagnostics.error(codes::kRight, step.position,
                         "the graph does not let this task set " + what + "; add may_set=" + in_quotes(what) +
@@ -56,6 +56,8 @@ class Settings final : public Setter {
       const auto outcome = host_.take_set(back.number);
       if (!outcome)
         awaited_.push_back(back);
+      else if (back.is_last && !*outcome && back.tries < kTries)
+        set_back(back);
       else if (back.is_last && !*outcome)
         faults.push_back(back.component + "." + back.param + " is not set back to " + back.value + ": " +
                          outcome->error().text());
@@ -65,7 +67,12 @@ class Settings final : public Setter {
     return faults;
   }
 
+  /// Returns whether something is still to be set back.
+  [[nodiscard]] bool awaits() const { return !awaited_.empty(); }
+
  private:
+  static constexpr int kTries = 3;
+
   // A parameter that is to be set back once an order about it has ended, or by that order itself.
   struct Back {
     std::string component;
@@ -73,12 +80,21 @@ class Settings final : public Setter {
     std::string value;  // empty: the one before that order
     std::uint64_t number = 0;
     bool is_last = false;  // it is the order that sets it back
+    int tries = 0;         // of that order
   };
 
   void set_back(Back back) {
     back.number = host_.set_peer({back.component, back.param, back.value});
     back.is_last = true;
+    ++back.tries;
     awaited_.push_back(std::move(back));
+  }
+
+  // Tasks name the components of the graph that they belong to; one that is included has a name before them.
+  [[nodiscard]] std::string named(const std::string& component) const {
+    const std::string own(host_.name());
+    const std::size_t dot = own.rfind('.');
+    return dot == std::string::npos ? component : own.substr(0, dot + 1) + component;
   }
 
   ComponentHost& host_;

@@ -88,7 +88,9 @@ class TaskTree final : public orca::Component, private Actor {
     alarms_ = kept_alarms();
     if (!paused_ && is_on()) run_->tick(*this, orca::to_seconds(now().time_since_epoch()));
     show();
-    if (is_on()) return orca::again();
+    if (is_on()) over_since_.reset();
+    if (!is_on() && !over_since_) over_since_ = now();
+    if (is_on() || (settings_.awaits() && now() - *over_since_ < kSettle)) return orca::again();
     if (run_->state() == TaskRun::State::done) return orca::done();
     return orca::failed(run_->memories()[0].reason);
   }
@@ -315,7 +317,11 @@ class TaskTree final : public orca::Component, private Actor {
   Task task_;
   std::unique_ptr<TaskRun> run_;
   orca::tasks::Lookout lookout_;
+  static constexpr orca::Duration kSettle =
+      std::chrono::seconds(20);  // for what is to be set back at the end
+
   orca::tasks::Settings settings_{host()};
+  std::optional<orca::TimePoint> over_since_;
   std::vector<orca::idl::Alarm> alarms_;  // of this lap
   bool paused_ = false;
   orca::TimePoint paused_at_{};

@@ -71,6 +71,7 @@ TEST_CASE(
   RandomStream random(1, "test", "poses");
   int free = 0, taken = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ORCA_SOURCE_DIR "/sim/robots")) {
+    if (entry.path().extension() != ".urdf") continue;
     const std::string file = entry.path();
     const auto model = sim::read_robot(file, wrong);
     REQUIRE(model);

@@ -78,20 +78,6 @@ TEST_CASE("a robot that sees nobody any more goes where he went, looks for him, 
   CHECK(floor.lap({}).kind == Step::Kind::nobody);
 }
 
-TEST_CASE("whom the tracker only supposes any more is out of sight half a second after a scan saw him",
-          "[follow]") {
-  Floor floor;
-  while (floor.walked < 3.0) (void)floor.walk();
-  Person supposed = floor.person();
-  Step step;
-  do {
-    supposed.unseen += kLap;
-    step = floor.lap({supposed});
-  } while (step.kind == Step::Kind::follows && supposed.unseen < 5.0);
-  CHECK(step.kind == Step::Kind::searches);
-  CHECK(supposed.unseen == Approx(0.6));
-}
-
 TEST_CASE("who appears near where a person was seen last is taken for him, and somebody else is not",
           "[follow]") {
   Floor floor;

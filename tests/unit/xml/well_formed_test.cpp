@@ -44,6 +44,23 @@ TEST_CASE("a file is read from disk", "[xml][reading]") {
   CHECK(document->root.position().file == path.string());
 }
 
+TEST_CASE("lines that lead editors to schemas are skipped, behind an XML declaration or without one",
+          "[xml][reading]") {
+  for (const std::string text :
+       {"<?xml-model href='a.xsd'?>\n<r/>", "<?xml version='1.0'?><?xml-model href='a.xsd'?>\n<r/>"}) {
+    Diagnostics diagnostics;
+    const auto document = read_text(text, "f.xml", diagnostics);
+    INFO(diagnostics.text());
+    REQUIRE(document.has_value());
+    CHECK(document->root.position().line == 2);
+  }
+}
+
+TEST_CASE("a line for editors that is not closed hides nothing", "[xml][reading]") {
+  CHECK(errors_of("<?xml version='1.0'?><?xml-model href='a.xsd'><a b='?>'/>").find("1:22: error G120") !=
+        std::string::npos);
+}
+
 TEST_CASE("encodings other than UTF-8 are refused with a hint", "[xml][reading]") {
   CHECK(
       errors_of("\xFF\xFE<\0r\0"s).find("1:1: error G105: the file is UTF-16 or UTF-32; save it as UTF-8") !=

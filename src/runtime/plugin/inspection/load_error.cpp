@@ -43,6 +43,8 @@ class Needed {
   Needed& operator=(const Needed&) = delete;
 
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
+  /// Returns why one that is there cannot be used, in the words of the loader; empty if all can.
+  [[nodiscard]] const std::string& unusable() const { return unusable_; }
 
   [[nodiscard]] bool provide(const ElfSymbol& symbol) const {
     if (find(RTLD_DEFAULT, symbol)) return true;
@@ -61,9 +63,15 @@ class Needed {
     if (handle == nullptr) handle = dlopen(name.c_str(), RTLD_LAZY | RTLD_LOCAL);
     if (handle != nullptr) {
       handles_.push_back(handle);
-    } else {
-      missing_.push_back(name);
+      return;
     }
+    // Others are there, but memory may be too small to map them.
+    const char* const reason = dlerror();
+    if (reason != nullptr &&
+        std::string_view(reason).find("cannot open shared object file") == std::string_view::npos)
+      unusable_ = reason;
+    else
+      missing_.push_back(name);
   }
 
   static bool find(void* handle, const ElfSymbol& symbol) {
@@ -77,6 +85,7 @@ class Needed {
 
   std::vector<void*> handles_;
   std::vector<std::string> missing_;
+  std::string unusable_;
 };
 
 // Sorted by name: the order of a symbol table is the compiler's, and an error must not change with it.
@@ -100,6 +109,7 @@ std::string explain_load_error(const ElfFile& library, const std::string& path, 
   if (!needed.missing().empty())
     return "it needs libraries that are not found: " + listed(needed.missing()) +
            "; install them, or build the plugin again where they are";
+  if (!needed.unusable().empty()) return needed.unusable();
   const std::vector<std::string> symbols = unprovided_symbols(library, needed);
   if (symbols.empty()) return words;
   return "it uses " + listed(symbols) +

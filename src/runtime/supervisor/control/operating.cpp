@@ -312,10 +312,10 @@ Result<std::string> Operating::set_for(const PeerCalled& call) {
   if (node == nullptr || contract == nullptr) return gone(call.component);
   const Result<graph::Params> read = graph::read_settings(contract->params, {{call.param, call.value}});
   if (!read) return read.error();
-  std::string before = graph::print_value(params_of(*node).at(call.param));
-  const Status end = change({{call.component, {{call.param, call.value}}, *read}}, call.by);
+  const Setting setting{call.component, {{call.param, call.value}}, *read};
+  const Status end = change({setting}, call.by);
   if (!end.ok()) return end.error();
-  return before;
+  return graph::print_value(setting.before->at(call.param));
 }
 
 // Returns the present values of what is to change. Since the order was given, the component may have gone or got another
@@ -338,17 +338,16 @@ Result<graph::Params> Operating::present_of(const Setting& setting) const {
 }
 
 JointStep Operating::step_of(const Setting& setting) {
-  const auto before = std::make_shared<graph::Params>();
-  const auto make = [this, setting, before]() -> Result<std::optional<ThereAndBack>> {
+  const auto make = [this, setting]() -> Result<std::optional<ThereAndBack>> {
     Result<graph::Params> present = present_of(setting);
     if (!present) return present.error();
-    *before = std::move(present).value();
+    *setting.before = std::move(present).value();
     const std::string& name = setting.component;
     return std::optional(ThereAndBack{SetParams{name, {setting.texts.begin(), setting.texts.end()}},
-                                      SetParams{name, pairs_of(*before)}});
+                                      SetParams{name, pairs_of(*setting.before)}});
   };
-  const auto obeyed = [this, setting, before](bool has_gone) {
-    for (const auto& [param, value] : has_gone ? setting.values : *before)
+  const auto obeyed = [this, setting](bool has_gone) {
+    for (const auto& [param, value] : has_gone ? setting.values : *setting.before)
       changed_[setting.component].insert_or_assign(param, value);
   };
   return {setting.component, make, obeyed};

@@ -111,6 +111,8 @@ class Operating {
     std::string component;
     std::map<std::string, std::string> texts;  // as they were given
     graph::Params values;
+    /// The values that they had when its turn came.
+    std::shared_ptr<graph::Params> before = std::make_shared<graph::Params>();
   };
   class SettingReader;
 

@@ -161,6 +161,7 @@ TEST_CASE("FCL and the contacts of a running world agree on who stands in what",
     const auto [low, high] = world->bounds();
     RandomStream random(1, name, "poses");
     for (const auto& entry : std::filesystem::directory_iterator(ORCA_SOURCE_DIR "/sim/robots")) {
+      if (entry.path().extension() != ".urdf") continue;
       const RobotModel robot = shipped(entry.path().stem());
       detail::Physics physics(*world);
       const std::size_t number = physics.add_robot(robot, {});

@@ -36,7 +36,7 @@ class PlaceSearch {
   /// Returns the places so far, the best first.
   [[nodiscard]] const std::vector<Found>& found() const { return found_; }
   /// Returns whether there may be more of them, which were left out because it keeps no more.
-  [[nodiscard]] bool left_some_out() const { return left_some_out_; }
+  [[nodiscard]] bool left_some_out() const { return found_.size() >= options_.most; }
 
  private:
   struct Block {
@@ -50,7 +50,7 @@ class PlaceSearch {
   void look_into(const Block& block, int level);
   void keep(const Block& place);
   [[nodiscard]] Pose2 pose_of(const Block& place) const;
-  [[nodiscard]] bool is_better(const Block& block, int level);
+  [[nodiscard]] bool is_better(const Block& block, int level) const;
   [[nodiscard]] std::vector<Cell> turned_by(int turn) const;
 
   const KnownMap& map_;
@@ -65,7 +65,6 @@ class PlaceSearch {
   bool sorted_ = false;
   std::size_t looked_ = 0;
   std::vector<Found> found_;
-  bool left_some_out_ = false;
 };
 
 }  // namespace orca::nav

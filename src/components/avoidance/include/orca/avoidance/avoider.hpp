@@ -176,6 +176,7 @@ class Avoider : public Component {
   Param<double> margin_;
   Param<double> safe_distance_;
   Param<double> stop_distance_;
+  Param<bool> sideways_;
   Param<double> max_speed_;
   Param<double> weight_;
   Param<double> reaction_time_;
