@@ -315,7 +315,17 @@ class Page(PageCase):
         self.order_drive([BEHIND_BOX])
         self.picture("obstacle")
         places = []
-        wait_for("it has passed the box", lambda: places.append(self.place()) or self.distance(BEHIND_BOX) < 0.4, 90)
+
+        def has_passed():
+            places.append(self.place())
+            if self.distance(BEHIND_BOX) < 0.4:
+                return True
+            # Without a map it may give up before the box: who watches clicks again.
+            if self.text("#plain").startswith("Stands. It has no goal"):
+                self.order_drive([BEHIND_BOX])
+            return False
+
+        wait_for("it has passed the box", has_passed, 120)
         beside = [abs(y - BOX[1]) for x, y in places if abs(x - BOX[0]) < 0.2]
         self.assertGreater(min(beside), 0.35, "it kept away from the box")
         self.assertNotIn("touches", self.text("#notices"))
