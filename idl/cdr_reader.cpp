@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "cdr_reader.hpp"
+#include "orca/idl/cdr_reader.hpp"
 
 #include <cstring>
 #include <utility>

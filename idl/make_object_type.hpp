@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "cdr_reader.hpp"
-#include "cdr_writer.hpp"
+#include "orca/idl/cdr_reader.hpp"
+#include "orca/idl/cdr_writer.hpp"
 #include "dump_writer.hpp"
 #include "make_value.hpp"
 #include "orca/idl/generated/object.h"

@@ -50,7 +50,7 @@ LAYERS = (
     Layer("carmen", ("src/recording/carmen",), ("orca/recording/carmen/",), ("geometry", "base"), ("zlib",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),
-    Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base")),
+    Layer("ros", ("src/interop/ros",), ("orca/ros/",), ("geometry_objects", "geometry", "idl", "base"), ("eigen",)),
     Layer("recording_objects", ("src/recording/objects",), ("orca/recording/objects/",), ("carmen", "recording", "ros", "geometry", "idl", "base")),
     Layer("robot_file", ("src/robot_file",), ("orca/robot_file/",), ("geometry", "xml", "base"), ("eigen",), ("eigen",)),
     Layer("collision", ("src/collision",), ("orca/collision/",), ("geometry", "base"), ("eigen", "fcl"), ("eigen",)),

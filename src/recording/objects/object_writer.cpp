@@ -14,6 +14,7 @@
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
+#include "orca/ros/cdr.hpp"
 #include "orca/ros/message_type.hpp"
 
 namespace orca::recording {
@@ -158,9 +159,10 @@ Status ObjectWriter::add_twins(std::string_view row, Row& places, const ObjectRe
         !written.ok())
       return written;
   }
-  if (const std::optional<ros::RosMessage> frames = frames_.hear(object)) {
-    if (frames_channel_ == 0) frames_channel_ = channel_of(frames->type, "/tf");
-    return writer_.write({frames_channel_, 0, like.log_time, like.publish_time, frames->payload});
+  if (const std::optional<ros::FrameNews> frames = frames_.hear(object)) {
+    if (frames_channel_ == 0) frames_channel_ = channel_of(Reflection<ros::tf2_msgs::TFMessage>::name, "/tf");
+    return writer_.write(
+        {frames_channel_, 0, like.log_time, like.publish_time, ros::to_cdr(frames->message)});
   }
   return ok();
 }

@@ -12,6 +12,7 @@
 #include "foxglove/ros_messages.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/ros/cdr.hpp"
 #include "tapping/tapping.hpp"
 
 namespace orca::view {
@@ -195,8 +196,12 @@ std::optional<Packet> FoxgloveClient::pack(const Frame& frame) {
   }
   const Result<ObjectRef> object = orcactl::object_of(*frame.passed);
   if (!object) return std::nullopt;
-  std::optional<ros::RosMessage> message =
-      view->second.kind == Channel::Kind::frames ? frames_.hear(*object) : ros::ros_twin(*object);
+  if (view->second.kind == Channel::Kind::frames) {
+    const std::optional<ros::FrameNews> news = frames_.hear(*object);
+    if (!news) return std::nullopt;
+    return Packet{std::move(head), ros::to_cdr(news->message), nullptr};
+  }
+  std::optional<ros::RosMessage> message = ros::ros_twin(*object);
   if (!message) return std::nullopt;
   return Packet{std::move(head), std::move(message->payload), nullptr};
 }

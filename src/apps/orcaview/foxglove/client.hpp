@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "foxglove/channels.hpp"
-#include "orca/ros/twin.hpp"
+#include "orca/ros/frame_tree.hpp"
 
 namespace orca::view {
 

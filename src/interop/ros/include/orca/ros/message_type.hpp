@@ -14,6 +14,7 @@ namespace orca::ros {
 struct MessageType {
   std::string name;        ///< "sensor_msgs/msg/LaserScan"
   std::string definition;  ///< Fields, one per line; what they hold follows after lines of '='.
+  std::string hash{};  ///< RIHS01 of the type, 64 digits, by which tools of ROS 2 know it; empty: not known.
 };
 
 /// Returns an object type of Orca as a message type of the package `orca`: the same fields in the same order, so that the bytes of
@@ -26,5 +27,9 @@ struct MessageType {
 /// @return nothing for another name.
 /// @thread  any.
 [[nodiscard]] std::optional<MessageType> standard_message_type(std::string_view name);
+
+/// Returns the name of a message type in DDS: "sensor_msgs::msg::dds_::LaserScan_" of "sensor_msgs/msg/LaserScan".
+/// @thread  any.
+[[nodiscard]] std::string dds_type_name(std::string_view message);
 
 }  // namespace orca::ros

@@ -13,7 +13,7 @@
 #include "orca/base/time.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/recording/writer.hpp"
-#include "orca/ros/twin.hpp"
+#include "orca/ros/frame_tree.hpp"
 
 namespace orca::recording {
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "cdr_writer.hpp"
+#include "orca/idl/cdr_writer.hpp"
 #include "orca/base/result.hpp"
 #include "orca/idl/reflection.hpp"
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "orca/geometry/pose2.hpp"
+#include "orca/idl/geometry.hpp"
+#include "orca/idl/object.hpp"
+#include "orca/ros/generated/messages.hpp"
+#include "orca/ros/twin.hpp"
+
+namespace orca::ros {
+
+/// What one object says of frames: a transform, or those of a ring of sensors.
+struct FrameNews {
+  tf2_msgs::TFMessage message;
+  bool is_static = false;  ///< They say how something is mounted: /tf_static in ROS.
+};
+
+/// The frames of robots, from the objects that tell where they are. Where a robot has both odometry and poses in the world,
+/// its odometry frame moves in that of the map, as REP 105 has it.
+///
+/// Thread contract: not synchronised.
+class FrameTree {
+ public:
+  /// Takes an object. @return nothing if it tells nothing of a frame.
+  [[nodiscard]] std::optional<FrameNews> hear(const ObjectRef& object);
+
+  /// Takes what others say of frames: where they say how a robot has moved in its odometry frame, hear() need not be told.
+  void learn(const tf2_msgs::TFMessage& message);
+
+  /// Returns the pose of a frame in base_link of the same robot, from what learn() was given; nothing if they do not hang together.
+  [[nodiscard]] std::optional<idl::Frame3D> mount_of(const std::string& frame) const;
+
+ private:
+  std::map<std::string, Pose2> odometry_;  // of robots, by context: X_OB
+  std::map<std::string, std::pair<std::string, geometry_msgs::Transform>> parents_;  // of frames, and X_PF
+};
+
+}  // namespace orca::ros
