@@ -39,8 +39,7 @@ TEST_CASE("with too little memory the run is refused with exit status 3 and a se
   if (kSanitized) return;  // a sanitizer needs terabytes of addresses, and threads of its own
   for (const std::string executor : {"thread", "fiber", "baton"}) {
     int refused = 0;
-    // Below that not even the plugins can be mapped: the graph is refused for them.
-    for (int kilobytes = 45'000; kilobytes <= 120'000; kilobytes += 5'000) {
+    for (int kilobytes = 30'000; kilobytes <= 120'000; kilobytes += 5'000) {
       CAPTURE(executor, kilobytes);
       refused += is_refused(run_with("ulimit -v " + std::to_string(kilobytes), short_run(executor))) ? 1 : 0;
     }

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <new>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -123,6 +124,7 @@ void keep_known(Remains remains) {
 }
 
 Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
+  if (says_no_memory(words)) throw std::bad_alloc();
   const Result<PluginFile> read = PluginFile::read(file);
   return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
 }
@@ -173,7 +175,8 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source)
                      ", which all share; it is put back. Let configure() ask for what the plugin needs");
   if (handle == nullptr) {
     throw_if_exhausted(reason);
-    return cannot_load(source.path, source.file, dlerror());
+    const char* const words = dlerror();
+    return cannot_load(source.path, source.file, words == nullptr ? "no reason is given" : words);
   }
   if (identity_in_memory(handle) != source.judged.identity) {
     dlclose(handle);

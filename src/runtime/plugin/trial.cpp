@@ -120,7 +120,7 @@ void report_terminate() {
     try {
       throw;
     } catch (const std::bad_alloc&) {
-      report_bare(Kind::impossible);  // the start of the system will say that there is too little memory
+      report_bare(Kind::impossible);  // without a text: there is too little memory
       _exit(0);
     } catch (...) {
       report(Kind::thrown, describe_current_exception());
@@ -342,6 +342,7 @@ Status survives_trial(const std::function<void(const Step&)>& attempt, Duration 
   switch (tried.ending) {
     case Ending::well: return ok();
     case Ending::silent:
+      if (tried.text.empty()) throw std::bad_alloc();  // the copy found no memory, so neither would this process
       if (tried.last_step.empty()) return fail(Code::unavailable, tried.text);
       [[fallthrough]];
     case Ending::too_long: return fail(Code::deadline_exceeded, tried.last_step + " " + tried.text);

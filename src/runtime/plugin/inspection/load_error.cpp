@@ -4,8 +4,10 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <vector>
 
 #include "elf_file.hpp"
@@ -104,11 +106,25 @@ std::vector<std::string> unprovided_symbols(const ElfFile& library, const Needed
 
 }  // namespace
 
+bool says_no_memory(std::string_view words) {
+  // elf/dl-load.c, dl-map-segments.h, dl-object.c and dl-tls.c of glibc 2.36.
+  constexpr std::array<std::string_view, 8> kWords{"failed to map segment",
+                                                   "cannot map zero-fill pages",
+                                                   "cannot change memory protections",
+                                                   "Cannot allocate memory",
+                                                   "cannot create shared object descriptor",
+                                                   "cannot allocate",
+                                                   "cannot create TLS data structures",
+                                                   "out of memory"};
+  return std::ranges::any_of(kWords, [&](std::string_view each) { return words.find(each) != words.npos; });
+}
+
 std::string explain_load_error(const ElfFile& library, const std::string& path, const std::string& words) {
   const Needed needed(library, path);
   if (!needed.missing().empty())
     return "it needs libraries that are not found: " + listed(needed.missing()) +
            "; install them, or build the plugin again where they are";
+  if (says_no_memory(needed.unusable())) throw std::bad_alloc();
   if (!needed.unusable().empty()) return needed.unusable();
   const std::vector<std::string> symbols = unprovided_symbols(library, needed);
   if (symbols.empty()) return words;

@@ -46,6 +46,16 @@ TEST_CASE("a library that has everything it needs is explained by the loader's w
   }
 }
 
+TEST_CASE("the loader's messages about memory are known, and no others", "[plugin][load_error]") {
+  for (const char* const words : {"libx.so: failed to map segment from shared object",
+                                  "x.so: cannot allocate memory in static TLS block",
+                                  "x.so: cannot create shared object descriptor: Cannot allocate memory"})
+    CHECK(says_no_memory(words));
+  for (const char* const words : {"libx.so: cannot open shared object file: No such file or directory",
+                                  "x.so: undefined symbol: sample_nowhere", ""})
+    CHECK_FALSE(says_no_memory(words));
+}
+
 TEST_CASE("symbols that no library provides are listed, but not weak ones and not its own",
           "[plugin][load_error]") {
   const std::string path = sample("sample_needy");
