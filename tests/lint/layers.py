@@ -69,6 +69,8 @@ LAYERS = (
     Layer("patterns_dds", (f"{PATTERNS}/dds",), ("orca/patterns/dds/",), ENDPOINTS, ("fmt",)),
     Layer("patterns_dds_backend", (f"{PATTERNS}/dds/backend",), (), ("patterns_dds", "patterns_frames", *ENDPOINTS),
           ("fastdds", "fastcdr", "fmt"), module=PATTERNS),
+    Layer("patterns_dds_ros", (f"{PATTERNS}/dds/ros",), (), ("patterns_dds", "patterns_dds_backend", "ros", *ENDPOINTS),
+          ("fastdds", "fastcdr", "fmt"), module=PATTERNS),
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),
     Layer("layout_probe", ("cmake/plugin/layout_probe",), (), DEVICE),  # sees what any plugin can see
@@ -155,7 +157,7 @@ LAYERS = (
           "patterns_dds", "patterns_shm", "patterns_endpoints", "idl", "base"), module=HOST),
     Layer("host_judging", (f"{HOST}/run/judging",), ("orca/host/edge_choice.hpp", "orca/host/idleness.hpp",
           "orca/host/conclusion.hpp", "orca/host/robot_finder.hpp"), ("host", "graph", "base"), module=HOST),
-    Layer("host_run", (f"{HOST}/run",), ("orca/host/run_system.hpp",), ("host_judging", "host_part", "host_swap", "host_trial",
+    Layer("host_run", (f"{HOST}/run",), ("orca/host/run_system.hpp",), ("ros", "host_judging", "host_part", "host_swap", "host_trial",
           "host_system", "host_recording", "host", "host_containment", "graph", "hw_link", "base"), module=HOST),
     Layer("supervisor_channel", (f"{SUPERVISOR}/channel",), ("orca/supervisor/channel.hpp", "orca/supervisor/control.hpp",
           "orca/supervisor/message.hpp", "orca/supervisor/record.hpp", "orca/supervisor/vocabulary.hpp"), ("graph", "base"),

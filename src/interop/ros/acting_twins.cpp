@@ -89,16 +89,18 @@ Result<ObjectRef> to_command(const geometry_msgs::Twist& twist, TimePoint stamp,
   return finish(slide(twist.linear.x, twist.linear.y, twist.angular.z));
 }
 
-Result<ObjectRef> twist_to_command(std::span<const std::byte> payload, const MountOf& /*mount_of*/) {
+Result<ObjectRef> twist_to_command(std::span<const std::byte> payload, const MountOf& /*mount_of*/,
+                                   TimePoint came) {
   geometry_msgs::Twist twist;
   if (Status read = from_cdr(payload, twist); !read.ok()) return read.error();
-  return to_command(twist, TimePoint{}, {});
+  return to_command(twist, came, {});
 }
 
-Result<ObjectRef> stamped_to_command(std::span<const std::byte> payload, const MountOf& /*mount_of*/) {
+Result<ObjectRef> stamped_to_command(std::span<const std::byte> payload, const MountOf& /*mount_of*/,
+                                     TimePoint came) {
   geometry_msgs::TwistStamped message;
   if (Status read = from_cdr(payload, message); !read.ok()) return read.error();
-  return to_command(message.twist, to_instant(message.header.stamp), message.header.frame_id);
+  return to_command(message.twist, stamp_or(message.header.stamp, came), message.header.frame_id);
 }
 
 // --- Poses, paths, maps -----------------------------------------------------------------------------------

@@ -37,6 +37,11 @@ std::string frame_of(const Message& message) {
 
 }  // namespace detail
 
+/// Returns a message's stamp; if it has none, when it came.
+inline TimePoint stamp_or(const builtin_interfaces::Time& stamp, TimePoint came) {
+  return stamp == builtin_interfaces::Time{} ? came : to_instant(stamp);
+}
+
 /// Returns a twin of T, with its conversions. A null one: not in that direction.
 /// @tparam to    appends the messages of an object.
 /// @tparam from  fills an object from a message.
@@ -53,12 +58,13 @@ Twin make_twin(TwinUse use) {
       for (const Message& message : messages) payloads.push_back(to_cdr(message));
     };
   if constexpr (from != nullptr)
-    twin.from_ros = [](std::span<const std::byte> payload, const MountOf& mount_of) -> Result<ObjectRef> {
+    twin.from_ros = [](std::span<const std::byte> payload, const MountOf& mount_of,
+                       TimePoint came) -> Result<ObjectRef> {
       Message message;
       if (Status read = from_cdr(payload, message); !read.ok()) return read.error();
       Loan<T> object = make_object<T>();
       if (Status said = from(message, mount_of, *object); !said.ok()) return said.error();
-      object->creation_time(to_time_value(to_instant(detail::stamp_of(message))));
+      object->creation_time(to_time_value(stamp_or(detail::stamp_of(message), came)));
       object->origin(detail::frame_of(message));
       return std::move(object).seal().ref();
     };

@@ -267,6 +267,12 @@ std::vector<std::string> FakeCatalogue::unfit(PluginKind /*kind*/, const std::st
           "uses rand, which draws random numbers that the run's seed does not decide; use random(\"name\")"};
 }
 
+std::vector<std::string> FakeCatalogue::messages(const std::string& object_type, bool /*leave*/) const {
+  if (object_type == "LaserRangeReadings") return {"sensor_msgs/msg/LaserScan"};
+  if (object_type == "MotionCommand") return {"geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"};
+  return {};
+}
+
 std::vector<std::string> FakeCatalogue::type_names(PluginKind kind) const {
   std::vector<std::string> names;
   for (const auto& [name, contract] : types_)

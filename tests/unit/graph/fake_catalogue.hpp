@@ -28,6 +28,8 @@ class FakeCatalogue final : public orca::graph::Catalogue {
   std::vector<orca::graph::ComponentFault> try_components(const orca::graph::Graph& graph,
                                                           const orca::graph::Candidates& candidates) override;
   std::vector<std::string> unfit(orca::PluginKind kind, const std::string& type) override;
+  /// Laser scans have one message, motion commands two.
+  [[nodiscard]] std::vector<std::string> messages(const std::string& object_type, bool leave) const override;
   [[nodiscard]] std::vector<std::string> type_names(orca::PluginKind kind) const override;
 
   void add(orca::Contract contract) { types_[contract.type] = std::move(contract); }

@@ -162,18 +162,18 @@ TEST_CASE("a Twist is a motion command, and one that slides a HolonomicVelocity"
   REQUIRE(twin != nullptr);
   CHECK(twin->message == "geometry_msgs/msg/Twist");
   const Result<ObjectRef> ahead =
-      twin->from_ros(to_cdr(geometry_msgs::Twist{{0.25, 0.0, 0.0}, {0.0, 0.0, -0.5}}), {});
+      twin->from_ros(to_cdr(geometry_msgs::Twist{{0.25, 0.0, 0.0}, {0.0, 0.0, -0.5}}), {}, {});
   REQUIRE(ahead);
   const auto command = object_cast<idl::MotionCommand>(*ahead);
   CHECK(command->steering() == idl::BY_TURN_RATE);
   CHECK(command->speed() == 0.25);
   CHECK(command->turn_rate() == -0.5);
   CHECK_FALSE(command.as<idl::HolonomicVelocity>());
-  const Result<ObjectRef> aside = twin->from_ros(to_cdr(geometry_msgs::Twist{{0.0, 0.1, 0.0}, {}}), {});
+  const Result<ObjectRef> aside = twin->from_ros(to_cdr(geometry_msgs::Twist{{0.0, 0.1, 0.0}, {}}), {}, {});
   REQUIRE(aside);
   CHECK(object_cast<idl::HolonomicVelocity>(*aside)->left() == 0.1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(twin->from_ros(to_cdr(geometry_msgs::Twist{{nan, 0.0, 0.0}, {}}), {}));
+  CHECK_FALSE(twin->from_ros(to_cdr(geometry_msgs::Twist{{nan, 0.0, 0.0}, {}}), {}, {}));
 }
 
 TEST_CASE("a command is a Twist: a direction is a turn, a full stop is zero, no opinion is no message",
@@ -204,7 +204,7 @@ TEST_CASE("a laser's 0 and NaN mean that nothing came back, as +inf does", "[ros
   const float inf = std::numeric_limits<float>::infinity();
   message.ranges = {1.0F, 0.0F, std::nanf(""), inf, -inf, 9.0F};
   const Result<ObjectRef> object =
-      twin_from_ros(object_type<idl::LaserRangeReadings>())->from_ros(to_cdr(message), {});
+      twin_from_ros(object_type<idl::LaserRangeReadings>())->from_ros(to_cdr(message), {}, {});
   REQUIRE(object);
   CHECK(object_cast<idl::LaserRangeReadings>(*object)->ranges() ==
         std::vector<double>{1.0, 8.0, 8.0, 8.0, 0.25, 8.0});
@@ -281,12 +281,12 @@ TEST_CASE("what an object says to ROS comes back as an object that says the same
       std::vector<std::vector<std::byte>> payloads;
       twin.to_ros(object, payloads);
       REQUIRE(payloads.size() == 1);
-      const Result<ObjectRef> back = twin.from_ros(payloads.front(), {});
+      const Result<ObjectRef> back = twin.from_ros(payloads.front(), {}, {});
       REQUIRE(back);
       CHECK(&back->type() == &object.type());
       payloads.clear();
       twin.to_ros(*back, payloads);
-      const Result<ObjectRef> again = twin.from_ros(payloads.front(), {});
+      const Result<ObjectRef> again = twin.from_ros(payloads.front(), {}, {});
       REQUIRE(again);
       CHECK(again->type().equal(again->get(), back->get()));
       tried.insert(&twin.object);

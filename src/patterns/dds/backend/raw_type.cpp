@@ -20,6 +20,10 @@ void write(const Outgoing& sample, std::span<std::byte> to) {
     (void)sample.object->type().write(sample.object->get(), to);
     return;
   }
+  if (sample.size == sample.bytes.size()) {
+    std::memcpy(to.data(), sample.bytes.data(), sample.size);
+    return;
+  }
   const auto length = static_cast<std::uint32_t>(sample.bytes.size());
   std::memcpy(to.data(), &length, sizeof length);
   std::memcpy(to.data() + sizeof length, sample.bytes.data(), sample.bytes.size());

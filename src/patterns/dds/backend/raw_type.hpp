@@ -12,7 +12,7 @@
 
 namespace orca::dds {
 
-/// An object for a writer, or bytes that are to be a sequence<octet>.
+/// An object for a writer, bytes that are to be a sequence<octet>, or bytes that are a sample already: then `size` is theirs.
 struct Outgoing {
   const ObjectRef* object = nullptr;  ///< Null: the bytes.
   std::span<const std::byte> bytes{};

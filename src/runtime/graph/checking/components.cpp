@@ -33,7 +33,7 @@ class ComponentReader {
     checked_.value.hardware = node_.value("hardware");
     check_name(node_, "name", report_);
     read_contract();
-    read_ports(node_, checked_, report_);
+    read_ports(node_, checked_, types_.catalogue(), report_);
     read_scheduling();
     read_loading();
     read_trigger();

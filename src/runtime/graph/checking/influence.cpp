@@ -34,6 +34,11 @@ class Influence {
       providers_[user].insert(provider);
       used_.insert(provider);
     }
+    // Whoever reads a topic makes its component work.
+    for (const ComponentNode& node : graph.components)
+      for (const auto& [name, setting] : node.ports)
+        if (!setting.topic.empty())
+          connected_[node.name].insert(setting.alias.empty() ? name : setting.alias);
     find_idle();
   }
 
@@ -63,7 +68,8 @@ class Influence {
   }
 
   [[nodiscard]] bool works_by_itself(const ComponentNode& node) const {
-    return node.autonomous.value_or(false) || node.watchable ||
+    const auto has_topic = [](const auto& port) { return !port.second.topic.empty(); };
+    return node.autonomous.value_or(false) || node.watchable || std::ranges::any_of(node.ports, has_topic) ||
            std::ranges::find(graph_.ends, node.name) != graph_.ends.end();
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 class PortReader {
  public:
-  PortReader(const Node& component, CheckedComponent& checked, Report& report)
-      : component_(component), checked_(checked), report_(report) {}
+  PortReader(const Node& component, CheckedComponent& checked, const Catalogue& catalogue, Report& report)
+      : component_(component), checked_(checked), catalogue_(catalogue), report_(report) {}
 
   void read(const Node& node) {
     const Text* name = node.known("name");
@@ -28,7 +29,8 @@ class PortReader {
     title_ = component_.title() + ": port " + in_quotes(name->value);
     PortSetting setting;
     setting.disabled = read_disabled(node, *port);
-    if (setting.disabled && node.find("as") == nullptr && node.find("candidates") == nullptr) {
+    if (setting.disabled && node.find("as") == nullptr && node.find("candidates") == nullptr &&
+        node.find("topic") == nullptr) {
       disabled_.push_back(port->name);
       checked_.disabled[port->name] = node.position;
     } else if (setting.disabled) {
@@ -38,18 +40,22 @@ class PortReader {
     }
     setting.alias = read_alias(node, *port);
     read_candidates(node, setting.alias.empty() ? port->name : setting.alias, *port);
-    if (setting.disabled || !setting.alias.empty()) checked_.value.ports[port->name] = setting;
+    read_topic(node, *port, setting);
+    if (setting.disabled || !setting.alias.empty() || !setting.topic.empty())
+      checked_.value.ports[port->name] = setting;
   }
 
   // Applies the changes at the end, so that every <port> sees the author's names. Other components of the type keep theirs.
   void apply() {
-    if (disabled_.empty() && checked_.renamed.empty() && wrongly_disabled_.empty()) return;
+    if (disabled_.empty() && checked_.renamed.empty() && wrongly_disabled_.empty() && with_topic_.empty())
+      return;
     const auto changed = std::make_shared<Contract>(*checked_.contract);
     Contract& contract = *changed;
     std::erase_if(contract.ports, [&](const PortContract& port) {
       return std::ranges::find(disabled_, port.name) != disabled_.end();
     });
     for (PortContract& port : contract.ports) {
+      if (with_topic_.contains(port.name)) port.required = false;
       const auto renaming = checked_.renamed.find(port.name);
       if (std::ranges::find(wrongly_disabled_, port.name) != wrongly_disabled_.end())
         checked_.wrongly_disabled.insert(renaming == checked_.renamed.end() ? port.name
@@ -138,19 +144,75 @@ class PortReader {
                       "use <connect>");
   }
 
+  // --- Topics
+
+  void read_topic(const Node& node, const PortContract& port, PortSetting& setting) {
+    const Text* const topic = node.known("topic");
+    const Text* const message = node.known("message");
+    if (topic == nullptr) {
+      if (message != nullptr)
+        report_.error(codes::kTopic, message->position,
+                      title_ + ": message has a meaning only with topic; remove it");
+      return;
+    }
+    with_topic_.insert(port.name);  // what is wrong with it is reported here
+    if (const std::string fault = topic_fault(topic->value); !fault.empty())
+      return report_.error(codes::kTopic, topic->position,
+                           title_ + ": topic " + in_quotes(topic->value) + ": " + fault);
+    if (component_.value("start") == "on_demand")
+      return report_.error(
+          codes::kTopic, topic->position,
+          title_ + ": a component that starts on demand has no topics; remove start or topic");
+    const std::vector<std::string> messages = port.pattern == Pattern::query
+                                                  ? std::vector<std::string>{}
+                                                  : catalogue_.messages(port.type.name, is_from_end(port));
+    if (messages.empty())
+      return report_.error(codes::kTopic, topic->position,
+                           title_ + " (" + described(port) + ") has no topic: ROS 2 has no message for " +
+                               (port.pattern == Pattern::query ? "questions" : port.type.name));
+    if (message != nullptr && std::ranges::find(messages, message->value) == messages.end())
+      return report_.error(codes::kTopic, message->position,
+                           title_ + ": message " + in_quotes(message->value) + " does not fit " +
+                               port.type.name + "; expected " + listed(messages) +
+                               xml::did_you_mean(report_.nearest(message->value, messages)));
+    setting.topic = topic->value;
+    if (message != nullptr) setting.message = message->value;
+  }
+
+  // Names of ROS 2: tokens of letters, digits and '_' that begin with no digit.
+  static std::string topic_fault(const std::string& topic) {
+    constexpr std::size_t kLongest = 200;
+    if (topic.empty() || topic.front() != '/') return "expected a name that begins with '/', such as /scan";
+    if (topic.size() > kLongest) return "it is longer than 200 characters";
+    char before = 'a';
+    for (const char c : topic + "/") {
+      const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+      const bool digit = c >= '0' && c <= '9';
+      if (c != '/' && !letter && !digit)
+        return std::string("'") + c + "' cannot be in it; letters, digits and '_' can";
+      if (digit && before == '/') return "no part of it begins with a digit";
+      if (c == '/' && before == '/') return "a part between two '/', or the last one, is empty";
+      if (c == '_' && before == '_') return "'__' cannot be in it";
+      before = c;
+    }
+    return {};
+  }
+
   const Node& component_;
   CheckedComponent& checked_;
+  const Catalogue& catalogue_;
   Report& report_;
   std::string title_;
   std::vector<std::string> disabled_;
   std::vector<std::string> wrongly_disabled_;
+  std::set<std::string> with_topic_;
 };
 
 }  // namespace
 
-void read_ports(const Node& node, CheckedComponent& component, Report& report) {
+void read_ports(const Node& node, CheckedComponent& component, const Catalogue& catalogue, Report& report) {
   if (!component.contract || !component.ports_known) return;
-  PortReader reader(node, component, report);
+  PortReader reader(node, component, catalogue, report);
   for (const Node& child : node.children)
     if (child.is("port")) reader.read(child);
   reader.apply();

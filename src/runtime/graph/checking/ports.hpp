@@ -2,13 +2,15 @@
 #pragma once
 
 #include "model.hpp"
+#include "orca/graph/catalogue.hpp"
 #include "reading/node.hpp"
 #include "reading/report.hpp"
 
 namespace orca::graph {
 
-// Reads the <port>s of a component and changes its contract accordingly: new names, ports left out.
-void read_ports(const Node& node, CheckedComponent& component, Report& report);
+// Reads the <port>s of a component and changes its contract accordingly: new names, ports left out, ports with a topic that need no
+// connection any more.
+void read_ports(const Node& node, CheckedComponent& component, const Catalogue& catalogue, Report& report);
 
 // Returns the ports of a contract for people: "in: laser, sonar; out: motion".
 std::string ports_of(const Contract& contract);

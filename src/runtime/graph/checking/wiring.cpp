@@ -235,7 +235,14 @@ class Wiring {
 
   bool takes_one_more(const Edge& edge, const Endpoint& from, const Endpoint& to) {
     const Endpoint& proxy = from.port->role == Role::proxy ? from : to;
-    return proxy.port->many || single_.add(edge, proxy);
+    if (proxy.port->many) return true;
+    const CheckedComponent* const component = model_.component(proxy.ref.component);
+    const std::string topic = component == nullptr ? "" : topic_of(component->value, proxy.ref.port);
+    if (topic.empty()) return single_.add(edge, proxy);
+    report_.error(
+        codes::kTopic, edge.position,
+        described(proxy) + " hears topic " + topic + " already; remove the topic or the connection");
+    return false;
   }
 
   void check_connected(const CheckedComponent& component, const PortContract& port) {

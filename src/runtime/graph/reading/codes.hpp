@@ -77,5 +77,6 @@ inline constexpr const char* kTrade = "G072";
 inline constexpr const char* kGroup = "G073";
 inline constexpr const char* kChange = "G074";
 inline constexpr const char* kRight = "G075";
+inline constexpr const char* kTopic = "G076";
 
 }  // namespace orca::graph::codes

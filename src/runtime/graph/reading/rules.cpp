@@ -264,7 +264,11 @@ constexpr std::array kPort{
     AttributeRule{
         "candidates", false,
         "What a port array may be connected to at run time, by name: components, component.ports, or terms "
-        "as in seek that the components meet."}};
+        "as in seek that the components meet."},
+    AttributeRule{"topic", false, "Topic of ROS 2 on which the port speaks as well, for example /scan."},
+    AttributeRule{"message", false,
+                  "What is said on that topic, for example geometry_msgs/msg/TwistStamped; the usual message "
+                  "for the port's type if not given."}};
 constexpr std::array kInclude{
     AttributeRule{"file", true, "Path of the graph file, relative to the folder of this file."}};
 constexpr std::array kUse{

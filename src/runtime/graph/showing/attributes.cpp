@@ -129,6 +129,8 @@ Attributes attributes_of(const PortSetting& setting) {
   std::vector<std::string> candidates;
   for (const PortRef& candidate : setting.candidates) candidates.push_back(candidate.text());
   add(result, "candidates", joined(candidates, " "));
+  add(result, "topic", setting.topic);
+  add(result, "message", setting.message);
   return result;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/host/catalogue.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "orca/base/text.hpp"
 #include "orca/hw/link/make_link.hpp"
+#include "orca/ros/twin.hpp"
 #include "trial/rehearsal.hpp"
 
 namespace orca::host {
@@ -206,6 +208,23 @@ std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::stri
   for (const std::string& fault : found->library->virtual_time_faults())
     reasons.push_back("cannot run in virtual time: " + file + " " + fault);
   return reasons;
+}
+
+std::vector<std::string> PluginCatalogue::messages(const std::string& object_type, bool leave) const {
+  std::vector<std::string> names;
+  const ObjectType* const type = find_object_type(object_type);
+  const ros::Twin* const usual = type == nullptr ? nullptr
+                                 : leave         ? ros::twin_to_ros(*type)
+                                                 : ros::twin_from_ros(*type);
+  if (usual == nullptr) return names;
+  names.emplace_back(usual->message);
+  for (const ros::Twin& twin : ros::twins()) {
+    const ros::Twin* const found =
+        leave ? ros::twin_to_ros(*type, twin.message) : ros::twin_from_ros(*type, twin.message);
+    if (found != nullptr && std::ranges::find(names, twin.message) == names.end())
+      names.emplace_back(twin.message);
+  }
+  return names;
 }
 
 std::vector<std::string> PluginCatalogue::type_names(PluginKind kind) const { return index_.types(kind); }

@@ -129,14 +129,17 @@ void transfer(auto& archive, Trigger& trigger) {
   transfer(archive, trigger.within);
 }
 
-// Ports are transferred by name; what a component may subscribe to by name is not.
+// What a component may subscribe to by name is not transferred.
+void transfer(auto& archive, graph::PortSetting& setting) {
+  transfer_all(archive, setting.alias, setting.topic, setting.message);
+}
+
 void transfer(auto& archive, graph::ComponentNode& node) {
   transfer_all(archive, node.name, node.type, node.hardware, node.process, node.priority, node.autonomous,
                node.watchable, node.trigger, node.restore_last, node.may_set);
-  std::vector<std::pair<std::string, std::string>> aliases;
-  for (const auto& [port, setting] : node.ports) aliases.emplace_back(port, setting.alias);
-  transfer(archive, aliases);
-  for (const auto& [port, alias] : aliases) node.ports[port].alias = alias;
+  std::vector<std::pair<std::string, graph::PortSetting>> ports(node.ports.begin(), node.ports.end());
+  transfer(archive, ports);
+  for (auto& [port, setting] : ports) node.ports[port] = std::move(setting);
 }
 
 void transfer(auto& archive, Cell& cell) {

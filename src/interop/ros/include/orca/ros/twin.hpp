@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/object.hpp"
 
@@ -39,10 +40,11 @@ struct Twin {
   /// Appends the messages of an object of that type or a derived one: as a rule one, of a ring of sonars one for each, and of an object
   /// that has nothing to say to ROS none. Null: not in this direction.
   void (*to_ros)(const ObjectRef& object, std::vector<std::vector<std::byte>>& payloads);
-  /// Returns the object that a message says. Its header's creation_time is the message's stamp, its origin the message's frame.
+  /// Returns the object that a message says. Its header's creation_time is the message's stamp, or if it has none when it came; its
+  /// origin is the message's frame.
   /// @param mount_of  where sensors are. What is not known is taken to be in the middle of the robot.
   /// @errors  data_loss for bytes that are no such message, or that no such object can say. Null: not in this direction.
-  Result<ObjectRef> (*from_ros)(std::span<const std::byte> payload, const MountOf& mount_of);
+  Result<ObjectRef> (*from_ros)(std::span<const std::byte> payload, const MountOf& mount_of, TimePoint came);
 };
 
 /// Returns all twins. Of several of one object type the most usual comes first.

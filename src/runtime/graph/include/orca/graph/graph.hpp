@@ -46,6 +46,8 @@ struct PortSetting {
   std::string alias;                ///< Its name in the graph; empty: the author's name.
   bool disabled = false;            ///< Nothing may be connected to it.
   std::vector<PortRef> candidates;  ///< Ports that the component may subscribe to at run time, by name.
+  std::string topic;                ///< Of ROS 2, on which it speaks as well: "/scan"; empty: none.
+  std::string message;  ///< What is said there: "sensor_msgs/msg/LaserScan"; empty: what is usual for the port's type.
 
   friend bool operator==(const PortSetting&, const PortSetting&) = default;
 };
@@ -78,6 +80,9 @@ struct ComponentNode {
 
   friend bool operator==(const ComponentNode&, const ComponentNode&) = default;
 };
+
+/// Returns the topic of a port by its name in the graph; empty if it has none.
+[[nodiscard]] std::string topic_of(const ComponentNode& node, const std::string& port);
 
 /// Components that an operator orders about by one name.
 struct GroupNode {

@@ -55,6 +55,7 @@ class PluginCatalogue final : public graph::Catalogue {
   /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual
   /// time.
   [[nodiscard]] std::vector<std::string> unfit(PluginKind kind, const std::string& type) override;
+  [[nodiscard]] std::vector<std::string> messages(const std::string& object_type, bool leave) const override;
   [[nodiscard]] std::vector<std::string> type_names(PluginKind kind) const override;
 
   /// Returns the folders of the plugins, those of the graph last.

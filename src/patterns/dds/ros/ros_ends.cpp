@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "ros_ends.hpp"
+
+#include <utility>
+
+#include "orca/base/log.hpp"
+
+namespace orca::dds::of_ros {
+namespace {
+
+constexpr std::size_t kMostQueued = std::size_t{4} << 20;  // [bytes] that wait for the outbox
+constexpr std::size_t kMostWaiting = 256;                  // objects that wait for a strand
+
+}  // namespace
+
+// --- Out --------------------------------------------------------------------------------------------------
+
+bool RosPublication::write(const ObjectRef& object, std::size_t /*size*/, const Label& /*label*/) {
+  // An object of a derived type may say more in the same message.
+  const ros::Twin* const twin = ros::twin_to_ros(object.type(), message_);
+  if (twin == nullptr) return false;
+  std::vector<std::vector<std::byte>> payloads;
+  twin->to_ros(object, payloads);
+  for (const std::vector<std::byte>& payload : payloads) writer_->write(payload);
+  frames_.say(object);
+  return true;
+}
+
+bool RosPublication::write(std::vector<std::byte> /*messages*/) { return false; }
+
+void RosPublication::post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object,
+                          Outbox& outbox) {
+  if (to->queued.load(std::memory_order_relaxed) >= kMostQueued) return;
+  outbox.post({to, object, {}, {}, object.type().write(object.get(), {})});
+}
+
+PushToRos::PushToRos(Strand& strand, PushSource& source, std::shared_ptr<RosPublication> publication,
+                     Outbox& outbox, std::shared_ptr<Bell> bell, bool always)
+    : strand_(strand),
+      source_(source),
+      publication_(std::move(publication)),
+      outbox_(outbox),
+      bell_(std::move(bell)),
+      always_(always) {
+  strand_.add_intake(*this);
+}
+
+PushToRos::~PushToRos() {
+  bell_->remove();
+  strand_.remove_intake(*this);
+  const MutexLock lock(mutex_);
+  if (attached_) source_.detach();
+}
+
+std::optional<Duration> PushToRos::deliver(ObjectRef&& object) {
+  RosPublication::post(publication_, object, outbox_);
+  return std::nullopt;
+}
+
+bool PushToRos::take_in() {
+  if (!mutex_.try_lock()) return false;
+  const MutexLock lock(mutex_, std::adopt_lock);
+  const bool wanted = always_ || publication_->has_readers();
+  if (wanted == attached_) return false;
+  attached_ = wanted;
+  if (wanted)
+    source_.attach(*this, {});
+  else
+    source_.detach();
+  return true;
+}
+
+std::optional<Status> SendToRos::offer(const ObjectRef& object, SendReplySink& /*reply_to*/, RequestId /*id*/,
+                                       bool /*may_wait*/) {
+  if (!publication_->has_readers())
+    return fail(Code::unavailable, "nobody reads topic " + topic_ + " of ROS 2");
+  RosPublication::post(publication_, object, outbox_);
+  return ok();
+}
+
+// --- In ---------------------------------------------------------------------------------------------------
+
+RosIntake::RosIntake(Strand& strand, std::string user, std::string topic, const ros::Twin& twin,
+                     RosFrames& frames)
+    : strand_(strand), user_(std::move(user)), topic_(std::move(topic)), twin_(twin), frames_(frames) {}
+
+Status RosIntake::open(RosParticipant& participant, const RosChannel& channel) {
+  auto reader =
+      participant.make_reader(channel, [this](std::span<const std::byte> payload) { hear(payload); });
+  if (!reader) return reader.error();
+  reader_ = std::move(reader).value();
+  strand_.add_intake(*this);
+  return ok();
+}
+
+void RosIntake::close() {
+  if (reader_ == nullptr) return;
+  reader_.reset();
+  strand_.remove_intake(*this);
+}
+
+void RosIntake::hear(std::span<const std::byte> payload) {
+  const auto mount_of = [this](const std::string& frame) { return frames_.mount_of(frame); };
+  Result<ObjectRef> object = twin_.from_ros(payload, mount_of, strand_.executive().now());
+  if (!object) {
+    if (!complained_.exchange(true))
+      log::warning(user_, "a message of topic " + topic_ +
+                              " is dropped, and others like it without a word: " + object.error().message);
+    return;
+  }
+  {
+    const MutexLock lock(mutex_);
+    waiting_.push_back(std::move(object).value());
+    if (waiting_.size() > kMostWaiting) {
+      waiting_.pop_front();
+      ++lost_;
+    }
+  }
+  strand_.wake();
+}
+
+bool RosIntake::take_in() {
+  if (!reading_.try_lock()) return false;
+  const MutexLock reading(reading_, std::adopt_lock);
+  std::deque<ObjectRef> taken;
+  std::uint64_t lost = 0;
+  {
+    const MutexLock lock(mutex_);
+    taken.swap(waiting_);
+    lost = std::exchange(lost_, 0);
+  }
+  if (lost > 0) pass_on_losses(lost);
+  for (ObjectRef& object : taken) pass_on(std::move(object));
+  return !taken.empty();
+}
+
+void RosToPush::attach(PushSink& sink, const UpdateRate& rate) {
+  const MutexLock lock(mutex_);
+  sink_ = &sink;
+  rate_ = rate;
+  sink.granted(grant_rate(rate, Duration{0}));
+}
+
+void RosToPush::detach() {
+  const MutexLock lock(mutex_);
+  sink_ = nullptr;
+}
+
+void RosToPush::change(const UpdateRate& rate) {
+  const MutexLock lock(mutex_);
+  rate_ = rate;
+  if (sink_ != nullptr) sink_->granted(grant_rate(rate, Duration{0}));
+}
+
+void RosToPush::pass_on(ObjectRef object) {
+  const MutexLock lock(mutex_);
+  if (sink_ == nullptr || count_++ % rate_.multiple != 0) return;
+  const TimePoint now = strand().executive().now();
+  if (rate_.interval > Duration{0} && now < next_) return;
+  next_ = now + rate_.interval;
+  // A publisher of ROS waits for nobody.
+  if (sink_->deliver(std::move(object)).has_value()) sink_->give_up(object);
+}
+
+void RosToPush::pass_on_losses(std::uint64_t objects) {
+  const MutexLock lock(mutex_);
+  if (sink_ != nullptr) sink_->lost(objects);
+}
+
+void RosToSend::pass_on(ObjectRef object) {
+  if (std::optional<Status> answer = target_->offer(object, *this, next_++, false)) reply(next_, *answer);
+}
+
+void RosToSend::pass_on_losses(std::uint64_t objects) {
+  log::warning(user(), std::to_string(objects) + " messages of topic " + topic() +
+                           " came faster than they were handled, and are lost");
+}
+
+void RosToSend::reply(RequestId /*id*/, Status answer) {
+  if (answer.ok()) {
+    refused_ = false;
+  } else if (!refused_.exchange(true)) {
+    log::warning(user(), "refuses what comes on topic " + topic() + ": " + answer.error().message);
+  }
+}
+
+}  // namespace orca::dds::of_ros

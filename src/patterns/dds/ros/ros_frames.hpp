@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "orca/base/mutex.hpp"
+#include "orca/ros/frame_tree.hpp"
+#include "ros_participant.hpp"
+
+namespace orca::dds::of_ros {
+
+/// The transforms that this process says on /tf and /tf_static, and what others say there.
+///
+/// Thread contract: publish() and listen() before the components run; say() from one thread; mount_of() from any.
+class RosFrames {
+ public:
+  explicit RosFrames(RosParticipant& participant) : participant_(participant) {}
+
+  /// Begins to say what objects tell of frames. Once is enough.
+  /// @errors  those of make_writer().
+  Status publish();
+  /// Begins to hear what others say. Once is enough.
+  /// @errors  those of make_reader().
+  Status listen();
+
+  /// Says what an object tells of a frame, after publish(). What does not move is said again only if it has changed.
+  void say(const ObjectRef& object);
+  [[nodiscard]] std::optional<idl::Frame3D> mount_of(const std::string& frame) const;
+
+  /// Returns the names of its writers and readers.
+  [[nodiscard]] std::vector<Gid> writers() const;
+  [[nodiscard]] std::vector<Gid> readers() const;
+
+ private:
+  Result<std::unique_ptr<RosReader>> hear(const std::string& topic, bool is_latched);
+  void say_static(const ros::tf2_msgs::TFMessage& message);
+
+  RosParticipant& participant_;
+  mutable Mutex mutex_;
+  ros::FrameTree tree_ ORCA_GUARDED_BY(mutex_);
+  std::map<std::string, ros::geometry_msgs::TransformStamped>
+      mounted_;  // by child; what was said on /tf_static
+  std::shared_ptr<RosWriter> moving_;
+  std::shared_ptr<RosWriter> static_;
+  std::unique_ptr<RosReader> heard_moving_;  // after tree_, which their callbacks use
+  std::unique_ptr<RosReader> heard_static_;
+};
+
+}  // namespace orca::dds::of_ros
