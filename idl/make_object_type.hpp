@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "orca/idl/cdr_reader.hpp"
-#include "orca/idl/cdr_writer.hpp"
 #include "dump_writer.hpp"
 #include "make_value.hpp"
+#include "orca/idl/cdr_reader.hpp"
+#include "orca/idl/cdr_writer.hpp"
 #include "orca/idl/generated/object.h"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/time.hpp"

@@ -28,7 +28,7 @@ DEBTS = {
     ("ControlDesk", "collaborators"): 12, ("HostedPart", "collaborators"): 11, ("Robot", "collaborators"): 11,
     ("OrderDesk", "collaborators"): 10, ("Run", "collaborators"): 10, ("Swap", "collaborators"): 11, ("Life", "collaborators"): 8,
     ("PortSet", "collaborators"): 8, ("QuietRun", "collaborators"): 8, ("Reporter", "collaborators"): 8,
-    ("Shadow", "collaborators"): 8, ("System", "collaborators"): 8, ("Renewal", "collaborators"): 9,
+    ("Shadow", "collaborators"): 8, ("System", "collaborators"): 9, ("Renewal", "collaborators"): 9,
 }
 _KEYS = ("class", "struct")
 _NO_MEMBER_FUNCTION = {"using", "typedef", "friend", "static_assert", "enum", "class", "struct", "union"}

@@ -144,7 +144,7 @@ LAYERS = (
     Layer("host_hardware", (f"{HOST}/run/hardware",), (), ("host_reporting", "host", "host_containment", "plugin", "hw_api",
           "base"), module=HOST),
     Layer("host_system", (f"{HOST}/run/system",), (), ("host_hardware", "host_component", "host_reporting",
-          "host_recording", "host", "host_containment", "graph", "hw_api", "patterns_local", "patterns_endpoints", "base"),
+          "host_recording", "host", "host_containment", "graph", "hw_api", "patterns_dds", "patterns_local", "patterns_endpoints", "base"),
           module=HOST),
     Layer("host_trial", (f"{HOST}/run/trial",), (), ("host_system", "host_component", "host_reporting", "host_recording",
           "host", "host_containment", "plugin", "graph", "patterns_local", "patterns_endpoints", "idl", "base"),

@@ -20,9 +20,10 @@
 namespace orca::ros {
 namespace {
 
-// Where a command says a direction, a Twist turns there in about this time [s], at most at that rate [rad/s].
-constexpr double kTimeToTurn = 0.5;
-constexpr double kFastestTurn = 1.5;
+// Where a command says a direction, a Twist turns there in about this time [s], at most at that rate [rad/s]: what a
+// MotionCommandFuser does unless it is told otherwise.
+constexpr double kTimeToTurn = 1.0;
+constexpr double kFastestTurn = 1.0;
 // How exactly a PoseStamped is to be reached, which it does not say.
 constexpr double kReachRadius = 0.25;  // [m]
 constexpr double kReachAngle = 0.25;   // [rad]

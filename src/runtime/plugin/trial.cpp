@@ -342,7 +342,8 @@ Status survives_trial(const std::function<void(const Step&)>& attempt, Duration 
   switch (tried.ending) {
     case Ending::well: return ok();
     case Ending::silent:
-      if (tried.text.empty()) throw std::bad_alloc();  // the copy found no memory, so neither would this process
+      if (tried.text.empty())
+        throw std::bad_alloc();  // the copy found no memory, so neither would this process
       if (tried.last_step.empty()) return fail(Code::unavailable, tried.text);
       [[fallthrough]];
     case Ending::too_long: return fail(Code::deadline_exceeded, tried.last_step + " " + tried.text);

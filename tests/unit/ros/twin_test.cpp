@@ -190,7 +190,7 @@ TEST_CASE("a command is a Twist: a direction is a turn, a full stop is zero, no 
   const auto aside = sent(head(std::numbers::pi / 2.0, 0.2).operator ObjectPtr<idl::MotionCommand>());
   REQUIRE(aside.size() == 1);
   CHECK(aside[0].linear.x == Approx(0.0).margin(1e-9));
-  CHECK(aside[0].angular.z == 1.5);
+  CHECK(aside[0].angular.z == 1.0);
   CHECK(sent(full_stop().operator ObjectPtr<idl::MotionCommand>()) == std::vector{geometry_msgs::Twist{}});
   CHECK(sent(dont_care().operator ObjectPtr<idl::MotionCommand>()).empty());
   CHECK(sent(slide(0.2, 0.1, 0.3).operator ObjectPtr<idl::HolonomicVelocity>()) ==

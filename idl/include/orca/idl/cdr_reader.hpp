@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "orca/idl/cdr_writer.hpp"
 #include "orca/base/result.hpp"
+#include "orca/idl/cdr_writer.hpp"
 #include "orca/idl/reflection.hpp"
 
 namespace orca::detail {

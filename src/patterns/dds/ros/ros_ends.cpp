@@ -35,13 +35,13 @@ void RosPublication::post(const std::shared_ptr<RosPublication>& to, const Objec
 }
 
 PushToRos::PushToRos(Strand& strand, PushSource& source, std::shared_ptr<RosPublication> publication,
-                     Outbox& outbox, std::shared_ptr<Bell> bell, bool always)
+                     Outbox& outbox, std::shared_ptr<Bell> bell, Unread unread)
     : strand_(strand),
       source_(source),
       publication_(std::move(publication)),
       outbox_(outbox),
       bell_(std::move(bell)),
-      always_(always) {
+      unread_(unread) {
   strand_.add_intake(*this);
 }
 
@@ -54,13 +54,15 @@ PushToRos::~PushToRos() {
 
 std::optional<Duration> PushToRos::deliver(ObjectRef&& object) {
   RosPublication::post(publication_, object, outbox_);
+  Unread first = Unread::first;
+  if (unread_.compare_exchange_strong(first, Unread::nothing)) bell_->ring();  // it may leave now
   return std::nullopt;
 }
 
 bool PushToRos::take_in() {
   if (!mutex_.try_lock()) return false;
   const MutexLock lock(mutex_, std::adopt_lock);
-  const bool wanted = always_ || publication_->has_readers();
+  const bool wanted = unread_ != Unread::nothing || publication_->has_readers();
   if (wanted == attached_) return false;
   attached_ = wanted;
   if (wanted)

@@ -60,14 +60,20 @@ class Bell {
   Strand* strand_ ORCA_GUARDED_BY(mutex_);
 };
 
+/// The objects for which a port is subscribed to without readers of its topic.
+enum class Unread {
+  nothing,
+  first,  ///< The first object, which says where a sensor is mounted.
+  all     ///< The latest object, for readers that come later.
+};
+
 /// The client of a PushServer that publishes its objects. It is subscribed while somebody reads the topic.
 ///
 /// Thread contract: as PushSink and Intake.
 class PushToRos final : public PushSink, public Intake, public LinkEnd {
  public:
-  /// @param always  whether it is subscribed without readers as well.
   PushToRos(Strand& strand, PushSource& source, std::shared_ptr<RosPublication> publication, Outbox& outbox,
-            std::shared_ptr<Bell> bell, bool always);
+            std::shared_ptr<Bell> bell, Unread unread);
   ~PushToRos() override;
 
   std::optional<Duration> deliver(ObjectRef&& object) override;
@@ -82,7 +88,7 @@ class PushToRos final : public PushSink, public Intake, public LinkEnd {
   const std::shared_ptr<RosPublication> publication_;
   Outbox& outbox_;
   const std::shared_ptr<Bell> bell_;
-  const bool always_;
+  std::atomic<Unread> unread_;
   Mutex mutex_;  // held by whoever subscribes or ends that
   bool attached_ ORCA_GUARDED_BY(mutex_) = false;
 };

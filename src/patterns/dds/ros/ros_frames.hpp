@@ -11,21 +11,21 @@
 
 namespace orca::dds::of_ros {
 
-/// The transforms that this process says on /tf and /tf_static, and what others say there.
+/// The transforms that this process says on /tf and /tf_static, and those that others say there.
 ///
 /// Thread contract: publish() and listen() before the components run; say() from one thread; mount_of() from any.
 class RosFrames {
  public:
   explicit RosFrames(RosParticipant& participant) : participant_(participant) {}
 
-  /// Begins to say what objects tell of frames. Once is enough.
+  /// Begins to say what objects know of frames. Once is enough.
   /// @errors  those of make_writer().
   Status publish();
   /// Begins to hear what others say. Once is enough.
   /// @errors  those of make_reader().
   Status listen();
 
-  /// Says what an object tells of a frame, after publish(). What does not move is said again only if it has changed.
+  /// Says what an object knows of a frame, after publish(). Mounts are said again only if they have changed.
   void say(const ObjectRef& object);
   [[nodiscard]] std::optional<idl::Frame3D> mount_of(const std::string& frame) const;
 

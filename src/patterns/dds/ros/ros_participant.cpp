@@ -47,7 +47,7 @@ std::string dds_topic(const RosChannel& channel) {
   return channel.name.starts_with('/') ? "rt" + channel.name : channel.name;
 }
 
-// What the middlewares of ROS 2 put there, so that their tools show the type's version.
+// The user data that the middlewares of ROS 2 give an endpoint, so that their tools show the type's version.
 std::string type_hash(const RosChannel& channel) {
   const auto type = ros::standard_message_type(channel.message);
   return type && !type->hash.empty() ? "typehash=RIHS01_" + type->hash + ";" : "";

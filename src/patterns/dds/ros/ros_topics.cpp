@@ -42,6 +42,11 @@ bool is_stream(const ObjectType& type) {
          is_a(type, object_type<idl::MotionCommand>()) || is_a(type, object_type<idl::Battery>());
 }
 
+Unread unread_of(const ObjectType& type, const ros::Twin& twin) {
+  if (twin.is_latched) return Unread::all;
+  return needs_frames(type) ? Unread::first : Unread::nothing;
+}
+
 class FastRosTopics final : public RosTopics {
  public:
   explicit FastRosTopics(std::unique_ptr<RosParticipant> participant)
@@ -107,7 +112,7 @@ class FastRosTopics final : public RosTopics {
     if (!publication) return publication.error();
     server.adopt(std::make_unique<PushToRos>(strand, server.connect(topic.name),
                                              std::move(publication).value(), outbox_, std::move(bell),
-                                             twin->is_latched));
+                                             unread_of(type_of(server), *twin)));
     return ok();
   }
 
@@ -186,7 +191,7 @@ class FastRosTopics final : public RosTopics {
     nodes_writer_->write(ros::to_cdr(info));
   }
 
-  // What a component reads and writes.
+  // The readers and writers of a component.
   struct Node {
     std::vector<Gid> readers;
     std::vector<Gid> writers;

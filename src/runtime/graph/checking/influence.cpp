@@ -35,10 +35,10 @@ class Influence {
       used_.insert(provider);
     }
     // Whoever reads a topic makes its component work.
-    for (const ComponentNode& node : graph.components)
-      for (const auto& [name, setting] : node.ports)
+    for (const CheckedComponent& component : model.components)
+      for (const auto& [name, setting] : component.value.ports)
         if (!setting.topic.empty())
-          connected_[node.name].insert(setting.alias.empty() ? name : setting.alias);
+          connected_[component.value.name].insert(setting.alias.empty() ? name : setting.alias);
     find_idle();
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <set>
+#include <string_view>
 
 #include "endpoints.hpp"
 #include "orca/base/text.hpp"
@@ -14,6 +15,34 @@
 
 namespace orca::graph {
 namespace {
+
+// Names of ROS 2 are tokens of letters, digits and '_' that begin with no digit. Returns what is wrong with one; empty if nothing is.
+std::string token_fault(std::string_view token) {
+  constexpr auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  constexpr auto is_good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c >= '0' && c <= '9');
+  };
+  if (token.empty()) return "a part between two '/', or the last one, is empty";
+  if (is_digit(token.front())) return "no part of it begins with a digit";
+  if (const auto bad = std::ranges::find_if_not(token, is_good); bad != token.end())
+    return std::string("'") + *bad + "' cannot be in it; letters, digits and '_' can";
+  return token.find("__") == std::string_view::npos ? "" : "'__' cannot be in it";
+}
+
+// Returns what is wrong with the name of a topic; empty if nothing is.
+std::string topic_fault(std::string_view topic) {
+  constexpr std::size_t kLongest = 200;
+  if (!topic.starts_with('/')) return "expected a name that begins with '/', such as /scan";
+  if (topic.size() > kLongest) return "it is longer than 200 characters";
+  std::string fault;
+  while (fault.empty() && !topic.empty()) {
+    topic.remove_prefix(1);  // the slash
+    const std::string_view token = topic.substr(0, topic.find('/'));
+    fault = token_fault(token);
+    topic.remove_prefix(token.size());
+  }
+  return fault;
+}
 
 class PortReader {
  public:
@@ -177,25 +206,6 @@ class PortReader {
                                xml::did_you_mean(report_.nearest(message->value, messages)));
     setting.topic = topic->value;
     if (message != nullptr) setting.message = message->value;
-  }
-
-  // Names of ROS 2: tokens of letters, digits and '_' that begin with no digit.
-  static std::string topic_fault(const std::string& topic) {
-    constexpr std::size_t kLongest = 200;
-    if (topic.empty() || topic.front() != '/') return "expected a name that begins with '/', such as /scan";
-    if (topic.size() > kLongest) return "it is longer than 200 characters";
-    char before = 'a';
-    for (const char c : topic + "/") {
-      const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-      const bool digit = c >= '0' && c <= '9';
-      if (c != '/' && !letter && !digit)
-        return std::string("'") + c + "' cannot be in it; letters, digits and '_' can";
-      if (digit && before == '/') return "no part of it begins with a digit";
-      if (c == '/' && before == '/') return "a part between two '/', or the last one, is empty";
-      if (c == '_' && before == '_') return "'__' cannot be in it";
-      before = c;
-    }
-    return {};
   }
 
   const Node& component_;

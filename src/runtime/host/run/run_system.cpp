@@ -21,7 +21,6 @@
 #include "orca/host/last_words.hpp"
 #include "orca/host/robot_finder.hpp"
 #include "part/open_run.hpp"
-#include "part/topics.hpp"
 #include "recording/run_files.hpp"
 #include "swap/rewiring.hpp"
 #include "swap/timed_changes.hpp"
@@ -86,8 +85,6 @@ class Run {
     if (!options_.recordings.empty()) reporter().record(files_.recorder());
     if (options_.keeps_motion) reporter().keep_localizations();
     if (const Status built = watched_.build(); !built.ok()) return conclusion_.report_failure(built.error());
-    if (const Status connected = connect_topics(); !connected.ok())
-      return conclusion_.report_failure(connected.error());
     reporter().introduce(find_robots(graph_, system().robots()));
     if (options_.looks_on) listener_.built(view_);
     if (door_) door_->open();
@@ -96,14 +93,6 @@ class Run {
     if (door_) door_->leave();
     if (!options_.picture.file.empty()) draw();
     if (options_.keeps_motion) scene_ = watched_.scene();
-  }
-
-  // In virtual time nobody of ROS 2 is there: topics are silent.
-  Status connect_topics() {
-    if (executive().is_virtual()) return ok();
-    for (const graph::ComponentNode& node : graph_.components)
-      if (Status connected = topics_.connect(node, system()); !connected.ok()) return connected;
-    return ok();
   }
 
   void make_door() {
@@ -315,7 +304,6 @@ class Run {
   StopSignal& stop_;
   RunListener& listener_;
   RunFiles files_;
-  Topics topics_{graph_.name, "main"};  // outlives the ports
   WatchedSystem watched_;
   const TimePoint start_ = watched_.start();
   LiveView view_{executive(), start_, watched_.system(), watched_.reporter()};

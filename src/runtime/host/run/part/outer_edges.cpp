@@ -58,11 +58,7 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
 }  // namespace
 
 OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run)
-    : whole_(whole),
-      process_(std::move(process)),
-      doorbell_(std::move(doorbell)),
-      run_(std::move(run)),
-      topics_(whole.name, process_) {
+    : whole_(whole), process_(std::move(process)), doorbell_(std::move(doorbell)), run_(std::move(run)) {
   for (const graph::ComponentNode& node : whole.components) learn(node);
 }
 
@@ -130,10 +126,6 @@ Status OuterEdges::connect(System& system) {
   }
   memory_.clear();
   edges_.clear();
-  for (const graph::ComponentNode& node : whole_.components) {
-    if (node.process != process_) continue;
-    if (Status connected = topics_.connect(node, system); !connected.ok()) return connected;
-  }
   return ok();
 }
 

@@ -16,11 +16,10 @@
 #include "orca/patterns/dds/dds_backend.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
 #include "run/system/system.hpp"
-#include "topics.hpp"
 
 namespace orca::host {
 
-/// The edges between components of this process and those of others, by graph::Edge::name(), and the topics of ROS 2.
+/// The edges between components of this process and those of others, by graph::Edge::name().
 ///
 /// Thread contract: prepare() and connect() before the components run; make() and remove() on the strand of the port; the rest
 /// from any thread afterwards.
@@ -39,11 +38,9 @@ class OuterEdges {
   /// @errors  those of the catalogue; data_loss if there is memory for what needs none.
   Status prepare(std::map<std::string, Descriptor> memory, PluginCatalogue& catalogue);
 
-  /// Makes this process's ends of the edges, and connects ports with their topics. Takes part in DDS if one of them needs it.
-  /// @errors  internal if a port is missing; those of RingSegment::map(), of open_dds() and of Topics::connect().
+  /// Makes this process's ends of the edges. Takes part in DDS if one of them needs it.
+  /// @errors  internal if a port is missing; those of RingSegment::map() and of open_dds().
   Status connect(System& system);
-
-  [[nodiscard]] Topics& topics() { return topics_; }
 
   /// Learns of a component that was added to the graph.
   void learn(const graph::ComponentNode& component);
@@ -87,8 +84,7 @@ class OuterEdges {
   std::map<std::string, Descriptor> memory_;     // until connect()
   std::map<std::string, PortContract> servers_;  // of Push
   std::unique_ptr<DdsBackend> dds_;              // null: not needed
-  Topics topics_;
-  std::map<std::string, std::string> reached_;  // over DDS: the process at the other end
+  std::map<std::string, std::string> reached_;   // over DDS: the process at the other end
 
   Mutex mutex_;
   std::map<std::string, ShmEnd*> ends_ ORCA_GUARDED_BY(mutex_);

@@ -28,8 +28,6 @@ Status PartChanges::add(graph::ComponentNode node, const std::map<std::string, s
     if (!read) return read.error();
     node.params = std::move(read).value();
     if (Status added = watched_.system().add(node, catalogue_); !added.ok()) return added;
-    if (Status connected = outer_.topics().connect(node, watched_.system()); !connected.ok())
-      return connected;
   }
   const std::lock_guard lock(whole_.mutex);
   std::vector<graph::ComponentNode>& all = whole_.graph.components;

@@ -39,6 +39,9 @@ std::set<std::string> connected_ports(const graph::Graph& graph, const std::stri
     if (edge.from.component == component) ports.insert(edge.from.port);
     if (edge.to.component == component) ports.insert(edge.to.port);
   }
+  if (const graph::ComponentNode* const node = graph.find_component(component))
+    for (const auto& [name, setting] : node->ports)
+      if (!setting.topic.empty()) ports.insert(setting.alias.empty() ? name : setting.alias);
   return ports;
 }
 

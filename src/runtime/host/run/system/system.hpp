@@ -17,6 +17,7 @@
 #include "orca/hw/scene.hpp"
 #include "run/hardware/hardware_place.hpp"
 #include "run/reporting/run_context.hpp"
+#include "topics.hpp"
 
 namespace orca::host {
 
@@ -132,6 +133,7 @@ class System {
   std::function<bool()> give_up_;
   std::vector<std::unique_ptr<HardwarePlace>> hardware_;
   std::set<std::string> fresh_;  // components that were added and not configured yet
+  Topics topics_;                // outlives the ports
   ComponentList components_;     // in the order of the graph at first; destroyed before the hardware
 };
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "backdrop.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/plugin/trial.hpp"
@@ -59,7 +60,10 @@ class Rehearsal {
   /// Connects the ports; false if they are not there.
   bool connect_all() {
     const auto find = [this](const std::string& name) { return components_.at(name).get(); };
-    return sound_ && connect(graph_, find, [](const graph::Edge&) { return LocalLinks(); }).ok();
+    if (!sound_ || !connect(graph_, find, [](const graph::Edge&) { return LocalLinks(); }).ok()) return false;
+    return std::ranges::all_of(components_, [this](const auto& component) {
+      return backdrop_.connect_topics(graph_, *component.second).ok();
+    });
   }
 
   /// Configures the components one after the other. Runs as the executive's main task.
@@ -134,6 +138,7 @@ class Rehearsal {
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
   QuietRun quiet_{executive_, "trial", kSeed, [this] { changed_->notify(); }, missions_};
+  Backdrop backdrop_{executive_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
   std::set<std::string> down_;

@@ -83,7 +83,8 @@ class Catalogue {
   [[nodiscard]] virtual std::vector<std::string> unfit(PluginKind kind, const std::string& type) = 0;
 
   /// Returns the messages of ROS 2 that objects of a type can leave or come as, the usual one first; empty if there are none.
-  [[nodiscard]] virtual std::vector<std::string> messages(const std::string& object_type, bool leave) const = 0;
+  [[nodiscard]] virtual std::vector<std::string> messages(const std::string& object_type,
+                                                          bool leave) const = 0;
 
   /// Returns every type that could be named, sorted, for "did you mean".
   [[nodiscard]] virtual std::vector<std::string> type_names(PluginKind kind) const = 0;

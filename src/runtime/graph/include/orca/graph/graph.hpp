@@ -47,7 +47,8 @@ struct PortSetting {
   bool disabled = false;            ///< Nothing may be connected to it.
   std::vector<PortRef> candidates;  ///< Ports that the component may subscribe to at run time, by name.
   std::string topic;                ///< Of ROS 2, on which it speaks as well: "/scan"; empty: none.
-  std::string message;  ///< What is said there: "sensor_msgs/msg/LaserScan"; empty: what is usual for the port's type.
+  std::string
+      message;  ///< What is said there: "sensor_msgs/msg/LaserScan"; empty: what is usual for the port's type.
 
   friend bool operator==(const PortSetting&, const PortSetting&) = default;
 };

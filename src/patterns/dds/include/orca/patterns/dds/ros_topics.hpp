@@ -20,8 +20,6 @@ namespace orca {
 
 /// The settings of a process's part in the graph of ROS 2.
 struct RosOptions {
-  std::string graph;    ///< Name of the graph, for people.
-  std::string process;  ///< Name of this process, for people.
   std::uint32_t domain = 0;
   bool only_here = false;  ///< Whether only programs of this machine are spoken to.
 };
@@ -40,8 +38,8 @@ struct RosTopic {
 /// This process's part in the graph of ROS 2. Each component with a topic is a node there.
 ///
 /// A port that pushes is subscribed to while somebody reads its topic, or always where a later reader wants the latest message, as of a
-/// map. Objects with poses also become transforms on /tf and /tf_static. What comes from others is not trusted: messages that are none
-/// are dropped, and the first one is reported.
+/// map. Objects with poses also become transforms on /tf and /tf_static. Others are not trusted: messages that are none are
+/// dropped, and the first one is reported.
 ///
 /// Thread contract: connect() before the components run. It outlives the ports.
 class RosTopics {

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/patterns/dds/ros_topics.hpp"
-#include "run/system/system.hpp"
+#include "run/component/component_instance.hpp"
 
 namespace orca::host {
 
@@ -16,19 +15,13 @@ namespace orca::host {
 /// Thread contract: before the components in question run.
 class Topics {
  public:
-  /// @param graph    name of the graph, for people.
-  /// @param process  name of the process, for people.
-  Topics(std::string graph, std::string process) : graph_(std::move(graph)), process_(std::move(process)) {}
-
   /// Connects the ports of a component that have topics. Takes part in the graph of ROS 2 with the first of them.
   /// @errors  those of ros_options_of_environment(), open_ros_topics() and RosTopics::connect().
-  Status connect(const graph::ComponentNode& node, System& system);
+  Status connect(const graph::ComponentNode& node, ComponentInstance& component);
 
  private:
   Status open();
 
-  const std::string graph_;
-  const std::string process_;
   std::unique_ptr<RosTopics> ros_;  // null: not needed yet
 };
 

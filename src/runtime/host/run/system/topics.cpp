@@ -14,25 +14,22 @@ constexpr const char* kLibrary = "liborca_dds.so";
 
 Status Topics::open() {
   if (ros_ != nullptr) return ok();
-  Result<RosOptions> options = ros_options_of_environment();
+  const Result<RosOptions> options = ros_options_of_environment();
   if (!options) return options.error();
-  options->graph = graph_;
-  options->process = process_;
   Result<std::unique_ptr<RosTopics>> opened = open_ros_topics(beside_own_library(kLibrary), *options);
   if (!opened) return opened.error();
   ros_ = std::move(opened).value();
   return ok();
 }
 
-Status Topics::connect(const graph::ComponentNode& node, System& system) {
+Status Topics::connect(const graph::ComponentNode& node, ComponentInstance& component) {
   for (const auto& [name, setting] : node.ports) {
     if (setting.topic.empty()) continue;
     if (Status opened = open(); !opened.ok()) return opened;
-    const graph::PortRef ref{node.name, setting.alias.empty() ? name : setting.alias};
-    Endpoint* const port = system.endpoint(ref);
+    Endpoint* const port = component.endpoint(setting.alias.empty() ? name : setting.alias);
     if (port == nullptr)
-      return fail(Code::internal,
-                  "port " + ref.text() + " was there when the graph was checked, and is not there now");
+      return fail(Code::internal, "port " + node.name + "." + name +
+                                      " was there when the graph was checked, and is not there now");
     if (Status connected = ros_->connect(*port, {setting.topic, setting.message}, port->contract().queue);
         !connected.ok())
       return connected;
