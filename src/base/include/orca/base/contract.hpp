@@ -176,7 +176,7 @@ struct Contract {
   std::vector<PortContract> ports;
   std::vector<ParamContract> params;
   Trigger default_trigger;
-  bool needs_hardware = false;  ///< The component must name a <hardware> of the graph.
+  bool needs_hardware = false;  ///< The component must name a `<hardware>` of the graph.
 
   [[nodiscard]] const PortContract* port(const std::string& name) const {
     for (const PortContract& p : ports)

@@ -95,11 +95,11 @@ class Component : public PortOwner {
   void declare_param(ParamDeclaration declaration) { host_.declare_param(std::move(declaration)); }
 
  protected:
-  /// Sets what starts a lap unless the graph sets it: a period [s], or a new object on a port. Without these,
-  /// the next lap follows at once.
-  /// @param at_least_every  [s] a lap also starts that long after the last one; 0: it does not.
-  /// @pre  called from the constructor or from configure().
+  /// Sets that a lap starts once a period, unless the graph sets it. Without one of these, the next lap follows at once.
+  /// @pre  of all four: called from the constructor or from configure().
   void lap_every(Duration period) { host_.set_default_trigger({Trigger::Kind::period, period, {}}); }
+  /// Sets that a lap starts at each new object on a port, unless the graph sets it.
+  /// @param at_least_every  [s] a lap also starts that long after the last one; 0: it does not.
   void lap_on(std::string port, Duration at_least_every = Duration{0}) {
     host_.set_default_trigger({Trigger::Kind::on_any, at_least_every, {std::move(port)}});
   }

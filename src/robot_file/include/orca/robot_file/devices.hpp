@@ -224,7 +224,7 @@ struct Odometer {
   Guesses<WheelErrorGuess> errors{};
 };
 
-/// The content of the element <orca> of a robot's file. A plain value; see read_devices().
+/// The content of the element `<orca>` of a robot's file. A plain value; see read_devices().
 struct Devices {
   std::string vendor;
   std::string model;

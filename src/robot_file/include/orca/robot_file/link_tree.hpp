@@ -19,12 +19,12 @@ namespace orca::robot_file {
 /// Thread contract: not synchronised.
 class LinkTree {
  public:
-  /// Reads the joints of a file. @param robot  its element <robot>. @param reporter  gets what is wrong; both outlive the object.
+  /// Reads the joints of a file. @param robot  its element `<robot>`. @param reporter  gets what is wrong; both outlive the object.
   LinkTree(const xml::Element& robot, xml::Reporter& reporter);
 
   /// Returns where a link is in the frame of the robot.
   [[nodiscard]] Eigen::Isometry3d place_of(std::string link) const;
-  /// Reads a place, `xyz` and `rpy` of an element <origin>.
+  /// Reads a place, `xyz` and `rpy` of an element `<origin>`.
   [[nodiscard]] Eigen::Isometry3d origin(const xml::Element& e) const;
   /// Reads three numbers; zeros where the attribute is missing or wrong.
   [[nodiscard]] std::array<double, 3> three(const xml::Element& e, const char* name) const;

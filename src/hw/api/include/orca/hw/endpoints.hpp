@@ -84,7 +84,7 @@ class SensorHW final : public SensorEndpoint {
   void publish(Loan<T> reading) { publish_loan(std::move(reading)); }
 };
 
-/// The limits of a base (thesis appendix A, <drive>).
+/// The limits of a base (thesis appendix A, `<drive>`).
 struct DriveLimits {
   double max_speed = 0.0;               ///< [m/s]
   double max_turn_rate = 0.0;           ///< [rad/s]

@@ -42,7 +42,7 @@ class LinkObserver {
   virtual void link_changed(std::string_view client, std::string_view server, bool connected) = 0;
 
   /// Reports trouble on a connection. An observer that keeps no log may ignore it.
-  /// @param from, to  "component.port" of the ends, as in <connect from= to=>.
+  /// @param from, to  "component.port" of the ends, as in `<connect from= to=>`.
   /// @param text      what has happened, without the ends.
   virtual void trouble(LinkTrouble /*kind*/, std::string_view /*from*/, std::string_view /*to*/,
                        std::string_view /*text*/) {}

@@ -21,7 +21,7 @@ class Links {
 
   /// Connects two ports.
   ///
-  /// @param from    a PushServer, QueryProxy or SendProxy, as in <connect from= to=>.
+  /// @param from    a PushServer, QueryProxy or SendProxy, as in `<connect from= to=>`.
   /// @param to      the other end.
   /// @param policy  how the edge buffers, for Push and Send; without it, the policy of the receiving port's
   /// author.

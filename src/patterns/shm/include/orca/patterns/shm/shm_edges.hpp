@@ -61,11 +61,11 @@ class ShmEnd {
   [[nodiscard]] virtual ShmCounters counters() const = 0;
 };
 
-/// Make one end of an edge. It is given to the port and lives as long as the port, or until Links::leave().
-/// @param base_period  of the server [s], as its contract says; 0: irregular. Later ones come with what it grants.
-/// @param policy       of the edge, the same at both ends.
+/// Makes one end of an edge. It is given to the port and lives as long as the port, or until Links::leave().
+/// @param policy  of the edge, the same at both ends.
 ShmEnd& make_shm_end(PushServerEndpoint& server, RingSegment segment, ShmPeer client,
                      const QueuePolicy& policy);
+/// Likewise. @param base_period  of the server [s], as its contract says; 0: irregular. Later ones come with what it grants.
 ShmEnd& make_shm_end(PushClientEndpoint& client, RingSegment segment, ShmPeer server,
                      const QueuePolicy& policy, Duration base_period);
 ShmEnd& make_shm_end(QueryServerEndpoint& server, RingSegment segment, ShmPeer client);
