@@ -376,6 +376,15 @@ constexpr std::string_view kNewDetails =
     "folder's "
     "README.md explains. The templates are in share/orca/templates. Nothing is overwritten.";
 
+constexpr std::string_view kImportDetails =
+    "FILE configures a component of the thesis (9.5, Appendix A). The graph has its hardware and the "
+    "component, in SI units; "
+    "as a comment, the ports that connections may name, and what belongs into the robot's file. What has no "
+    "equivalent in "
+    "Orca is said on stderr, all at once, each with its line. Lengths are taken as mm, angles of sonars as "
+    "tenths of a degree. "
+    "orcactl import base.xml > base_graph.xml && deployer base_graph.xml --check";
+
 // For shells and people.
 std::vector<Command> shell_commands() {
   return {
@@ -384,6 +393,10 @@ std::vector<Command> shell_commands() {
        .text =
            "begin a component, driver or experiment of your own, in a folder NAME; no system needs to run",
        .details = kNewDetails},
+      {.name = "import",
+       .arguments = {{"FILE.xml", Names::file}},
+       .text = "print a component's file of the thesis as a graph; no system needs to run",
+       .details = kImportDetails},
       {.name = "names",
        .arguments = {{"KIND"}},
        .text = "names for completion, one per line: component, group, port, param, process or system"},

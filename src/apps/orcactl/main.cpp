@@ -14,6 +14,7 @@
 #include "common/output.hpp"
 #include "exit_code.hpp"
 #include "going.hpp"
+#include "importing/import.hpp"
 #include "map_saving.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
@@ -35,7 +36,7 @@ ExitCode carry_out(const apps::Call& call) {
                                                     {"record", record},      {"bag", handle_bag},
                                                     {"map", handle_map},     {"calibrate", calibrate},
                                                     {"tasks", handle_tasks}, {"go", handle_go},
-                                                    {"new", handle_new}};
+                                                    {"new", handle_new},     {"import", import_file}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }
