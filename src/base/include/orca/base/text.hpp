@@ -16,7 +16,7 @@ namespace orca {
 
 /// Returns `text` for one line of a terminal: what is no UTF-8 and every character that a terminal or an editor
 /// obeys instead of showing it (control characters, line separators, changes of the writing direction) is written
-/// as an escape sequence: \n, \x1b, \u202e.
+/// as an escape sequence: `\n`, `\x1b`, `\u202e`.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// Returns as much of `text` as fits into so many columns of a terminal, with "..." at the end if something is left

@@ -10,13 +10,13 @@
 
 namespace orca::robot_file {
 
-/// Reads the element <orca> of a robot's file. Places on the robot are left, since they need the poses of its links.
+/// Reads the element `<orca>` of a robot's file. Places on the robot are left, since they need the poses of its links.
 /// @param robot     the root of the file, a URDF.
 /// @param reporter  gets all that is wrong with the element, links that are not there among it.
 /// @return the element; null if there is none, which is reported, too.
 const xml::Element* read_devices(const xml::Element& robot, Devices& devices, xml::Reporter& reporter);
 
-/// Returns what read_devices() has taken because an <orca> does not say it, for people; empty if nothing is missing.
+/// Returns what read_devices() has taken because an `<orca>` does not say it, for people; empty if nothing is missing.
 [[nodiscard]] std::string usual_figures_text(const xml::Element& orca);
 
 /// Returns the first child of that name, or null.
