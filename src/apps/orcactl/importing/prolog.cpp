@@ -50,10 +50,10 @@ std::string name_of(std::string_view tag) {
   return std::string(tag.substr(0, tag.find_first_of(" \t\r\n/>")));
 }
 
-// The place of a byte in a text, asked for in the order of the text.
-class Place {
+// Finds lines and columns of bytes in a text, in the order of the text.
+class LineCounter {
  public:
-  Place(const std::string& text, const std::string& file) : text_(text), position_{file, 1, 1} {}
+  LineCounter(const std::string& text, const std::string& file) : text_(text), position_{file, 1, 1} {}
 
   [[nodiscard]] const xml::Position& of(std::size_t at) {
     for (; at_ < at; ++at_)
@@ -75,7 +75,7 @@ class Place {
 // Comments and processing instructions are blank already. What is wrong in another way is left to the reader.
 void blank_lone_end_tags(std::string& text, const std::string& file_name, xml::Diagnostics& out) {
   std::vector<std::string> open;
-  Place place(text, file_name);
+  LineCounter place(text, file_name);
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) {
     const std::size_t end = text.find('>', at);
     if (end == std::string::npos || open.size() > xml::Limits::kNesting) return;
