@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The targets of documents exist: links and their anchors, graphs that README.md names, pages that sources name."""
+"""The targets of documents exist: links and their anchors, graphs that pages name, pages that sources name."""
 import posixpath
 import re
 
@@ -63,12 +63,12 @@ def _named(tree, paths, pattern, kind):
 
 
 def find(tree):
-    """Finds missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml): they stand for any."""
+    """Finds missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) and the reader's own (graphs/mine.xml)."""
     sources = [p for p in tree.with_suffix(*SOURCES) if not p.startswith(("tests/lint/", "tests/data/"))]
-    graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?![A-Z]{3})"))
+    graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?!(?:tasks/)?[A-Z]{3}|(?:my|mine)[.])"))
     page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))
-    readmes = [p for p in tree.paths if p.startswith("README")]
-    findings = [*_links(tree), *_named(tree, readmes, graph, "graph"), *_named(tree, sources, page, "page")]
+    shown = [p for p in tree.with_suffix(".md") if not p.startswith(("templates/", "tests/"))]
+    findings = [*_links(tree), *_named(tree, shown, graph, "graph"), *_named(tree, sources, page, "page")]
     return list(dict.fromkeys(findings))
 
 
@@ -78,12 +78,13 @@ BAD = [
     ({"docs/a.md": "![picture](../none.png)\n"}, "there is no none.png"),
     ({"docs/a.md": "[out](../../a.md)\n", "a.md": ""}, "there is no ../a.md"),
     ({"README.md": "```\n./dev run graphs/none.xml\n```\n"}, "README.md:2: names the graph graphs/none.xml"),
+    ({"src/components/a/README.md": "`deployer graphs/none.xml`\n"}, "README.md:1: names the graph graphs/none.xml"),
     ({"src/a.cpp": "/// @source docs/none.md, eq. 3\n"}, "src/a.cpp:1: names the page docs/none.md"),
 ]
 GOOD = [
     {"README.md": "[a](docs/a.md#one-and-two) `[b](c)` [d](https://example.org) [e](#here)\n# Here\n",
      "docs/a.md": "# One, and `two`\n[up](../README.md)\n"},
-    {"README.md": "./dev run graphs/NAME.xml; graphs/a.xml\n", "graphs/a.xml": "<graph/>"},
+    {"README.md": "./dev run graphs/NAME.xml; graphs/a.xml; graphs/mine.xml\n", "graphs/a.xml": "<graph/>"},
     {"docs/adr/0004-x.md": "# x\n", "cmake/a.cmake": "# see docs/adr/0004-x.md and docs/adr/NNNN-title.md\n"},
     {"README.md": "```\n[no](link.md)\n```\n"},
     {"README.md": "see tests/data/graphs/a.xml\n", "tests/data/graphs/a.xml": "<graph/>"},
