@@ -116,7 +116,7 @@ endfunction()
 # Pages lie as in the source tree, so that their links lead where they should.
 function(orca_install_pages)
   install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE.md DESTINATION ${ORCA_PAGES} COMPONENT doc)
-  install(DIRECTORY docs DESTINATION ${ORCA_PAGES} COMPONENT doc)
+  install(DIRECTORY docs DESTINATION ${ORCA_PAGES} COMPONENT doc PATTERN docs/book EXCLUDE)
   file(GLOB pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS src/components/*/README.md)
   foreach(page ${pages})
     cmake_path(GET page PARENT_PATH folder)

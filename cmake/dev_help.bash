@@ -15,7 +15,7 @@ help_all() {
   ./dev bench            build and run the benchmarks
   ./dev package          make Debian packages: build/release/packages/orca-*.deb
   ./dev lint             check the sources: layers, headers, licences, format, function size, documents
-  ./dev docs             check that the documents are right: links, graphs, commands, examples
+  ./dev docs             build the book: all pages with search, and the reference of C++, components and programs
 
 Every command does its preparations by itself: run and test first install packages and build.
 ./dev COMMAND --help describes one command. Messages go to stderr, results to stdout.
@@ -32,6 +32,7 @@ Installs the Debian packages that are missing, as root or through sudo. It chang
   for preset fuzz:    ${FUZZ_PACKAGES[*]}
   for coverage:       ${COVERAGE_PACKAGES[*]}
   for packages:       ${PACKAGING_PACKAGES[*]}
+  for the book:       ${DOCS_PACKAGES[*]}
 HELP
 }
 
@@ -127,5 +128,12 @@ help_lint() {
 }
 
 help_docs() {
-  printf './dev docs\n\nRuns the tests labelled docs: links, graphs and commands that documents name, and the code that they show.\n'
+  cat <<'HELP'
+./dev docs
+
+Builds preset release and a book of all pages: README.md, docs/ and those of components, with the ports and parameters of every
+component, the fields of every object, the options of every program, and the public C++. It needs no network to be read. The last line is
+its first page; for the search read it through  python3 -m http.server -d build/docs
+Any warning, and a link that leads nowhere, makes it fail. ./dev test docs checks the pages without building the book.
+HELP
 }
