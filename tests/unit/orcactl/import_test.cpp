@@ -144,6 +144,22 @@ TEST_CASE("what cannot be read is an error, and nothing is written", "[orcactl][
   CHECK(imported("<!DOCTYPE component [<!ENTITY a \"b\">]><component/>").failed);
 }
 
+TEST_CASE("a file that ends early is an error, wherever it ends", "[orcactl][import]") {
+  const std::string whole = base_file();
+  for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
+    INFO(size);
+    CHECK(imported(whole.substr(0, size)).failed);
+  }
+}
+
+TEST_CASE("a file of end tags that close nothing is read in a moment", "[orcactl][import]") {
+  std::string text = "<component>\n";
+  for (int i = 0; i < 100'000; ++i) text += "</a>\n";
+  const Imported base = imported(text + "<componentName>GotoComponent</componentName></component>\n");
+  CHECK_FALSE(base.failed);
+  CHECK_THAT(base.graph, Contains("type=\"orca.Goto\""));
+}
+
 TEST_CASE("the text may be in ISO-8859-1", "[orcactl][import]") {
   CHECK_THAT(imported(replaced(base_file(), ">Nomadics<", ">M\xFCller<")).graph,
              Contains("vendor=\"M\xC3\xBCller\""));
