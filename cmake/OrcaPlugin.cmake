@@ -59,7 +59,7 @@ function(orca_add_component name)
   add_library(${name} MODULE ${arg_UNPARSED_ARGUMENTS} ${entry})
   set_target_properties(${name} PROPERTIES
     PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${ORCA_PLUGIN_DIR}
-    LINK_DEPENDS ${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map)
+    LINK_DEPENDS "${ORCA_PLUGIN_SUPPORT_DIR}/plugin.map;${ORCA_PLUGIN_SUPPORT_DIR}/write_types.cmake")
   target_compile_options(${name} PRIVATE ${ORCA_PLUGIN_OPTIONS})
   if(TARGET orca_plugin_headers)
     orca_use_precompiled_headers(${name} orca_plugin_headers)

@@ -11,7 +11,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "idl/tools"
 import idl_parser  # noqa: E402
 
 PROGRAMS = ("deployer", "orcactl", "orcaview", "simbatch", "hwprobe")
-ROW_OF_LIST = re.compile(r"^\| \[`(?P<type>orca\.[\w.]+)`\]\((?P<page>[^)]*)\) \| (?P<text>.*) \|$", re.MULTILINE)
 
 
 def cell(text):
@@ -52,11 +51,12 @@ def param_row(param):
     return [f"`{param['name']}`", default_of(param), cell(", ".join(filter(None, limits))), cell(param["text"])]
 
 
-def type_section(contract, known):
-    """Returns the section of a type. `known` has what docs/components.md says: {type: (page, sentence)}."""
-    page, text = known.get(contract["type"], ("", ""))
-    more = f" [More](../components/{page.split('/')[-2]}.md)." if page.endswith("README.md") else ""
-    return (f"## {contract['type']}\n\n{text}{more}\n\n"
+def type_section(contract, listed, tree):
+    """Returns the section of a type that is listed so: {type, kind, file, text}."""
+    folder = pathlib.Path(listed["file"]).stem
+    has_page = (tree / f"src/components/{folder}/README.md").exists()
+    more = f" [More](../components/{folder}.md)." if has_page else ""
+    return (f"## {contract['type']}\n\n{cell(listed['text'])}{more}\n\n"
             + table(["port", "kind", "object", "needed", "what it is for"], [port_row(p) for p in contract["ports"]])
             + table(["parameter", "default", "range", "what it is for"], [param_row(p) for p in contract["parameters"]]))
 
@@ -70,11 +70,10 @@ def asked(program, *words):
 
 def types_page(tree, build, kind, title):
     """Returns the page of all components or all drivers, as their plugins describe them."""
-    known = {m["type"]: (m["page"], m["text"]) for m in ROW_OF_LIST.finditer((tree / "docs/components.md").read_text())}
     deployer = build / "bin/deployer"
-    listed = sorted(t["type"] for t in json.loads(asked(deployer, "--types", "--json")) if t["kind"] == kind)
-    described = [json.loads(asked(deployer, "--describe", name, "--json"))["types"] for name in listed]
-    sections = [type_section(contract, known) for types in described for contract in types if contract["type"] in listed]
+    listed = {t["type"]: t for t in json.loads(asked(deployer, "--types", "--json")) if t["kind"] == kind}
+    described = [json.loads(asked(deployer, "--describe", name, "--json"))["types"] for name in sorted(listed)]
+    sections = [type_section(contract, listed[contract["type"]], tree) for types in described for contract in types]
     return f"# {title}\n\nAs `deployer --describe TYPE` prints them. Numbers are in SI units.\n\n" + "".join(sections)
 
 

@@ -21,7 +21,7 @@ HELPERS = ("src/component_api/include/", "src/patterns/include/orca/patterns/", 
 
 def sentence(comment):
     """Returns the first sentence of a comment, without the mark of each line."""
-    text = " ".join(line.strip().lstrip("/").strip() for line in comment.strip().splitlines())
+    text = " ".join(" ".join(line.strip().lstrip("/") for line in comment.strip().splitlines()).split())
     return re.split(r"[.:](?= [A-Z@]|$)| @", text)[0].strip().replace("|", "\\|") + "."
 
 

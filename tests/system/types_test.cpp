@@ -31,8 +31,11 @@ TEST_CASE("--types lists the types of all plugins that a graph can name, with ki
   const std::set<std::string> all(lines.begin(), lines.end());
   CHECK(lines.size() == 48);
   CHECK(all.size() == lines.size());
-  CHECK(has(run, "orca.Goto                component  " ORCA_BINARY_DIR "/plugins/goto.so\n"));
-  CHECK(has(run, "orca.hw.Sim              hardware   " ORCA_BINARY_DIR "/plugins/sim.so\n"));
+  CHECK(has(run, "orca.Goto                component  " ORCA_BINARY_DIR
+                 "/plugins/goto.so  A behaviour that drives to a goal "
+                 "in a straight line (thesis 11.1).\n"));
+  CHECK(has(run, "orca.hw.Sim              hardware   " ORCA_BINARY_DIR "/plugins/sim.so  "));
+  for (const std::string& line : lines) CHECK(line.ends_with("."));
   CHECK_FALSE(has(run, "orca.Avoid "));
 }
 
@@ -51,6 +54,7 @@ TEST_CASE("--types and --describe TYPE write JSON for programs", "[system][types
   CHECK(has(list, "\"type\": \"orca.Goto\""));
   CHECK(has(list, "\"kind\": \"hardware\""));
   CHECK(has(list, "\"file\": \"" ORCA_BINARY_DIR "/plugins/goto.so\""));
+  CHECK(has(list, "\"text\": \"A behaviour that drives to a goal"));
   CHECK(has(good({"--describe", "orca.Goto", "--json"}), "\"type\": \"orca.Goto\""));
 }
 

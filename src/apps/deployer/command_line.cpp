@@ -123,7 +123,8 @@ std::vector<OptionSpec> other_options() {
       {"--mermaid", "", "the same for a web page"},
       {"--diff", "",
        "what differs between two graphs, OLD and NEW, by meaning: exit 0 the same, 1 different"},
-      {"--types", "", "all types of components and hardware, each with its plugin file"},
+      {"--types", "",
+       "all types of components and hardware, each with its plugin file and a sentence on what it is"},
       {"--describe", "",
        "ports and parameters, with units, ranges and defaults, of a type such as orca.Goto, or of all types "
        "of a plugin file: --describe PLUGIN.so"},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orca/base/json.hpp"
+#include "orca/base/text.hpp"
 #include "orca/xml/names.hpp"
 
 namespace orca::deployer {
@@ -18,6 +19,7 @@ struct ListedType {
   std::string type;
   std::string kind;
   std::string file;
+  std::string text;
 };
 
 // Returns all types, components first.
@@ -25,8 +27,8 @@ std::vector<ListedType> all_types(const plugin::PluginIndex& index) {
   std::vector<ListedType> result;
   for (const PluginKind kind : {PluginKind::component, PluginKind::hardware})
     for (const std::string& type : index.types(kind))
-      result.push_back(
-          {type, kind == PluginKind::component ? "component" : "hardware", index.file_of(type).value_or("")});
+      result.push_back({type, kind == PluginKind::component ? "component" : "hardware",
+                        index.file_of(type).value_or(""), index.text_of(type)});
   return result;
 }
 
@@ -39,7 +41,8 @@ std::string types_text(const plugin::PluginIndex& index) {
   std::ostringstream out;
   for (const ListedType& listed : types)
     out << std::left << std::setw(static_cast<int>(width)) << listed.type << "  " << std::setw(9)
-        << listed.kind << "  " << listed.file << "\n";
+        << listed.kind << "  " << listed.file << (listed.text.empty() ? "" : "  ") << printable(listed.text)
+        << "\n";
   return out.str();
 }
 
@@ -51,6 +54,7 @@ std::string types_json(const plugin::PluginIndex& index) {
     json.member("type", listed.type);
     json.member("kind", listed.kind);
     json.member("file", listed.file);
+    json.member("text", listed.text);
     json.end();
   }
   json.end();

@@ -8,9 +8,9 @@
 
 namespace orca::deployer {
 
-/// Returns the text that `--types` prints: a line for each type, "orca.Goto  component  FILE.so".
+/// Returns the text that `--types` prints: a line for each type, "orca.Goto  component  FILE.so  What it is."
 [[nodiscard]] std::string types_text(const plugin::PluginIndex& index);
-/// Returns the same for programs: [{type, kind, file}].
+/// Returns the same for programs: [{type, kind, file, text}].
 [[nodiscard]] std::string types_json(const plugin::PluginIndex& index);
 
 /// Returns the type that a person most likely meant by a name, as the end of a message: `; did you mean "orca.Goto"?`, or

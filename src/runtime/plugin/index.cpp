@@ -41,8 +41,13 @@ void PluginIndex::read_folder(const std::string& folder) {
   for (fs::path list : lists) {
     std::istringstream lines(read_input_file(list.string(), kMaxBytes).value_or(""));
     const std::string file = list.replace_extension(".so").string();
-    for (std::string kind, type; lines >> kind >> type;)
-      add_type(type, {kind == "hardware" ? PluginKind::hardware : PluginKind::component, file, {}});
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string kind, type, text;
+      if (!(words >> kind >> type)) continue;
+      std::getline(words >> std::ws, text);
+      add_type(type, {kind == "hardware" ? PluginKind::hardware : PluginKind::component, file, {}, text});
+    }
   }
 }
 
@@ -62,6 +67,11 @@ Result<std::string> PluginIndex::file_of(const std::string& type) const {
   std::string places;
   for (const std::string& place : searched_) places += (places.empty() ? "" : ", ") + place;
   return fail(Code::not_found, "no plugin holds the type \"" + type + "\"; searched: " + places);
+}
+
+std::string PluginIndex::text_of(const std::string& type) const {
+  const auto found = place_by_type_.find(type);
+  return found == place_by_type_.end() ? "" : found->second.text;
 }
 
 std::vector<std::string> PluginIndex::types(PluginKind kind) const {

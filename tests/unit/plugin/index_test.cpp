@@ -55,6 +55,20 @@ TEST_CASE("a type that two plugins of one folder hold is refused with both, and 
   CHECK(index.file_of("my.One").value() == folder.file("one.so"));
 }
 
+TEST_CASE("the index knows what a type is, in the words of its author", "[plugin][index]") {
+  CHECK(PluginIndex({kShipped}).text_of("orca.Goto") ==
+        "A behaviour that drives to a goal in a straight line (thesis 11.1).");
+  const orca::test::TempFolder folder;
+  static_cast<void>(
+      folder.write("one.types", "component my.Cook  Cooks; and more.\n\nhardware my.Pot\nhalf\n"));
+  const PluginIndex index({folder.path().string()});
+  CHECK(index.text_of("my.Cook") == "Cooks; and more.");
+  CHECK(index.text_of("my.Pot").empty());
+  CHECK(index.text_of("my.Guest").empty());
+  CHECK(index.types(PluginKind::component) == std::vector<std::string>{"my.Cook"});
+  CHECK(index.types(PluginKind::hardware) == std::vector<std::string>{"my.Pot"});
+}
+
 TEST_CASE("an index that is refreshed knows the plugins that have come, and not those that have gone",
           "[plugin][index]") {
   const orca::test::TempFolder folder;

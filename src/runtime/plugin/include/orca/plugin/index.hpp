@@ -11,7 +11,7 @@
 namespace orca::plugin {
 
 /// An index of the plugin files by type. It is read from the NAME.types files that the build writes beside
-/// NAME.so, with lines of "component TYPE" or "hardware TYPE".
+/// NAME.so, with lines of "component TYPE SENTENCE" or "hardware TYPE SENTENCE"; the sentence may be missing.
 ///
 /// A plain value.
 class PluginIndex {
@@ -30,6 +30,9 @@ class PluginIndex {
   /// @errors  not_found, naming the places searched; already_exists if two plugins of one folder hold it.
   [[nodiscard]] Result<std::string> file_of(const std::string& type) const;
 
+  /// Returns what a type is, a sentence of its author; empty if he says nothing or the type is not known.
+  [[nodiscard]] std::string text_of(const std::string& type) const;
+
   /// Returns the folders, in the order in which they are searched.
   [[nodiscard]] const std::vector<std::string>& folders() const { return folders_; }
 
@@ -41,6 +44,7 @@ class PluginIndex {
     PluginKind kind;
     std::string file;
     std::string rival;  // another plugin of the same folder with the same type; empty: none
+    std::string text;
   };
   void read_folder(const std::string& folder);
   void add_type(const std::string& type, const Place& place);
