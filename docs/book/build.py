@@ -92,7 +92,8 @@ def make_book(source, out):
     """Runs mkdocs. Returns whether nothing was warned of."""
     logging.basicConfig(format="%(levelname)s: %(message)s", level=logging.WARNING)
     settings = yaml.safe_load((HERE / "mkdocs.yml").read_text())
-    pages = sorted(p.relative_to(source).as_posix() for p in source.rglob("*.md"))
+    found = sorted(source.rglob("*.md"), key=lambda page: (page.parent, page.name != "index.md", page.name))
+    pages = [page.relative_to(source).as_posix() for page in found]
     config = mkdocs.config.load_config(config_file=str(HERE / "mkdocs.yml"), docs_dir=str(source), site_dir=str(out),
                                        nav=whole_nav(settings["nav"], pages))
     config["mdx_configs"].setdefault("toc", {})["slugify"] = slug
