@@ -187,13 +187,15 @@ class LogReplay final : public HardwareContainer {
                                 "",
                                 {.fixed = true,
                                  .text = "The recording: an MCAP file of deployer --record or orcactl "
-                                         "record, or a CARMEN log, packed by gzip or not"}};
+                                         "record, a bag of ROS 2 (its MCAP file or folder), or a CARMEN "
+                                         "log, packed by gzip or not"}};
   Param<std::vector<std::string>> ports_{*this,
                                          "ports",
                                          {},
                                          {.fixed = true,
                                           .text = "Ports of the recording whose objects come again: "
-                                                  "base.OdometryPush; laser.LaserRangeReadingsPush"}};
+                                                  "base.OdometryPush; laser.LaserRangeReadingsPush; of a bag "
+                                                  "its topics: /odom; /scan"}};
   Param<double> max_speed_{*this,
                            "max_speed",
                            1.0,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <utility>
 
@@ -54,6 +55,8 @@ class CarmenRun final : public RecordedRun {
 };
 
 bool is_mcap(const std::string& path) {
+  std::error_code unused;
+  if (std::filesystem::is_directory(path, unused)) return true;  // a bag's
   std::array<char, 5> begin{};
   std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
   return begin == std::array<char, 5>{'\x89', 'M', 'C', 'A', 'P'};

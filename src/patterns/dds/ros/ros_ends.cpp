@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 
 namespace orca::dds::of_ros {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::size_t kMostQueued = std::size_t{4} << 20;  // [bytes] that wait for the outbox
 constexpr std::size_t kMostWaiting = 256;                  // objects that wait for a strand
+constexpr std::size_t kMostBytes = std::size_t{16} << 20;  // [bytes] that they had as messages
 
 }  // namespace
 
@@ -103,22 +105,28 @@ void RosIntake::close() {
 
 void RosIntake::hear(std::span<const std::byte> payload) {
   const auto mount_of = [this](const std::string& frame) { return frames_.mount_of(frame); };
-  Result<ObjectRef> object = twin_.from_ros(payload, mount_of, strand_.executive().now());
+  Result<ObjectRef> object =
+      contain_exhaustion([&] { return twin_.from_ros(payload, mount_of, strand_.executive().now()); });
   if (!object) {
     if (!complained_.exchange(true))
       log::warning(user_, "a message of topic " + topic_ +
                               " is dropped, and others like it without a word: " + object.error().message);
     return;
   }
-  {
-    const MutexLock lock(mutex_);
-    waiting_.push_back(std::move(object).value());
-    if (waiting_.size() > kMostWaiting) {
-      waiting_.pop_front();
-      ++lost_;
-    }
-  }
+  keep(std::move(object).value(), payload.size());
   strand_.wake();
+}
+
+// The newest are dropped first: who is that far behind has no use for one more.
+void RosIntake::keep(ObjectRef object, std::size_t size) {
+  const MutexLock lock(mutex_);
+  const bool fits = waiting_.size() < kMostWaiting && waiting_bytes_ + size <= kMostBytes;
+  if (!fits && !waiting_.empty()) {
+    ++lost_;
+    return;
+  }
+  waiting_.push_back(std::move(object));
+  waiting_bytes_ += size;
 }
 
 bool RosIntake::take_in() {
@@ -129,6 +137,7 @@ bool RosIntake::take_in() {
   {
     const MutexLock lock(mutex_);
     taken.swap(waiting_);
+    waiting_bytes_ = 0;
     lost = std::exchange(lost_, 0);
   }
   if (lost > 0) pass_on_losses(lost);

@@ -140,6 +140,7 @@ class RosIntake : public Intake {
   virtual void pass_on(ObjectRef object) = 0;
   virtual void pass_on_losses(std::uint64_t objects) = 0;
   void hear(std::span<const std::byte> payload);
+  void keep(ObjectRef object, std::size_t size);
 
   Strand& strand_;
   const std::string user_;
@@ -150,6 +151,7 @@ class RosIntake : public Intake {
   Mutex reading_;  // held by whoever takes in; before mutex_
   Mutex mutex_;
   std::deque<ObjectRef> waiting_ ORCA_GUARDED_BY(mutex_);
+  std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;  // as they came
   std::uint64_t lost_ ORCA_GUARDED_BY(mutex_) = 0;
   std::unique_ptr<RosReader> reader_;  // the last member: its callback uses the others
 };

@@ -22,11 +22,15 @@ RosChannel channel(const std::string& name, bool is_latched) {
 }  // namespace
 
 Status RosFrames::publish() {
-  if (moving_ != nullptr) return ok();
+  {
+    const MutexLock lock(mutex_);
+    if (moving_ != nullptr) return ok();
+  }
   auto moving = participant_.make_writer(channel("/tf", false), [] {});
   if (!moving) return moving.error();
   auto mounted = participant_.make_writer(channel("/tf_static", true), [] {});
   if (!mounted) return mounted.error();
+  const MutexLock lock(mutex_);
   moving_ = std::move(moving).value();
   static_ = std::move(mounted).value();
   return ok();
@@ -53,19 +57,22 @@ Result<std::unique_ptr<RosReader>> RosFrames::hear(const std::string& topic, boo
 }
 
 void RosFrames::say(const ObjectRef& object) {
-  if (moving_ == nullptr) return;
+  std::shared_ptr<RosWriter> writer;
   std::optional<ros::FrameNews> news;
   {
     const MutexLock lock(mutex_);
+    if (moving_ == nullptr) return;
     news = tree_.hear(object);
+    if (!news) return;
+    writer = news->is_static ? static_ : moving_;
   }
-  if (!news) return;
-  if (news->is_static) return say_static(news->message);
-  moving_->write(ros::to_cdr(news->message));
+  // Without the lock, which callbacks of DDS want as well.
+  if (news->is_static) return say_static(news->message, *writer);
+  writer->write(ros::to_cdr(news->message));
 }
 
 // A reader that comes later gets one message, so that one holds all.
-void RosFrames::say_static(const ros::tf2_msgs::TFMessage& message) {
+void RosFrames::say_static(const ros::tf2_msgs::TFMessage& message, RosWriter& writer) {
   bool changed = false;
   for (const ros::geometry_msgs::TransformStamped& said : message.transforms) {
     const auto known = mounted_.find(said.child_frame_id);
@@ -76,7 +83,7 @@ void RosFrames::say_static(const ros::tf2_msgs::TFMessage& message) {
   if (!changed) return;
   ros::tf2_msgs::TFMessage all;
   for (const auto& [child, said] : mounted_) all.transforms.push_back(said);
-  static_->write(ros::to_cdr(all));
+  writer.write(ros::to_cdr(all));
 }
 
 std::optional<idl::Frame3D> RosFrames::mount_of(const std::string& frame) const {
@@ -85,6 +92,7 @@ std::optional<idl::Frame3D> RosFrames::mount_of(const std::string& frame) const 
 }
 
 std::vector<Gid> RosFrames::writers() const {
+  const MutexLock lock(mutex_);
   return moving_ == nullptr ? std::vector<Gid>{} : std::vector{moving_->gid(), static_->gid()};
 }
 

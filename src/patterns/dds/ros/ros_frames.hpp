@@ -13,7 +13,7 @@ namespace orca::dds::of_ros {
 
 /// The transforms that this process says on /tf and /tf_static, and those that others say there.
 ///
-/// Thread contract: publish() and listen() before the components run; say() from one thread; mount_of() from any.
+/// Thread contract: publish() and listen() from one thread; say() from another one; the rest from any.
 class RosFrames {
  public:
   explicit RosFrames(RosParticipant& participant) : participant_(participant) {}
@@ -35,15 +35,15 @@ class RosFrames {
 
  private:
   Result<std::unique_ptr<RosReader>> hear(const std::string& topic, bool is_latched);
-  void say_static(const ros::tf2_msgs::TFMessage& message);
+  void say_static(const ros::tf2_msgs::TFMessage& message, RosWriter& writer);
 
   RosParticipant& participant_;
   mutable Mutex mutex_;
   ros::FrameTree tree_ ORCA_GUARDED_BY(mutex_);
   std::map<std::string, ros::geometry_msgs::TransformStamped>
       mounted_;  // by child; what was said on /tf_static
-  std::shared_ptr<RosWriter> moving_;
-  std::shared_ptr<RosWriter> static_;
+  std::shared_ptr<RosWriter> moving_ ORCA_GUARDED_BY(mutex_);
+  std::shared_ptr<RosWriter> static_ ORCA_GUARDED_BY(mutex_);
   std::unique_ptr<RosReader> heard_moving_;  // after tree_, which their callbacks use
   std::unique_ptr<RosReader> heard_static_;
 };

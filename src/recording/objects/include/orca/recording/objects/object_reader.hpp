@@ -13,6 +13,8 @@
 #include "orca/base/time.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/recording/reader.hpp"
+#include "orca/ros/frame_tree.hpp"
+#include "orca/ros/twin.hpp"
 
 namespace orca::recording {
 
@@ -35,13 +37,16 @@ struct RecordedObject {
 /// Returns one of them, or a value of the metadata of a channel; empty: it is not there.
 [[nodiscard]] std::string fact(const Values& facts, const std::string& name);
 
-/// A reader of the objects that an ObjectWriter has written. What others have written, and twins of objects, it passes over.
+/// A reader of the objects that an ObjectWriter has written, beside which it passes over all else; or of a recording of ROS 2 (a bag),
+/// in which nothing is Orca's: a row for each topic whose messages objects can say, named as the topic. Where sensors are is what
+/// the bag's /tf_static says.
 ///
 /// Thread contract: constant; any thread.
 class ObjectReader {
  public:
   /// Opens a recording.
-  /// @errors  as Reader::open(); failed_precondition if it has objects of a type that is not known here, or that has another layout
+  /// @param path  a file, or the folder of a bag with one MCAP file.
+  /// @errors  as Reader::open(); not_found for a folder without such a file, or with several; failed_precondition if it has objects of a type that is not known here, or that has another layout
   ///          here.
   [[nodiscard]] static Result<ObjectReader> open(const std::string& path);
 
@@ -63,11 +68,17 @@ class ObjectReader {
   struct Source {
     std::string row;
     const ObjectType* type;
+    const ros::Twin* twin;  // by which a message becomes an object; null: it is one
   };
   explicit ObjectReader(Reader file) : file_(std::move(file)) {}
   Status find_rows();
+  void find_topics();
+  void add_row(std::uint16_t channel, Source source);
+  void learn_frames(std::uint16_t channel);
+  [[nodiscard]] Result<ObjectRef> object_of(const Source& source, const Message& message) const;
 
   Reader file_;
+  ros::FrameTree frames_;
   std::map<std::uint16_t, Source> sources_;  // by channel
   std::map<std::string, RecordedRow> rows_;
   Values facts_;
