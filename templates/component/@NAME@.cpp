@@ -19,7 +19,8 @@ class @CLASS@ final : public orca::Component {
   orca::Outcome work() override {
     const auto readings = ranges_.get_update_wait();
     const auto near = [&](double range) { return range < *stop_distance_; };
-    motion_.push(std::ranges::any_of(readings->ranges(), near) ? orca::full_stop() : orca::dont_care());
+    const bool stops = std::ranges::any_of(readings->ranges(), near);
+    motion_.push(stops ? orca::full_stop() : orca::dont_care());
     return orca::again();
   }
 };

@@ -6,7 +6,7 @@
 
 namespace {
 
-// What the test pushes goes to the component's port of the same name, and what the component pushes comes back.
+// Ports of the test: each is connected to the component's port of the same name.
 struct Ports final : orca::testing::Partner {
   using Partner::Partner;
   orca::PushServer<orca::idl::RangeReadings> ranges{*this, "ranges"};

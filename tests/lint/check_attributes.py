@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each attribute of the graph language has a user that ships: a graph, an experiment, or a graph of a page for beginners."""
+"""Each attribute of the graph language has a user that ships: a graph, an experiment, or a graph of a lesson."""
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -26,7 +26,7 @@ def find(tree):
     if SCHEMA not in tree.paths:
         return [f"{SCHEMA}: is not there"]
     shipped = [path for path in tree.paths
-               if re.match(r"graphs/\w+\.xml$|sim/experiments/.*\.xml$|docs/first_\w+\.md$", path)]
+               if re.match(r"graphs/\w+\.xml$|sim/experiments/.*\.xml$|docs/lessons/.*\.md$", path)]
     unused = declared(tree.text(SCHEMA)) - WRITTEN_BY_ORCA - set().union(*(used(tree.text(path)) for path in shipped))
     return [f"{SCHEMA}: <{element} {attribute}=\"...\">: no shipped graph uses it; write one that needs it, or delete it"
             for element, attribute in sorted(unused)]
@@ -44,5 +44,5 @@ BAD = [
 ]
 GOOD = [
     {SCHEMA: _SCHEMA, "graphs/a.xml": '<connect from="a.b"\n queue="1"/>'},
-    {SCHEMA: _SCHEMA, "graphs/a.xml": '<connect from="a.b"/>', "docs/first_component.md": '<connect queue="4"/>'},
+    {SCHEMA: _SCHEMA, "graphs/a.xml": '<connect from="a.b"/>', "docs/lessons/01_hello.md": '<connect queue="4"/>'},
 ]

@@ -14,7 +14,6 @@ TREE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(sys.argv.pop()).resolve()
 BLOCK = re.compile(r"^<!-- (?:region \S*?/(?P<file>[\w.]+) \w+|made of templates/\w+/(?P<made>\S+)|read by \S+) -->\n```\w+\n(?P<text>.*?)^```$",
                    re.MULTILINE | re.DOTALL)
-SAID = re.compile(r"^<!-- compared by \S+ -->\n```text\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def without_tree():

@@ -87,7 +87,7 @@ class Pages(InFolder):
             self.assertEqual(([goal[0] for goal in done.arrived], done.contacts), (["kitchen", "office_2", "meeting"], []))
         self.assertNotEqual(careless.contacts, [])
 
-    def test_the_notebook_makes_the_first_comparison(self):
+    def test_the_notebook_makes_its_comparison(self):
         self.copy_of_tree()
         os.chdir("python/lessons")
         cells = json.loads(pathlib.Path("compare.ipynb").read_text(encoding="utf-8"))["cells"]
