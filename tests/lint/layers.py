@@ -80,7 +80,7 @@ LAYERS = (
     Layer("hw_nomad_scout", ("src/hw/nomad_scout",), ("orca/hw/nomad_scout/",), ("hw_framing", "geometry", "base")),
     Layer("hw_p2os", ("src/hw/p2os",), ("orca/hw/p2os/",), ("hw_framing", "geometry", "base")),
     Layer("hw_driver", ("src/hw/driver",), tuple(f"orca/hw/{name}.hpp" for name in (
-        "arrivals", "base_driver", "base_figures", "base_odometry", "base_senses", "laser_driver", "laser_place", "line_driver", "line_frames", "line_session",
+        "arrivals", "base_driver", "base_figures", "base_odometry", "base_senses", "emulated_device", "frame_session", "laser_driver", "laser_place", "line_driver", "line_frames", "line_session",
         "robot_figures")),
           ("hw_framing", "hw_link", "geometry_objects", "robot_file", "xml", *DEVICE), ("eigen", "fmt")),
     Layer("create2_driver", ("src/hw/create2/driver",), (), ("hw_create2", *DRIVER), ("fmt",)),

@@ -20,7 +20,12 @@ class FakeHardwareHost final : public hw::HardwareHost {
  public:
   FakeHardwareHost(Executive& executive, Diary& diary) : executive_(executive), diary_(diary) {}
 
-  void declare_param(ParamDeclaration /*declaration*/) override {}
+  void declare_param(ParamDeclaration declaration) override { params_.push_back(std::move(declaration)); }
+  /// Sets a parameter of the container.
+  void set(const std::string& param, const ParamValue& value) const {
+    for (const ParamDeclaration& each : params_)
+      if (each.contract.name == param) each.set(value);
+  }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] TimePoint now() const override { return executive_.now(); }
   [[nodiscard]] RandomStream random(std::string_view stream) const override { return {1, name_, stream}; }
@@ -40,6 +45,7 @@ class FakeHardwareHost final : public hw::HardwareHost {
   Executive& executive_;
   Diary& diary_;
   std::string name_ = "scout";
+  std::vector<ParamDeclaration> params_;
 };
 
 inline constexpr hw::DriveLimits kScoutLimits{
