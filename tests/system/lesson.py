@@ -26,7 +26,7 @@ MOST_LINES, MOST_COLUMNS, MOST_CODE = 150, 100, 60
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"`([\w./-]+)`(, as made|, in part)?:$")
 NOT_RUN = re.compile(r"<!-- not run: \S.* -->")
-COMMENT = re.compile(r"^(//|#(?!include|!)|<!--.*-->$)")
+NO_CODE = re.compile(r"^$|//|#(?!include|!)|<!--.*-->$|(cmake_minimum_required|project|find_package)\(")
 LONGEST = 300  # [s] that one block of commands may take
 
 
@@ -64,9 +64,10 @@ def blocks_of(page):
 
 
 def lines_of_code(blocks):
-    """Returns how many lines the reader writes: those of all files, without blank ones and comments."""
+    """Returns how many lines the reader writes: those of all files, without blank ones, comments and those with which each CMakeLists.txt
+    begins."""
     lines = [line.strip() for block in blocks if block.kind == "write" for line in block.text.splitlines()]
-    return sum(bool(line) and not COMMENT.match(line) for line in lines)
+    return sum(not NO_CODE.match(line) for line in lines)
 
 
 def form_of(page, blocks):

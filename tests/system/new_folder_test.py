@@ -55,17 +55,6 @@ class Pages(unittest.TestCase):
             if kind == "component":
                 self.assertIn(f"{commands}```", (TREE / "README.md").read_text())
 
-    def test_a_new_driver_scans_an_emulated_device_at_a_pseudo_terminal(self):
-        """Its trial, the line with ctest, is part of a lesson."""
-        reader = Reader("orcactl new driver", self.folder)
-        commands = reader.run("orcactl new driver owl\n")
-        reader.run("".join(line for line in commands.splitlines(True) if "ctest" not in line))
-        with open(reader.folder / "owl/scans.csv", newline="", encoding="utf-8") as table:
-            scans = list(csv.DictReader(table))
-        self.assertGreater(len(scans), 10)
-        self.assertAlmostEqual(float(scans[-1]["ranges[30]"]), 2.0, places=3)  # the wall ahead
-        self.assertEqual(float(scans[-1]["ranges[0]"]), math.inf)
-
     def test_a_new_experiment_runs(self):
         reader = Reader("orcactl new experiment", self.folder)
         commands = reader.run("orcactl new experiment two\n")
@@ -78,6 +67,30 @@ class Pages(unittest.TestCase):
     def test_orcactl_prints_the_path_that_is_missing(self):
         done = subprocess.run([BUILD / "bin/orcactl", "new", "experiment", "two"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertIn(f"\nexport PATH='{BUILD}/bin':$PATH\ncd two\n", done.stdout)
+
+
+class Drivers(unittest.TestCase):
+    def test_a_new_driver_passes_its_trial_which_finds_the_faults_of_another_one(self):
+        folder = tempfile.mkdtemp(prefix="orca_new_driver_")
+        self.addCleanup(shutil.rmtree, folder)
+        reader = Reader("orcactl new driver", folder)
+        reader.run(reader.run("orcactl new driver owl\n"))
+        self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
+        with open(reader.folder / "owl/scans.csv", newline="", encoding="utf-8") as table:
+            scans = list(csv.DictReader(table))
+        self.assertGreater(len(scans), 10)
+        self.assertAlmostEqual(float(scans[-1]["ranges[30]"]), 2.0, places=3)  # the wall ahead
+        self.assertEqual(float(scans[-1]["ranges[0]"]), math.inf)
+        self.assert_finds_faults(reader)
+
+    def assert_finds_faults(self, reader):
+        """A driver that never gives up on a silent device does not pass."""
+        source = reader.folder / "owl/owl.cpp"
+        text = source.read_text()
+        self.assertIn("? Duration(1s) : Duration::max();", text)
+        source.write_text(text.replace("? Duration(1s) : Duration::max();", "? Duration::max() : Duration::max();"))
+        with self.assertRaisesRegex(AssertionError, "silent: .* readings in 5 s; nobody said that the device is silent"):
+            reader.run("cmake --build build\nctest --test-dir build --verbose\n")
 
 
 COMPONENT = """#include "orca/component.hpp"
