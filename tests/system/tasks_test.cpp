@@ -419,6 +419,7 @@ TEST_CASE("all faults of a task file are reported with their places before the r
   <Drive to="kitchn"/>
   <Drive to="library"/>
   <Drive to="hall > libary"/>
+  <Drve to="kitchen"/>
 </task>)");
   const std::string never = folder.write("never.xml", R"(<task name="never" version="1">
   <Check when="localization.state is LOCALIZATION_LOCALISED" within="5 s"/>
@@ -430,7 +431,7 @@ TEST_CASE("all faults of a task file are reported with their places before the r
   CHECK_THAT(faults.err, Contains(task + ":3:3: error K013"));
   const Run places = run_deployer(check + Words{"task=" + lost});
   CHECK_THAT(places.err, Contains(lost + ":2:3: error K010") && Contains("did you mean \"kitchen\""));
-  CHECK_THAT(places.err, Contains(lost + ":4:3: error K010"));
+  CHECK_THAT(places.err, Contains(lost + ":4:3: error K010") && Contains(lost + ":5:3: error K002"));
   const Run words = run_deployer(check + Words{"task=" + never});
   CHECK(words.exit_code() == kRefusedByComponent);
   CHECK_THAT(words.err,

@@ -41,7 +41,8 @@ class Settings final : public Setter {
   /// Reports the steps of a task that set what the graph does not let the component set.
   void check(const Task& task, xml::Diagnostics& diagnostics) const {
     for (const Step& step : task.steps) {
-      if (step.kind != Kind::with || host_.may_set(named(step.component), step.param)) continue;
+      const bool sets = step.kind == Kind::with && !step.component.empty();  // else it is a fault already
+      if (!sets || host_.may_set(named(step.component), step.param)) continue;
       const std::string what = step.component + "." + step.param;
       diagnostics.error(codes::kRight, step.position,
                         "the graph does not let this task set " + what + "; add may_set=" + in_quotes(what) +

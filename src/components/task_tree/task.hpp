@@ -69,7 +69,7 @@ struct Task {
 /// @param sights       that conditions may look at.
 /// @param diagnostics  receives every error of the file with its position: G1xx for XML that is not well-formed, K0xx
 ///                     for its content (README.md).
-/// @return nothing if the file has an error.
+/// @return nothing if there is no task in the file. With errors, the task is what could be read, so that all of it can be checked.
 [[nodiscard]] std::optional<Task> read_task(const std::string& path, std::span<const Sight> sights,
                                             xml::Diagnostics& diagnostics);
 /// Does the same for text in memory; `file_name` only appears in positions.

@@ -250,9 +250,7 @@ std::optional<Task> read_document(const std::optional<xml::Document>& document, 
                    "this is <" + root.name() + ">, not <task>; a graph is run with deployer");
     return std::nullopt;
   }
-  Task task = TaskReader(sights, reporter).read(root);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return task;
+  return TaskReader(sights, reporter).read(root);
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ inline Task task_of(const std::string& steps) {
   const auto task =
       read_task_text("<task name=\"test\" version=\"1\">" + steps + "</task>", "test.xml", {}, diagnostics);
   INFO(diagnostics.text());
-  REQUIRE(task);
+  REQUIRE((task && !diagnostics.has_errors()));
   return *task;
 }
 
@@ -91,7 +91,7 @@ inline Task shipped_task(const std::string& name) {
   orca::xml::Diagnostics diagnostics;
   const auto task = read_task(ORCA_SOURCE_DIR "/graphs/tasks/" + name + ".xml", sights, diagnostics);
   INFO(diagnostics.text());
-  REQUIRE(task);
+  REQUIRE((task && !diagnostics.has_errors()));
   return *task;
 }
 
