@@ -83,7 +83,9 @@ TEST_CASE("a run whose fuser gets no list of behaviours says who never worked, a
   const Run run = run_graph("", kForgottenList, Words{"--until", "2 s"} + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(run.says("warning fuser: has never worked in this run: nobody listens to it"));
+  CHECK(run.says(
+      "warning fuser: has never worked in this run: nobody listens to it, and neither its parameters "
+      "nor what was sent to it made it work"));
   CHECK(run.says(
       "warning walk: has never worked in this run: none of those that it is connected to has subscribed: "
       "fuser"));

@@ -53,10 +53,20 @@ std::vector<std::string> listeners_of(const std::string& component, const graph:
   return listeners;
 }
 
+// Returns whether the component sends, or is sent something: it may have a reason of its own to work.
+bool may_work_by_itself(const std::string& component, const graph::Graph& graph) {
+  return std::ranges::any_of(graph.edges, [&](const graph::Edge& edge) {
+    return edge.pattern == Pattern::send &&
+           (edge.from.component == component || edge.to.component == component);
+  });
+}
+
 std::string reason(const graph::ComponentNode& node, const graph::Graph& graph) {
   if (node.autonomous.value_or(false)) return "it did not get beyond its start";
   const std::vector<std::string> listeners = listeners_of(node.name, graph);
   if (!listeners.empty()) return "none of those that it is connected to has subscribed: " + listed(listeners);
+  if (may_work_by_itself(node.name, graph))
+    return "nobody listens to it, and neither its parameters nor what was sent to it made it work";
   return "nobody listens to it, and it works by itself only with autonomous=\"true\" in the graph";
 }
 
