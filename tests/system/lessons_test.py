@@ -47,6 +47,12 @@ class Pages(unittest.TestCase):
         pages = {page.name: lines_of_code(blocks_of(page.read_text())) for page in LESSONS.glob("[0-9]*.md")}
         self.assertEqual(rows, pages)
 
+    def test_the_smallest_component_is_as_small_as_its_page_says(self):
+        page = (LESSONS / "01_hello.md").read_text()
+        files = {block.file: lines_of_code([block]) for block in blocks_of(page) if block.kind == "write"}
+        self.assertEqual(files, {"hello.cpp": 13, "CMakeLists.txt": 1, "hello.xml": 3})
+        self.assertIn("13 lines of code, 1 of build after those with which each project begins, and 3 of graph.", " ".join(page.split()))
+
 
 RIGHT = r"""# A page
 
