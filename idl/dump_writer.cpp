@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "dump_writer.hpp"
+#include "orca/idl/dump_writer.hpp"
 
 #include <charconv>
 #include <cstdint>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/idl/object_type.hpp"
 
-#include <algorithm>
-
-#include "make_object_type.hpp"
+#include "orca/idl/make_object_type.hpp"
 
 namespace orca {
 
@@ -20,19 +18,6 @@ void append_written(std::size_t (*write)(const void* object, std::span<std::byte
 }
 
 }  // namespace detail
-
-const ObjectType* find_object_type(std::string_view name) {
-  const auto types = object_types();
-  const auto found = std::ranges::lower_bound(types, name, {}, &ObjectType::name);
-  return found != types.end() && (*found)->name == name ? *found : nullptr;
-}
-
-const ObjectType* find_subtype(const ObjectType& wanted, std::uint64_t layout_hash) {
-  if (wanted.layout_hash == layout_hash) return &wanted;
-  const auto types = object_types();
-  const auto found = std::ranges::find(types, layout_hash, &ObjectType::layout_hash);
-  return found != types.end() && is_a(**found, wanted) ? *found : nullptr;
-}
 
 TypeId type_id(const ObjectType& type) {
   TypeId id{std::string(type.name), type.layout_hash, std::string(type.layout)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "pool.hpp"
+#include "orca/idl/pool.hpp"
 
 #include <pthread.h>
 
@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-#include "orca/idl/object_type.hpp"
+#include "orca/idl/object_library.hpp"
 
 namespace orca {
 namespace detail {
@@ -16,10 +16,12 @@ namespace {
 // ThreadSanitizer does not follow copies of a process, and follows 64 locks at once.
 #if !defined(__SANITIZE_THREAD__)
 void lock_all() ORCA_THREAD_WORD(no_thread_safety_analysis) {
+  lock_object_types();  // so that the same pools are unlocked
   for (const ObjectType* const type : object_types()) type->pool.lock();
 }
 void unlock_all() ORCA_THREAD_WORD(no_thread_safety_analysis) {
   for (const ObjectType* const type : object_types()) type->pool.unlock();
+  unlock_object_types();
 }
 
 [[maybe_unused]] const int g_registered = pthread_atfork(lock_all, unlock_all, unlock_all);

@@ -6,7 +6,6 @@ from pathlib import Path
 from idl_model import Enum, IdlFile, Struct, layout_hash
 
 HEAD = "// SPDX-License-Identifier: LGPL-3.0-or-later\n// Written by idl/tools/generate.py from the IDL files.\n"
-PLACE = "orca/idl/generated"
 
 
 def quoted(text: str) -> str:
@@ -16,7 +15,7 @@ def quoted(text: str) -> str:
 def enum_reflection(enum: Enum) -> str:
     names = ", ".join(quoted(e) for e in enum.enumerators)
     return (
-        f"template <>\nstruct EnumReflection<idl::{enum.name}> {{\n"
+        f"template <>\nstruct EnumReflection<{enum.cpp}> {{\n"
         f"  static constexpr std::string_view name = {quoted(enum.name)};\n"
         f"  static constexpr std::array<std::string_view, {len(enum.enumerators)}> names = {{{names}}};\n}};\n"
     )
@@ -26,14 +25,14 @@ def struct_reflection(struct: Struct) -> str:
     lines = []
     header = ", true" if struct.name == "OrcaObject" else ""
     if struct.base:
-        base = f"idl::{struct.base.name}"
+        base = struct.base.cpp
         lines.append(f"    Reflection<{base}>::fields(as_base<{base}>(object), visitor);")
     for field in struct.fields:
         info = f"FieldInfo{{{quoted(field.name)}, {quoted(field.unit)}{header}}}"
         lines.append(f"    visitor.field({info}, object.{field.name}());")
     body = "\n".join(lines)
     return (
-        f"template <>\nstruct Reflection<idl::{struct.name}> {{\n"
+        f"template <>\nstruct Reflection<{struct.cpp}> {{\n"
         f"  static constexpr std::string_view name = {quoted(struct.name)};\n"
         f"  static constexpr std::size_t min_wire_size = {struct.wire_size};\n"
         f"  template <class Object, class Visitor>\n"
@@ -43,8 +42,8 @@ def struct_reflection(struct: Struct) -> str:
 
 def reflection_header(file: IdlFile) -> str:
     stem = Path(file.name).stem
-    parts = [HEAD, "#pragma once\n\n", '#include "orca/idl/reflection.hpp"\n', f'#include "{PLACE}/{stem}.h"\n']
-    parts += [f'#include "{PLACE}/{Path(i.name).stem}.reflection.hpp"\n' for i in file.includes]
+    parts = [HEAD, "#pragma once\n\n", '#include "orca/idl/reflection.hpp"\n', f'#include "{file.place}/generated/{stem}.h"\n']
+    parts += [f'#include "{i.place}/generated/{Path(i.name).stem}.reflection.hpp"\n' for i in file.includes]
     parts.append("\nnamespace orca {\n\n")
     parts.append("\n".join([*map(enum_reflection, file.enums), *map(struct_reflection, file.structs)]))
     parts.append("\n}  // namespace orca\n")
@@ -56,12 +55,12 @@ def objects_of(file: IdlFile) -> list[Struct]:
 
 
 def type_key(struct: Struct) -> str:
-    return f"detail::object_type_of<idl::{struct.name}, 0x{layout_hash(struct.object_layout):016x}U>()"
+    return f"detail::object_type_of<{struct.cpp}, 0x{layout_hash(struct.object_layout):016x}U>()"
 
 
 def type_declaration(struct: Struct) -> str:
     """Declares a type. Its symbol contains the hash of its layout: users built for another layout do not load."""
-    names = [f"idl::{struct.name}"] + ([f"Travelling<idl::{struct.name}>"] if struct.header else [])
+    names = [struct.cpp] + ([f"Travelling<{struct.cpp}>"] if struct.header else [])
     return f"template <>\nconst ObjectType& {type_key(struct)};\n" + "".join(
         f"template <>\ninline const ObjectType& object_type<{name}>() {{ return {type_key(struct)}; }}\n" for name in names
     )
@@ -69,7 +68,7 @@ def type_declaration(struct: Struct) -> str:
 
 def types_header(file: IdlFile) -> str:
     stem = Path(file.name).stem
-    headers = ["orca/idl/object_type.hpp", "orca/idl/travelling.hpp", f"{PLACE}/{stem}.h"]
+    headers = ["orca/idl/object_type.hpp", "orca/idl/travelling.hpp", f"{file.place}/generated/{stem}.h"]
     parts = [HEAD, "#pragma once\n\n", *(f'#include "{header}"\n' for header in headers)]
     parts.append("\nnamespace orca {\n\n")
     parts += map(type_declaration, objects_of(file))
@@ -78,31 +77,98 @@ def types_header(file: IdlFile) -> str:
 
 
 def type_definition(struct: Struct) -> str:
-    name, layout = struct.name, struct.object_layout
-    parent = f"&type_of_{struct.parent.name}" if struct.parent else "nullptr"
+    """Defines a type. One that extends a type of another library is made when its library is loaded, all others by the compiler."""
+    name, layout, parent, when = struct.word, struct.object_layout, "nullptr", "constinit "
+    if struct.parent:
+        is_near = struct.parent.module == struct.module
+        parent = f"&type_of_{struct.parent.word}" if is_near else f"&{type_key(struct.parent)}"
+        when = when if is_near else ""
     return (
         f"constinit detail::Pool pool_of_{name}{{type_of_{name}}};\n"
-        f"constinit const ObjectType type_of_{name} = detail::make_object_type<ObjectOf<idl::{name}>>(\n"
+        f"{when}const ObjectType type_of_{name} = detail::make_object_type<ObjectOf<{struct.cpp}>>(\n"
         f"    {quoted(layout)}, 0x{layout_hash(layout):016x}U, {parent}, pool_of_{name});\n"
     )
 
 
-def type_table(files: list[IdlFile]) -> str:
-    """Returns the one source file that defines every object type, sorted by name for searching."""
-    stems = [Path(f.name).stem for f in files]
-    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
-    parts = [HEAD, '#include "make_object_type.hpp"\n', '#include "pool.hpp"\n']
-    parts += [f'#include "{PLACE}/{stem}.{kind}.hpp"\n' for stem in stems for kind in ("reflection", "types")]
+def definitions(files: list[IdlFile], structs: list[Struct], headers: list[str]) -> str:
+    """Returns the begin of a source file that defines object types, and kTypes, which lists them."""
+    parts = [HEAD, *(f'#include "{header}"\n' for header in ["orca/idl/make_object_type.hpp", *headers])]
+    for file in files:
+        parts += [f'#include "{file.place}/generated/{Path(file.name).stem}.{kind}.hpp"\n' for kind in ("reflection", "types")]
     parts.append("\nnamespace orca {\nnamespace {\n\n")
-    parts += [f"extern const ObjectType type_of_{s.name};\n" for s in structs]
+    parts += [f"extern const ObjectType type_of_{s.word};\n" for s in structs]
     parts.append("\n" + "\n".join(map(type_definition, structs)))
     parts.append("\nconstexpr const ObjectType* kTypes[] = {\n")
-    parts += [f"    &type_of_{s.name},\n" for s in structs]
+    parts += [f"    &type_of_{s.word},\n" for s in structs]
     parts.append("};\n\n}  // namespace\n\n")
     for s in structs:
-        parts.append(f"template <>\nconst ObjectType& {type_key(s)} {{ return type_of_{s.name}; }}\n")
-    parts.append("\nstd::span<const ObjectType* const> object_types() { return kTypes; }\n\n}  // namespace orca\n")
+        parts.append(f"template <>\nconst ObjectType& {type_key(s)} {{ return type_of_{s.word}; }}\n")
     return "".join(parts)
+
+
+def part_key(part) -> str:
+    return f"detail::part_layout<{part.cpp}, 0x{layout_hash(part.layout):016x}U>()"
+
+
+def type_table(files: list[IdlFile]) -> str:
+    """Returns the one source file of liborca_idl.so that defines every object type, sorted by name for searching."""
+    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
+    of_parts = [part for f in files for part in (*f.enums, *f.structs)]
+    parts = [definitions(files, structs, ["orca/idl/object_library.hpp", "orca/idl/pool.hpp", "own_types.hpp"])]
+    parts.append("\nnamespace {\n\nconstexpr std::string_view kParts[] = {\n")
+    parts += [f"    {quoted(part.layout)},\n" for part in of_parts]
+    parts.append("};\n\n}  // namespace\n\n")
+    for i, part in enumerate(of_parts):
+        parts.append(f"template <>\nstd::string_view {part_key(part)} {{ return kParts[{i}]; }}\n")
+    parts.append("\nnamespace detail {\n\nstd::span<const ObjectType* const> own_object_types() { return kTypes; }\n"
+                 "std::span<const std::string_view> own_part_layouts() { return kParts; }\n\n}  // namespace detail\n}  // namespace orca\n")
+    return "".join(parts)
+
+
+def orca_parts_of(files: list[IdlFile]) -> list:
+    """Returns the types of Orca's own IDL files that the files' structs extend or hold themselves, OrcaObject always."""
+    used = {}
+    for struct in (s for f in files for s in f.structs):
+        root = struct.header or struct.root
+        for part in (root, struct.base, *(f.type for f in struct.fields)):
+            if part is not None and hasattr(part, "cpp") and not part.module:
+                used[part.name] = part
+    return [used[name] for name in sorted(used)]
+
+
+def library_source(files: list[IdlFile]) -> str:
+    """Returns the source file of a library of object types that are not Orca's own."""
+    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
+    needed = "".join(f"    {part_key(part)},\n" for part in orca_parts_of(files))
+    return (
+        definitions(files, structs, ["orca/idl/object_library.hpp", "orca/idl/pool.hpp"]) +
+        "\nnamespace {\n\n// Refers to the layouts of Orca's own types that these were built with.\n"
+        f"[[maybe_unused]] const std::string_view g_needed[] = {{\n{needed}}};\n"
+        "[[maybe_unused]] const bool g_known = detail::add_object_types(kTypes);\n\n}  // namespace\n}  // namespace orca\n"
+    )
+
+
+def public_header(file: IdlFile) -> str:
+    """Returns what components include to use a file's types."""
+    stem = Path(file.name).stem
+    headers = [f"{file.place}/generated/{stem}.h", f"{file.place}/generated/{stem}.types.hpp", "orca/idl/object.hpp",
+               *(f"{i.place}/{Path(i.name).stem}.hpp" for i in file.includes)]
+    return f"{HEAD}#pragma once\n\n" + "".join(f'#include "{header}"\n' for header in dict.fromkeys(headers))
+
+
+def layouts_source(files: list[IdlFile]) -> str:
+    """Returns what a library of object types and its users carry, to say what changed in a type since they were built."""
+    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
+    texts = "\n".join(f"    {quoted(s.object_layout)} \"\\0\"" for s in structs)
+    return (
+        f"{HEAD}#include <array>\n\nnamespace {{\n\n[[gnu::section(\"orca_layouts\"), gnu::used, gnu::retain]] constexpr auto layouts =\n"
+        f"    std::to_array(\n{texts});\n\n}}  // namespace\n"
+    )
+
+
+def types_list(files: list[IdlFile]) -> str:
+    """Returns the list that lies beside a library of object types."""
+    return "".join(f"object {s.name}\n" for s in sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name))
 
 
 def layouts_header(files: list[IdlFile]) -> str:

@@ -12,6 +12,27 @@ class IdlError(Exception):
     """A mistake in an IDL file, with its place: "motion.idl:12: ..."."""
 
 
+class Named:
+    """What has a name: that of Orca's own types is one word, that of others begins with their module, "my.Glow"."""
+
+    name: str
+
+    @property
+    def module(self) -> str:
+        """The module of a type that is not Orca's own; empty: it is."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def word(self) -> str:
+        """The name without its module."""
+        return self.name.rpartition(".")[2]
+
+    @property
+    def cpp(self) -> str:
+        """The class in C++, as seen from namespace orca."""
+        return f"::{self.module}::{self.word}" if self.module else f"idl::{self.name}"
+
+
 @dataclass(frozen=True)
 class Primitive:
     """A built-in type of IDL, and the fewest bytes that a value takes on the wire (XCDR1)."""
@@ -37,7 +58,7 @@ PRIMITIVES = {
 
 
 @dataclass
-class Enum:
+class Enum(Named):
     name: str
     enumerators: list[str]
     text: str
@@ -75,7 +96,7 @@ class Field:
 
 
 @dataclass
-class Struct:
+class Struct(Named):
     name: str
     base: Optional["Struct"]
     text: str
@@ -144,6 +165,10 @@ class IdlFile:
     includes: list["IdlFile"]
     enums: list[Enum]
     structs: list[Struct]
+    #: The module that it declares types in; empty: Orca's own.
+    module: str = ""
+    #: The folder of the headers that are made of it, as #include lines name it.
+    place: str = "orca/idl"
 
 
 def layout_hash(layout: str) -> int:

@@ -3,6 +3,7 @@
 
 Allowed: include guards, #include "x.idl", module orca { module idl { ... }; };, enum, struct with single inheritance,
 and fields of the types in idl_model.PRIMITIVES, of enums and structs declared before, as sequence<T> or T name[N].
+Files of other projects declare their types in one module of their own, module my { ... };, and name Orca's types orca::idl::T.
 Every type needs a `///` comment before it, every field a `///<` comment after it. The comment of a double starts with
 its unit in brackets: `double speed;  ///< [m/s] forward positive`.
 
@@ -13,6 +14,7 @@ front (ADR 0031). Its base, if it has one, must be marked too.
 import difflib
 import re
 from pathlib import Path
+from typing import Optional
 
 from idl_model import PRIMITIVES, Enum, Field, IdlError, IdlFile, Struct
 
@@ -20,6 +22,7 @@ TOKEN = re.compile(
     r"(?P<space>[ \t\r]+)|(?P<newline>\n)|(?P<after>///<[^\n]*)|(?P<before>///[^\n]*)|(?P<comment>//[^\n]*)"
     r"|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*)|(?P<number>\d+)|(?P<sign>[{}<>;:,\[\]=()@/*.\"'-])"
 )
+RESERVED = ("orca", "std", "eprosima")  # namespaces that generated code uses
 TRAVELS = "@travels"  # in the comment before a plain struct
 HINTS = {
     "float": "use double",
@@ -113,23 +116,41 @@ class Parser:
     # -- the grammar
 
     def parse(self) -> IdlFile:
-        self.skip_guard()
+        guard = self.skip_guard()
         while self.peek().kind == "directive":
             self.directive()
-        self.open_module("orca")
-        self.open_module("idl")
+        end = self.open_modules(guard)
         while not self.accept("}"):
             self.definition()
-        for sign in (";", "}", ";"):
+        for sign in end:
             self.expect(sign)
         if self.next().text != "#endif" or self.peek().kind != "end":
             raise self.error("nothing may follow the modules but the '#endif' of the include guard")
         return self.file
 
-    def skip_guard(self):
+    def skip_guard(self) -> str:
         guard = f"ORCA_{Path(self.name).stem.upper()}_IDL"
-        if self.next().text != f"#ifndef {guard}" or self.next().text != f"#define {guard}":
+        first = re.fullmatch(r"#ifndef (\w+)", self.next().text)
+        if first is None or self.next().text != f"#define {first[1]}":
             raise self.error(f"the file must start with its include guard: #ifndef {guard}, #define {guard}")
+        return first[1]
+
+    def open_modules(self, guard: str):
+        """Returns the signs that end the modules, after the first brace."""
+        self.expect("module")
+        if self.accept("orca"):
+            own = f"ORCA_{Path(self.name).stem.upper()}_IDL"
+            if guard != own:
+                raise self.error(f"the file must start with its include guard: #ifndef {own}, #define {own}")
+            for text in ("{", "module", "idl", "{"):
+                self.expect(text)
+            return (";", "}", ";")
+        token = self.identifier("a module", r"[a-z][a-z0-9_]*", "in snake_case")
+        if token.text in RESERVED:
+            raise self.error(f"'{token.text}' cannot be a module: the code made of it uses that name", token)
+        self.file.module = token.text
+        self.expect("{")
+        return (";",)
 
     def directive(self):
         token = self.next()
@@ -139,11 +160,7 @@ class Parser:
         try:
             self.file.includes.append(self.load(match.group(1)))
         except FileNotFoundError:
-            raise self.error(f"there is no file '{match.group(1)}' beside this one", token) from None
-
-    def open_module(self, name: str):
-        for text in ("module", name, "{"):
-            self.expect(text)
+            raise self.error(f"there is no file '{match.group(1)}' beside this one, or among Orca's", token) from None
 
     def definition(self):
         text = self.comment_before()
@@ -158,13 +175,17 @@ class Parser:
 
     def type_name(self, what: str) -> Token:
         token = self.identifier(what, r"[A-Z][A-Za-z0-9]*", "in PascalCase")
-        if token.text in self.known:
+        if self.full_name(token.text) in self.known:
             raise self.error(f"'{token.text}' is declared already", token)
         return token
 
+    def full_name(self, word: str) -> str:
+        return f"{self.file.module}.{word}" if self.file.module else word
+
     def enum(self, text: str):
         name = self.type_name("an enum")
-        taken = {e: k.name for k in self.known.values() if isinstance(k, Enum) for e in k.enumerators}
+        scope = [k for k in self.known.values() if isinstance(k, Enum) and k.module == self.file.module]
+        taken = {e: k.name for k in scope for e in k.enumerators}
         enumerators = []
         self.expect("{")
         while not self.accept("}"):
@@ -180,18 +201,19 @@ class Parser:
         self.expect(";")
         if not enumerators:
             raise self.error(f"enum {name.text} has no enumerators", name)
-        self.known[name.text] = Enum(name.text, enumerators, text)
-        self.file.enums.append(self.known[name.text])
+        full = self.full_name(name.text)
+        self.known[full] = Enum(full, enumerators, text)
+        self.file.enums.append(self.known[full])
 
     def struct(self, text: str):
         name = self.type_name("a struct")
         base = None
         if self.accept(":"):
             token = self.next()
-            base = self.resolve(token.text, token)
+            base = self.resolve(self.scoped(token.text), token)
             if not isinstance(base, Struct):
                 raise self.error(f"'{token.text}' is no struct; only a struct can be inherited", token)
-        struct = Struct(name.text, base, text.replace(TRAVELS, "").strip())
+        struct = Struct(self.full_name(name.text), base, text.replace(TRAVELS, "").strip())
         if TRAVELS in text:
             struct.header = self.header_for(struct, name)
         self.expect("{")
@@ -204,7 +226,7 @@ class Parser:
         for twice in {n for n in names if names.count(n) > 1}:
             raise self.error(f"'{twice}' would be twice on an element of {name.text}: its first field is a struct, whose fields are "
                              "written there too; put another field first", name)
-        self.known[name.text] = struct
+        self.known[struct.name] = struct
         self.file.structs.append(struct)
 
     def header_for(self, struct: Struct, name: Token) -> Struct:
@@ -259,19 +281,34 @@ class Parser:
             words += " long"
         if words == "sequence":
             raise self.error("a sequence of sequences is not supported: put the inner one into a struct", token)
-        return self.resolve(words, token)
+        return self.resolve(self.scoped(words), token)
+
+    def scoped(self, word: str) -> str:
+        """Returns the name that begins with a word, with the modules before it: "orca::idl::Pose2D"."""
+        while self.accept(":"):
+            self.expect(":")
+            word += "::" + self.next().text
+        return word
 
     def resolve(self, name: str, token: Token):
-        found = PRIMITIVES.get(name) or self.known.get(name)
+        module, _, word = name.rpartition("::")
+        full = self.full_name(name) if not module else word if module == "orca::idl" else f"{module}.{word}"
+        found = PRIMITIVES.get(name) or self.known.get(full)
         if found:
             return found
         if name in ("@", "/"):
             raise self.error("annotations and block comments are not supported: write '///<' comments", token)
         if name in HINTS:
             raise self.error(f"'{name}' is not supported: {HINTS[name]}", token)
-        near = difflib.get_close_matches(name, [*PRIMITIVES, *self.known], 1)
+        near = difflib.get_close_matches(name, [*PRIMITIVES, *map(self.spelt, self.known.values())], 1)
+        if not module and name in self.known:
+            near = [self.spelt(self.known[name])]
         hint = f"; did you mean '{near[0]}'?" if near else "; declare it before, or #include the file that does"
         raise self.error(f"unknown type '{name}'{hint}", token)
+
+    def spelt(self, known) -> str:
+        """How this file names a type."""
+        return known.word if known.module == self.file.module else f"{known.module or 'orca::idl'}::{known.word}"
 
     def field_comment(self, kind, name: Token):
         comment = self.comment_after()
@@ -284,8 +321,16 @@ class Parser:
         return unit, text
 
 
-def load_files(paths: list[Path]) -> list[IdlFile]:
-    """Parses the files and their includes in the same folder; each file comes once, after its includes."""
+def read_text(path: Path) -> str:
+    data = path.read_bytes()
+    if not data.isascii():
+        line, byte = next((n, b) for n, text in enumerate(data.splitlines(), 1) for b in text if b > 127)
+        raise IdlError(f"{path.name}:{line}: the byte 0x{byte:02x} is no ASCII; write plain letters")
+    return data.decode("ascii")
+
+
+def load_files(paths: list[Path], orca: Optional[Path] = None) -> list[IdlFile]:
+    """Parses the files and their includes, in the same folder or in `orca`; each file comes once, after its includes."""
     loaded: dict[str, IdlFile] = {}
     known: dict = {}
     open_files: list[str] = []
@@ -294,12 +339,15 @@ def load_files(paths: list[Path]) -> list[IdlFile]:
         if path.name in open_files:
             raise IdlError(f"{path.name}:1: the file includes itself: {' -> '.join([*open_files, path.name])}")
         if path.name not in loaded:
-            text = path.read_text(encoding="ascii")
+            text = read_text(path)
             open_files.append(path.name)
-            parser = Parser(text, path.name, known, lambda name: load(path.parent / name))
+            parser = Parser(text, path.name, known, lambda name: load(found(path.parent / name)))
             loaded[path.name] = parser.parse()
             open_files.pop()
         return loaded[path.name]
+
+    def found(path: Path) -> Path:
+        return orca / path.name if orca is not None and not path.exists() else path
 
     for path in paths:
         load(path)

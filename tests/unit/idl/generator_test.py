@@ -8,7 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, sys.argv.pop(1))
 
-from emit_cpp import reflection_header, type_table  # noqa: E402
+from emit_cpp import library_source, reflection_header, type_table, types_header, types_list  # noqa: E402
+from generate import check_library, own_files  # noqa: E402
 from idl_model import IdlError, layout_hash  # noqa: E402
 from idl_parser import load_files  # noqa: E402
 
@@ -233,8 +234,88 @@ class Output(unittest.TestCase):
         table = type_table([parse(root + "/// T.\nstruct Top : OrcaObject {\n  string s;  ///< text\n};"
                                   + "/// P.\nstruct Part {\n  string s;  ///< text\n};")])
         self.assertIn("object_type_of<idl::Top, 0x", table)
-        self.assertNotIn("Part", table)
+        self.assertNotIn("type_of_Part", table)
         self.assertNotIn("object_type_of<idl::OrcaObject,", table)
+
+
+OWN = """#ifndef light_IDL
+#define light_IDL
+#include "orca.idl"
+module my {
+/// Where it is.
+struct Lit {
+  orca::idl::Spot spot;  ///< where
+};
+/// What is seen.
+struct Light : orca::idl::OrcaObject {
+  Lit lit;  ///< what
+};
+/// A kind of it.
+struct Sun : Light {
+  long spots;  ///< how many
+};
+};
+#endif
+"""
+ORCA = STRUCT + "/// Header.\nstruct OrcaObject {\n  long seq;  ///< number\n};\n"
+
+
+class TypesOfOthers(unittest.TestCase):
+    """Files with a module of their own, which may use Orca's."""
+
+    def files(self, *texts: str, also: str = ""):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("orca", "own"):
+                (Path(folder) / name).mkdir()
+            (Path(folder) / "orca/orca.idl").write_text(idl(ORCA, "orca"))
+            paths = [Path(folder) / f"own/light{n or ''}.idl" for n in range(len(texts))]
+            for path, text in zip(paths, texts):
+                path.write_text(text)
+            if also:
+                (Path(folder) / "own/also.idl").write_text(also)
+            files = own_files(paths, Path(folder) / "orca")
+            check_library(files)
+            return files
+
+    def refuses(self, text: str, expected: str, *more: str, also: str = ""):
+        with self.assertRaises(IdlError) as caught:
+            self.files(text, *more, also=also)
+        self.assertIn(expected, str(caught.exception))
+
+    def test_a_name_begins_with_the_module_in_texts_and_is_scoped_in_cpp(self):
+        file = self.files(OWN)[0]
+        self.assertEqual([s.name for s in file.structs], ["my.Lit", "my.Light", "my.Sun"])
+        self.assertEqual(file.structs[-1].object_layout, "my.Sun:my.Light{seq:int32,lit:my.Lit{spot:Spot{x:double {m},n:int32}},spots:int32}")
+        self.assertIn("struct Reflection<::my::Light>", reflection_header(file))
+        self.assertIn("object_type<::my::Light>()", types_header(file))
+        self.assertEqual(types_list([file]), "object my.Light\nobject my.Sun\n")
+
+    def test_the_library_refers_to_what_it_uses_of_orcas_types(self):
+        source = library_source(self.files(OWN))
+        self.assertIn("part_layout<idl::OrcaObject, 0x", source)
+        self.assertIn("part_layout<idl::Spot, 0x", source)
+        self.assertIn("add_object_types(kTypes)", source)
+
+    def test_orcas_types_are_named_with_their_module(self):
+        self.refuses(OWN.replace("orca::idl::Spot", "Spot"), "light.idl:7: unknown type 'Spot'; did you mean 'orca::idl::Spot'?")
+        self.refuses(OWN.replace("orca::idl::Spot", "orca::idl::Spott"), "did you mean 'orca::idl::Spot'?")
+
+    def test_a_library_has_one_module_of_its_own(self):
+        other = OWN.replace("module my", "module your").replace("light_IDL", "light1_IDL")
+        self.refuses(OWN, "light1.idl:1: it declares module your, and light.idl module my", other)
+        self.refuses(OWN.replace("module my", "module std"), "'std' cannot be a module")
+        self.refuses(idl(STRUCT, "light"), "light.idl:1: module orca is for Orca's own types")
+
+    def test_files_must_be_given_and_have_names_of_their_own(self):
+        self.refuses(OWN.replace("orca.idl", "none.idl"), "light.idl:3: there is no file 'none.idl' beside this one, or among Orca's")
+        extra = OWN.replace("light_IDL", "also_IDL").replace("Li", "Ni").replace("Sun", "Moon")
+        self.refuses(OWN.replace("orca.idl", "also.idl"), "also.idl:1: it is included, but not among the FILES", also=extra)
+
+    def test_a_library_without_an_object_type_is_none(self):
+        self.refuses(OWN.replace(" : orca::idl::OrcaObject", ""), "no struct derives from orca::idl::OrcaObject")
+
+    def test_letters_that_are_no_ascii_are_named_with_their_line(self):
+        self.refuses(OWN.replace("where\n", "w\u00e4re\n"), "light.idl:7: the byte 0xc3 is no ASCII")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "numbered_command.hpp"
-#include "pool.hpp"
+#include "orca/idl/pool.hpp"
 
 using namespace orca;
 using namespace orca::host;

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "dump_writer.hpp"
-#include "make_value.hpp"
 #include "orca/idl/cdr_reader.hpp"
 #include "orca/idl/cdr_writer.hpp"
+#include "orca/idl/dump_writer.hpp"
 #include "orca/idl/generated/object.h"
+#include "orca/idl/make_value.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/time.hpp"
 
