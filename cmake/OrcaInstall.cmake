@@ -68,11 +68,13 @@ endfunction()
 # find_package(Orca): the same files for the build folder, whose targets lie there, and for what is installed.
 function(orca_install_package)
   set(config ${PROJECT_SOURCE_DIR}/cmake/OrcaConfig.cmake.in)
-  set(places DEPLOYER LAYOUTS RECIPE)
+  set(places DEPLOYER LAYOUTS RECIPE IDL_FILES IDL_TOOLS)
 
   set(DEPLOYER ${CMAKE_BINARY_DIR}/bin/deployer)
   set(LAYOUTS ${ORCA_PLUGIN_LAYOUTS})
   set(RECIPE ${PROJECT_SOURCE_DIR}/cmake/OrcaPlugin.cmake)
+  set(IDL_FILES ${PROJECT_SOURCE_DIR}/idl/orca)
+  set(IDL_TOOLS ${PROJECT_SOURCE_DIR}/idl/tools)
   configure_package_config_file(${config} ${CMAKE_BINARY_DIR}/OrcaConfig.cmake INSTALL_PREFIX ${CMAKE_BINARY_DIR}
     INSTALL_DESTINATION ${CMAKE_BINARY_DIR} PATH_VARS ${places})
   export(EXPORT Orca NAMESPACE Orca:: FILE ${CMAKE_BINARY_DIR}/OrcaTargets.cmake)
@@ -80,6 +82,8 @@ function(orca_install_package)
   set(DEPLOYER bin/deployer)
   set(LAYOUTS include)
   set(RECIPE ${ORCA_CMAKE}/OrcaPlugin.cmake)
+  set(IDL_FILES ${ORCA_SHARE}/idl)
+  set(IDL_TOOLS ${ORCA_CMAKE}/idl)
   set(made ${CMAKE_BINARY_DIR}/installed)
   configure_package_config_file(${config} ${made}/OrcaConfig.cmake INSTALL_DESTINATION ${ORCA_CMAKE} PATH_VARS ${places})
   write_basic_package_version_file(${made}/OrcaConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -87,10 +91,12 @@ function(orca_install_package)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/install/orca.pc.in ${made}/orca.pc @ONLY)
   install(EXPORT Orca NAMESPACE Orca:: DESTINATION ${ORCA_CMAKE} FILE OrcaTargets.cmake COMPONENT dev)
   install(FILES ${made}/OrcaConfig.cmake ${made}/OrcaConfigVersion.cmake ${PROJECT_SOURCE_DIR}/cmake/OrcaPlugin.cmake
-    DESTINATION ${ORCA_CMAKE} COMPONENT dev)
+    ${PROJECT_SOURCE_DIR}/cmake/OrcaIdl.cmake DESTINATION ${ORCA_CMAKE} COMPONENT dev)
   set(recipe ${PROJECT_SOURCE_DIR}/cmake/plugin)
-  install(FILES ${recipe}/plugin.map ${recipe}/plugin_entry.cpp ${recipe}/write_types.cmake ${recipe}/driver_trial.py
+  install(FILES ${recipe}/plugin.map ${recipe}/plugin_entry.cpp ${recipe}/object_library_entry.cpp ${recipe}/write_types.cmake ${recipe}/driver_trial.py
     DESTINATION ${ORCA_CMAKE}/plugin COMPONENT dev)
+  install(DIRECTORY idl/tools/ DESTINATION ${ORCA_CMAKE}/idl COMPONENT dev FILES_MATCHING PATTERN *.py)
+  install(DIRECTORY idl/orca/ DESTINATION ${ORCA_SHARE}/idl COMPONENT dev FILES_MATCHING PATTERN *.idl)
   install(FILES ${made}/orca.pc DESTINATION share/pkgconfig COMPONENT dev)
 endfunction()
 

@@ -6,10 +6,14 @@
 #   ORCA_PLUGIN_LINK      targets that each plugin links
 #   ORCA_DEPLOYER         the program that runs graphs, for tests of drivers
 #
+#   ORCA_IDL_FILES, ORCA_IDL_TOOLS  see OrcaIdl.cmake
+#
 # Without any part of it a library can be pinned in memory, or stale code can
 # run after a swap: see docs/adr/0004-plugin-recipe.md.
 set(ORCA_PLUGIN_SUPPORT_DIR ${CMAKE_CURRENT_LIST_DIR}/plugin)
 set(ORCA_PLUGIN_OPTIONS -fvisibility=hidden -fvisibility-inlines-hidden $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+
+include(${CMAKE_CURRENT_LIST_DIR}/OrcaIdl.cmake)
 
 # orca_use_plugin_layouts(TARGET): lets it include orca/component/generated/plugin_layouts.hpp.
 function(orca_use_plugin_layouts target)

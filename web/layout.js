@@ -4,7 +4,7 @@
 /**
  * The layout text of an object type, read into a tree. The text is the one that identifies a type (idl/README.md):
  * `Name:Parent{field:type {unit},...}`, where a type is a basic one, `sequence<T>`, `T[9]`, a struct in full, or an enum
- * `Name(FIRST,SECOND)`.
+ * `Name(FIRST,SECOND)`. The name of a type that is not Orca's own begins with its module: `my.Name`.
  *
  * @typedef {{kind: "basic", basic: string}} Basic
  * @typedef {{kind: "enum", name: string, words: string[]}} Enum
@@ -48,7 +48,7 @@ class Reader {
   /** @returns {string} */
   word() {
     const begin = this.at;
-    while (/\w/.test(this.text.charAt(this.at))) ++this.at;
+    while (/[\w.]/.test(this.text.charAt(this.at))) ++this.at;
     if (begin === this.at) this.fail("a name");
     return this.text.slice(begin, this.at);
   }

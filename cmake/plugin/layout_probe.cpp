@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Everything that a plugin can compile in, so that its layout is in this file's debug information, from which
-// list_layouts.py makes the table that plugins and loader compare. A class template needs a line here.
+// list_layouts.py makes the table that plugins and loader compare. A class template needs a line here. What only libraries of object
+// types compile in is here, too.
 #include "orca/component.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/server.hpp"
 #include "orca/idl/geometry.hpp"
+#include "orca/idl/make_object_type.hpp"
 #include "orca/idl/motion.hpp"
+#include "orca/idl/pool.hpp"
 
 namespace {
 

@@ -158,7 +158,7 @@ LAYERS = (
     Layer("host_judging", (f"{HOST}/run/judging",), ("orca/host/edge_choice.hpp", "orca/host/idleness.hpp",
           "orca/host/conclusion.hpp", "orca/host/robot_finder.hpp"), ("host", "graph", "base"), module=HOST),
     Layer("host_run", (f"{HOST}/run",), ("orca/host/run_system.hpp",), ("ros", "host_judging", "host_part", "host_swap", "host_trial",
-          "host_system", "host_recording", "host", "host_containment", "graph", "hw_link", "base"), module=HOST),
+          "host_system", "host_recording", "host", "host_containment", "plugin", "graph", "hw_link", "base"), module=HOST),
     Layer("supervisor_channel", (f"{SUPERVISOR}/channel",), ("orca/supervisor/channel.hpp", "orca/supervisor/control.hpp",
           "orca/supervisor/message.hpp", "orca/supervisor/record.hpp", "orca/supervisor/vocabulary.hpp"), ("graph", "base"),
           module=SUPERVISOR),

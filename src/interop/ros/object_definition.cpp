@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <map>
@@ -10,6 +11,13 @@
 
 namespace orca::ros {
 namespace {
+
+// Names of types that are not Orca's own have a dot, "my.Light", and those of ROS must not.
+std::string without_dots(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '.', '_');
+  return text;
+}
 
 // A reader of the flattened layout of an object type, which idl/tools/idl_model.py writes: "Name:Parent{field:type {unit},...}". It
 // comes from our own library, so it is right.
@@ -35,9 +43,11 @@ class LayoutReader {
 
   std::string word() {
     std::size_t n = 0;
-    while (n < left_.size() && (std::isalnum(static_cast<unsigned char>(left_[n])) != 0 || left_[n] == '_'))
-      ++n;
-    std::string text(left_.substr(0, n));
+    const auto belongs = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+    };
+    while (n < left_.size() && belongs(left_[n])) ++n;
+    std::string text = without_dots(left_.substr(0, n));
     left_.remove_prefix(n);
     return text;
   }
@@ -111,7 +121,7 @@ class LayoutReader {
 }  // namespace
 
 MessageType message_type_of(const ObjectType& type) {
-  return {"orca/msg/" + std::string(type.name), LayoutReader(type.layout).definition()};
+  return {"orca/msg/" + without_dots(type.name), LayoutReader(type.layout).definition()};
 }
 
 }  // namespace orca::ros

@@ -57,7 +57,10 @@ Status ObjectReader::find_rows() {
     const ObjectType* const type = find_object_type(name);
     if (type == nullptr)
       return fail(Code::failed_precondition,
-                  "objects of the type " + name + " of " + row + " are not known here");
+                  "objects of the type " + name + " of " + row + " are not known here" +
+                      (name.find('.') == std::string::npos
+                           ? ""
+                           : "; the folder of their library must be among the plugin folders (--plugins)"));
     if (std::strtoull(fact(channel.metadata, "orca.layout").c_str(), nullptr, 16) != type->layout_hash)
       return fail(Code::failed_precondition,
                   "objects of the type " + name + " of " + row +

@@ -28,6 +28,8 @@ void PluginIndex::add(const std::vector<std::string>& folders) {
 void PluginIndex::refresh() {
   searched_.clear();
   place_by_type_.clear();
+  object_libraries_.clear();
+  object_types_.clear();
   for (const std::string& folder : folders_) read_folder(folder);
 }
 
@@ -46,7 +48,10 @@ void PluginIndex::read_folder(const std::string& folder) {
       std::string kind, type, text;
       if (!(words >> kind >> type)) continue;
       std::getline(words >> std::ws, text);
-      add_type(type, {kind == "hardware" ? PluginKind::hardware : PluginKind::component, file, {}, text});
+      if (kind == "object")
+        add_object_type(type, {file, text});
+      else
+        add_type(type, {kind == "hardware" ? PluginKind::hardware : PluginKind::component, file, {}, text});
     }
   }
 }
@@ -55,6 +60,12 @@ void PluginIndex::add_type(const std::string& type, const Place& place) {
   const auto [known, is_new] = place_by_type_.emplace(type, place);
   const bool same_folder = fs::path(known->second.file).parent_path() == fs::path(place.file).parent_path();
   if (!is_new && same_folder && known->second.file != place.file) known->second.rival = place.file;
+}
+
+void PluginIndex::add_object_type(const std::string& type, const ObjectPlace& place) {
+  object_types_.emplace(type, place);
+  if (std::ranges::find(object_libraries_, place.library) == object_libraries_.end())
+    object_libraries_.push_back(place.library);
 }
 
 Result<std::string> PluginIndex::file_of(const std::string& type) const {

@@ -4,36 +4,32 @@
 #include <dlfcn.h>
 #include <sys/stat.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <mutex>
-#include <new>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "inspection/code_identity.hpp"
-#include "inspection/load_error.hpp"
 #include "inspection/plugin_file.hpp"
 #include "inspection/plugin_threads.hpp"
 #include "loaded_plugins.hpp"
+#include "opening.hpp"
 #include "orca/base/activity.hpp"
-#include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/code_limit.hpp"
 #include "orca/plugin/describe.hpp"
+#include "orca/plugin/object_library.hpp"
 #include "orca/plugin/trial.hpp"
-#include "shared_settings.hpp"
 
 namespace orca::plugin {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kTrialLimit = 5s;
 constexpr int kTrialRounds = 3;  // what goes well once need not go well again
 
 Error refuse(const std::string& path, const std::string& what) {
@@ -44,18 +40,10 @@ const Manifest* manifest_of(void* handle) {
   return static_cast<const Manifest*>(dlsym(handle, "orca_plugin_manifest"));
 }
 
-// Opens a plugin for a trial, and calls std::terminate() if its static initialisation throws, as a process without a
-// handler does. dlopen() is declared not to throw, so the compiler may leave out what would stop the exception here. It
-// would then reach some handler far out, and the plugin would seem to have survived.
-void* try_open(const char* file) noexcept {
-  void* (*volatile const open)(const char*, int) = dlopen;
-  return open(file, RTLD_NOW | RTLD_LOCAL);
-}
-
 // Does everything that loading and describing the plugin would do, for a trial.
 void load_and_describe(const std::string& path, const std::function<void(const std::string&)>& step) {
   step("its static initialisation");
-  void* const handle = try_open(path.c_str());
+  void* const handle = try_to_open(path.c_str());
   if (handle == nullptr) return;
   const Manifest& manifest = *manifest_of(handle);
   const std::size_t count = static_cast<std::size_t>(manifest.end_of_types - manifest.first_type);
@@ -73,6 +61,21 @@ void load_and_describe(const std::string& path, const std::function<void(const s
   if (!threads_may_run_in(extent.start(), extent.end())) dlclose(handle);  // as unload() does
 }
 
+// Loads the libraries beside a plugin whose object types it uses.
+Status load_needed_types(const ElfFile& elf, const std::string& path, Trial trial) {
+  for (const std::string_view name : elf.needed()) {
+    const fs::path file = fs::path(path).parent_path() / name;
+    std::error_code unused;
+    if (!fs::exists(file, unused) || !fs::exists(fs::path(file).replace_extension(".types"), unused))
+      continue;
+    if (const Status loaded = load_object_library(file.string(), trial); !loaded.ok())
+      return fail(loaded.error().code,
+                  "cannot be loaded, because of the object types that it uses: " + loaded.error().text(),
+                  path);
+  }
+  return ok();
+}
+
 // The facts about a file that has passed its checks and its trial.
 struct Judgement {
   std::vector<std::string> virtual_time_faults;
@@ -83,6 +86,7 @@ struct Judgement {
 Result<Judgement> judge(const std::string& path, const std::string& file, Trial trial) {
   const Result<PluginFile> read = PluginFile::read(file);
   if (!read) return fail(read.error().code, read.error().message, path);
+  if (Status types = load_needed_types(read->elf(), path, trial); !types.ok()) return types.error();
   if (const auto faults = read->faults(known_type); !faults.empty())
     return refuse(path, joined(faults, "; it "));
   const Judgement judged{read->virtual_time_faults(), read->may_start_threads(), identity_of(read->elf())};
@@ -123,12 +127,6 @@ void keep_known(Remains remains) {
   kept.push_back(std::move(remains));
 }
 
-Error cannot_load(const std::string& path, const std::string& file, const std::string& words) {
-  if (says_no_memory(words)) throw std::bad_alloc();
-  const Result<PluginFile> read = PluginFile::read(file);
-  return refuse(path, "cannot be loaded: " + (read ? explain_load_error(read->elf(), file, words) : words));
-}
-
 }  // namespace
 
 // The file that the dynamic linker is to open, after it was judged.
@@ -164,29 +162,17 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(PluginImage image, Tr
 }
 
 Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source) {
-  const SharedSettings settings;
-  const CodeLimit limit;
-  errno = 0;
-  void* const handle = dlopen(source.file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  const int reason = errno;
-  if (const std::vector<std::string> changed = settings.put_back(); !changed.empty())
-    log::warning(fs::path(source.path).filename().string(),
-                 "its static initialisation has changed " + joined(changed, " and ") +
-                     ", which all share; it is put back. Let configure() ask for what the plugin needs");
-  if (handle == nullptr) {
-    throw_if_exhausted(reason);
-    const char* const words = dlerror();
-    return cannot_load(source.path, source.file, words == nullptr ? "no reason is given" : words);
-  }
-  if (identity_in_memory(handle) != source.judged.identity) {
-    dlclose(handle);
+  const Result<void*> handle = open_library(source.path, source.file);
+  if (!handle) return handle.error();
+  if (identity_in_memory(*handle) != source.judged.identity) {
+    dlclose(*handle);
     return fail(
         Code::already_exists,
         "cannot be loaded: the dynamic linker returned another library, which is in memory under the same "
         "name; start the process again",
         source.path);
   }
-  return std::unique_ptr<PluginLibrary>(new PluginLibrary(source, handle));
+  return std::unique_ptr<PluginLibrary>(new PluginLibrary(source, *handle));
 }
 
 PluginLibrary::PluginLibrary(const Source& source, void* handle)

@@ -41,6 +41,12 @@ std::uint64_t hash_of(const std::string& first, const std::string& second = {}) 
 
 const ObjectType& type_of(const TypeId& id) { return *find_object_type(id.name); }
 
+// Returns the name of a type as its IDL scopes it: "orca::idl::Odometry", "my::Light" for the type my.Light.
+std::string idl_name(std::string type) {
+  const std::size_t dot = type.find('.');
+  return dot == std::string::npos ? "orca::idl::" + type : type.replace(dot, 1, "::");
+}
+
 RequestTypes types_of(const Endpoint& port) {
   const std::optional<TypeId>& reply = port.contract().reply;
   return {type_of(port.contract().type), reply ? &type_of(*reply) : nullptr};
@@ -123,7 +129,7 @@ class FastBackend final : public DdsBackend {
                                       std::int32_t depth) const {
     std::string name = path;
     name[name.rfind('.')] = '/';
-    return {"orca/" + options_.graph + "/" + name, "orca::idl::" + type, depth};
+    return {"orca/" + options_.graph + "/" + name, idl_name(type), depth};
   }
 
   // DDS is called without the lock, because it calls back with locks of its own.

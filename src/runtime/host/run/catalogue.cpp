@@ -7,13 +7,21 @@
 
 #include "orca/base/text.hpp"
 #include "orca/hw/link/make_link.hpp"
+#include "orca/plugin/object_library.hpp"
 #include "orca/ros/twin.hpp"
 #include "trial/rehearsal.hpp"
 
 namespace orca::host {
 
 PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
-    : index_(index), own_index_(std::move(index)), clock_(clock) {}
+    : index_(index), own_index_(std::move(index)), clock_(clock) {
+  plugin::load_object_libraries(index_);
+}
+
+void PluginCatalogue::add_folders(const std::vector<std::string>& folders) {
+  index_.add(folders);
+  plugin::load_object_libraries(index_);
+}
 
 PluginCatalogue::~PluginCatalogue() { forget_answers(); }
 
@@ -73,6 +81,7 @@ void PluginCatalogue::raise_pinned(const std::string& file, const std::string& w
 void PluginCatalogue::refresh() {
   const std::lock_guard lock(mutex_);
   index_.refresh();
+  plugin::load_object_libraries(index_);
 }
 
 Result<LoadedType> PluginCatalogue::acquire(PluginKind kind, const std::string& type) {

@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <optional>
 
 #include "elf_file.hpp"
+#include "object_types_of.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/input_file.hpp"
-#include "orca/base/layout.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component/manifest.hpp"
-#include "orca/idl/object_type.hpp"
 #include "plugin_layouts.hpp"
 #include "telltale_bytes.hpp"
 #include "virtual_time.hpp"
@@ -25,29 +23,6 @@ namespace {
 
 constexpr std::string_view kManifest = "orca_plugin_manifest";
 constexpr const char* kRecipe = "; build it with orca_add_component()";
-
-// The object type that a symbol refers to, and the hash of the layout that the symbol's user was built with.
-// The symbol is orca::detail::object_type_of<orca::idl::NAME, HASH>().
-struct TypeReference {
-  std::string name;
-  std::uint64_t hash = 0;
-};
-
-std::optional<TypeReference> type_reference(std::string_view symbol) {
-  constexpr std::string_view kPrefix = "_ZN4orca6detail14object_type_ofINS_3idl";
-  if (!symbol.starts_with(kPrefix)) return std::nullopt;
-  symbol.remove_prefix(kPrefix.size());
-  std::size_t length = 0;
-  const auto* const end = symbol.data() + symbol.size();
-  const auto size = std::from_chars(symbol.data(), end, length);
-  symbol.remove_prefix(static_cast<std::size_t>(size.ptr - symbol.data()));
-  if (size.ec != std::errc() || length > symbol.size()) return std::nullopt;
-  TypeReference reference{std::string(symbol.substr(0, length)), 0};
-  symbol.remove_prefix(length);
-  if (!symbol.starts_with("ELm")) return std::nullopt;
-  const auto hash = std::from_chars(symbol.data() + 3, end, reference.hash);
-  return hash.ec == std::errc() ? std::optional(reference) : std::nullopt;
-}
 
 // Lists a few of the names, each shortened if it is long.
 std::string shortly_listed(std::vector<std::string> names) {
@@ -78,11 +53,6 @@ Result<std::vector<std::byte>> bytes_of(const std::string& path) {
 
 }  // namespace
 
-TypeId known_type(const std::string& name) {
-  const ObjectType* const type = find_object_type(name);
-  return type != nullptr ? type_id(*type) : TypeId{};
-}
-
 Result<PluginFile> PluginFile::read(const std::string& path) {
   Result<std::vector<std::byte>> bytes = bytes_of(path);
   if (!bytes) return bytes.error();
@@ -111,7 +81,7 @@ std::vector<std::string> PluginFile::faults(const KnownType& known) const {
   if (!faults.empty()) return faults;  // the rest of the file follows other rules
   check_layouts(faults);
   check_recipe(faults);
-  check_types(known, faults);
+  for (std::string& fault : type_faults(elf_, known)) faults.push_back(std::move(fault));
   return faults;
 }
 
@@ -169,39 +139,6 @@ void PluginFile::check_recipe(std::vector<std::string>& faults) const {
     faults.push_back(
         "could never be unloaded: it has a thread_local variable with a destructor (__cxa_thread_atexit); "
         "make the variable a member of the component");
-}
-
-void PluginFile::check_types(const KnownType& known, std::vector<std::string>& faults) const {
-  for (const ElfSymbol& symbol : elf_.symbols()) {
-    const auto used = symbol.defined ? std::nullopt : type_reference(symbol.name);
-    if (!used) continue;
-    const TypeId here = known(used->name);
-    if (here.name.empty()) {
-      faults.push_back("uses the object type " + used->name +
-                       ", which this Orca does not have; build it again with this Orca");
-    } else if (here.hash != used->hash) {
-      const std::string there = layout_of(used->name);
-      faults.push_back(
-          "was built for another layout of the object type " + used->name +
-          (there.empty() || there == here.layout
-               ? ""
-               : ": " + layout_difference(there, here.layout, {"in the plugin", "in this Orca"})) +
-          "; build it again with this Orca");
-    }
-  }
-}
-
-// Returns the layout "NAME{...}" or "NAME:PARENT{...}" that the plugin was built with; empty if it does not contain it.
-std::string PluginFile::layout_of(const std::string& type) const {
-  const auto section = elf_.section("orca_layouts");
-  if (!section) return {};
-  std::string_view layouts(reinterpret_cast<const char*>(section->data()), section->size());
-  while (!layouts.empty()) {
-    const std::string_view one = layouts.substr(0, layouts.find('\0'));
-    if (one.starts_with(type + "{") || one.starts_with(type + ":")) return std::string(one);
-    layouts.remove_prefix(std::min(layouts.size(), one.size() + 1));
-  }
-  return {};
 }
 
 std::vector<std::string> PluginFile::notes(std::string_view mark) const {

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "elf_file.hpp"
-#include "orca/base/contract.hpp"
+#include "object_types_of.hpp"
 #include "orca/base/result.hpp"
 
 namespace orca::plugin {
@@ -17,9 +16,6 @@ namespace orca::plugin {
 /// A value. Its bytes are not trusted, like those of an ElfFile.
 class PluginFile {
  public:
-  /// A function that returns the type of that name in this process; a TypeId without a name if there is none.
-  using KnownType = std::function<TypeId(const std::string& name)>;
-
   /// @errors  not_found, data_loss or invalid_argument if the file cannot be read, or is not a shared library
   ///          for this machine.
   static Result<PluginFile> read(const std::string& path);
@@ -45,8 +41,6 @@ class PluginFile {
   void check_manifest(std::vector<std::string>& faults) const;
   void check_recipe(std::vector<std::string>& faults) const;
   void check_layouts(std::vector<std::string>& faults) const;
-  void check_types(const KnownType& known, std::vector<std::string>& faults) const;
-  [[nodiscard]] std::string layout_of(const std::string& type) const;
   [[nodiscard]] const ElfSymbol* manifest() const;
   /// Returns what the plugin's bytes show of clocks and random numbers, apart from symbols.
   [[nodiscard]] std::vector<std::string_view> telltales() const;
@@ -55,8 +49,5 @@ class PluginFile {
 
   ElfFile elf_;
 };
-
-/// Returns a type of this process's liborca_idl.so; a TypeId without a name if there is none.
-[[nodiscard]] TypeId known_type(const std::string& name);
 
 }  // namespace orca::plugin

@@ -65,12 +65,13 @@ std::uint64_t hash_of_layouts(std::string_view layouts) {
   return sum.value();
 }
 
-std::optional<std::string> layout_fault(std::string_view theirs, std::uint64_t hash, std::string_view ours) {
+std::optional<std::string> layout_fault(std::string_view theirs, std::optional<std::uint64_t> hash,
+                                        std::string_view ours) {
   if (theirs.ends_with(std::string_view("\0\0", 2))) theirs.remove_suffix(1);  // of the array
   if (theirs.find(' ') == std::string_view::npos)
     return std::string("does not say for which layouts it was built: it has no section orca_plugin_layouts") +
            "; build it with orca_add_component()";
-  if (hash_of_layouts(theirs) != hash)
+  if (hash && hash_of_layouts(theirs) != *hash)
     return "is damaged: its list of layouts does not have the hash that its manifest gives; build it again";
   if (theirs == ours) return std::nullopt;
   const std::vector<std::string> differences = differences_between(read(theirs), read(ours));

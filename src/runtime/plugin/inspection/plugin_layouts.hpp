@@ -16,8 +16,9 @@ namespace orca::plugin {
 /// them; nothing if it fits. Types that only this process has do not matter.
 ///
 /// @param theirs, ours  lists as returned by our_layouts(); theirs is not trusted.
-/// @param hash          hash of theirs, from the plugin's manifest.
-[[nodiscard]] std::optional<std::string> layout_fault(std::string_view theirs, std::uint64_t hash,
+/// @param hash          hash of theirs, from the plugin's manifest; nothing: the library has no manifest.
+[[nodiscard]] std::optional<std::string> layout_fault(std::string_view theirs,
+                                                      std::optional<std::uint64_t> hash,
                                                       std::string_view ours);
 
 /// Returns the hash of a list of layouts, as list_layouts.py computes it.

@@ -44,7 +44,8 @@ class PluginCatalogue final : public graph::Catalogue {
   /// @param type  must outlive this object.
   void add(const TypeEntry& type) { own_types_.push_back(&type); }
 
-  void add_folders(const std::vector<std::string>& folders) override { index_.add(folders); }
+  /// Also loads the libraries of object types in these folders, as the constructor does for the others.
+  void add_folders(const std::vector<std::string>& folders) override;
   Result<Contract> hardware(const std::string& type) override;
   std::vector<HardwareFault> validate_hardware(const graph::HardwareUse& use) override;
   std::vector<HardwareFault> hardware_conflicts(const graph::HardwareUse& use,

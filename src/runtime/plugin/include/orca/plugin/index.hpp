@@ -11,7 +11,8 @@
 namespace orca::plugin {
 
 /// An index of the plugin files by type. It is read from the NAME.types files that the build writes beside
-/// NAME.so, with lines of "component TYPE SENTENCE" or "hardware TYPE SENTENCE"; the sentence may be missing.
+/// NAME.so, with lines of "component TYPE SENTENCE", "hardware TYPE SENTENCE" or, for a library of object types, "object TYPE
+/// SENTENCE"; the sentence may be missing.
 ///
 /// A plain value.
 class PluginIndex {
@@ -39,6 +40,18 @@ class PluginIndex {
   /// Returns the names of all types of one kind, sorted.
   [[nodiscard]] std::vector<std::string> types(PluginKind kind) const;
 
+  /// Returns the files of the libraries of object types, in the order of the folders.
+  [[nodiscard]] const std::vector<std::string>& object_libraries() const { return object_libraries_; }
+
+  /// An object type in a library.
+  struct ObjectPlace {
+    std::string library;
+    std::string text;  ///< What it is, a sentence of its author; empty if he says nothing.
+  };
+
+  /// Returns the object types of these libraries by name; where two libraries list one, in the first.
+  [[nodiscard]] const std::map<std::string, ObjectPlace>& object_types() const { return object_types_; }
+
  private:
   struct Place {
     PluginKind kind;
@@ -48,10 +61,13 @@ class PluginIndex {
   };
   void read_folder(const std::string& folder);
   void add_type(const std::string& type, const Place& place);
+  void add_object_type(const std::string& type, const ObjectPlace& place);
 
   std::vector<std::string> folders_;
   std::vector<std::string> searched_;  // the same for error texts
   std::map<std::string, Place> place_by_type_;
+  std::vector<std::string> object_libraries_;
+  std::map<std::string, ObjectPlace> object_types_;
 };
 
 }  // namespace orca::plugin
