@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,6 +18,7 @@
 #include "guest/guest_types.hpp"
 #include "guest/steering.hpp"
 #include "laps.hpp"
+#include "objects/describe_object.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/system/pace.hpp"
@@ -26,6 +28,8 @@
 #include "orca/graph/plan.hpp"
 #include "orca/graph/port_list.hpp"
 #include "orca/graph/print.hpp"
+#include "orca/idl/object_type.hpp"
+#include "orca/plugin/object_library.hpp"
 #include "orca/supervisor/attendance.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "processes.hpp"
@@ -79,16 +83,48 @@ void load(const std::string& file, const Options& options, Loaded& loaded) {
   if (!shows_json_faults(options)) std::fputs(loaded.diagnostics.text().c_str(), stderr);
 }
 
-Result<PluginDescription> description_of(const Options& options) {
+// Returns the object types that a word names: one, or those of a library; none if it names something else.
+Result<std::vector<const ObjectType*>> object_types_of(const std::string& word,
+                                                       const plugin::PluginIndex& index) {
+  std::vector<const ObjectType*> types;
+  const auto place = index.object_types().find(word);
+  const std::string file = place != index.object_types().end() ? place->second.library : word;
+  const plugin::PluginIndex beside({std::filesystem::absolute(file).parent_path().string()});
+  const bool is_library =
+      names_plugin_file(file) && std::ranges::any_of(beside.object_libraries(), [&](const std::string& one) {
+        return std::filesystem::path(one).filename() == std::filesystem::path(file).filename();
+      });
+  if (is_library)
+    if (const Status loaded = plugin::load_object_library(file); !loaded.ok()) return loaded.error();
+  if (const ObjectType* const type = find_object_type(word)) types.push_back(type);
+  if (is_library && types.empty())
+    for (const auto& [type, listed] : beside.object_types())
+      if (std::filesystem::path(listed.library).filename() == std::filesystem::path(file).filename())
+        types.push_back(find_object_type(type));
+  return types;
+}
+
+std::string library_of(const ObjectType& type) {
+  for (const plugin::ObjectLibrary& library : plugin::object_libraries())
+    if (std::ranges::find(library.types, type.name) != library.types.end()) return library.file;
+  return {};
+}
+
+Result<PluginDescription> description_of(const Options& options, const plugin::PluginIndex& index) {
   if (names_plugin_file(options.file)) return describe_plugin(options.file);
-  const plugin::PluginIndex index = index_of(options);
   const Result<std::string> file = index.file_of(options.file);
   if (file) return describe_plugin(*file, options.file);
   return fail(file.error().code, file.error().message + hint_at_type(options.file, index));
 }
 
 ExitCode describe(const Options& options) {
-  const Result<PluginDescription> plugin = description_of(options);
+  const plugin::PluginIndex index = index_of(options);
+  const Result<std::vector<const ObjectType*>> objects = object_types_of(options.file, index);
+  if (objects && !objects->empty()) {
+    const std::string library = library_of(*objects->front());
+    return show(options.json ? objects_json(*objects, library) : objects_text(*objects, library));
+  }
+  const Result<PluginDescription> plugin = objects ? description_of(options, index) : objects.error();
   if (plugin) return show(options.json ? json(*plugin) : text(*plugin));
   std::fprintf(stderr, "error: %s\n", plugin.error().text().c_str());
   return ExitCode::bad_input;
@@ -348,6 +384,7 @@ ExitCode act(const Options& options) {
   if (options.problems.has_errors()) return refuse(options);
   if (options.answer) return show(*options.answer);
   if (options.guest_socket >= 0) {
+    plugin::load_object_libraries(index_of(options));  // components of another program may use their types
     Result<std::unique_ptr<guest::GuestTypes>> guests =
         guest::GuestTypes::receive(Descriptor(options.guest_socket));
     if (!guests) return refuse_option(codes::kOptionValue, guests.error());

@@ -124,10 +124,12 @@ std::vector<OptionSpec> other_options() {
       {"--diff", "",
        "what differs between two graphs, OLD and NEW, by meaning: exit 0 the same, 1 different"},
       {"--types", "",
-       "all types of components and hardware, each with its plugin file and a sentence on what it is"},
+       "all types of components and hardware, and object types that are not Orca's own, each with its file "
+       "and "
+       "a sentence on what it is"},
       {"--describe", "",
        "ports and parameters, with units, ranges and defaults, of a type such as orca.Goto, or of all types "
-       "of a plugin file: --describe PLUGIN.so"},
+       "of a plugin file: --describe PLUGIN.so; or the fields of an object type such as Odometry"},
       {"--schema", "",
        "the graph's language as an XML schema for editors, with the types of all plugins, their ports and "
        "parameters"},

@@ -22,13 +22,15 @@ struct ListedType {
   std::string text;
 };
 
-// Returns all types, components first.
+// Returns all types, components first, object types of libraries last.
 std::vector<ListedType> all_types(const plugin::PluginIndex& index) {
   std::vector<ListedType> result;
   for (const PluginKind kind : {PluginKind::component, PluginKind::hardware})
     for (const std::string& type : index.types(kind))
       result.push_back({type, kind == PluginKind::component ? "component" : "hardware",
                         index.file_of(type).value_or(""), index.text_of(type)});
+  for (const auto& [type, place] : index.object_types())
+    result.push_back({type, "object", place.library, place.text});
   return result;
 }
 

@@ -9,6 +9,7 @@
 namespace orca::deployer {
 
 /// Returns the text that `--types` prints: a line for each type, "orca.Goto  component  FILE.so  What it is."
+/// Of object types those are there that are not Orca's own.
 [[nodiscard]] std::string types_text(const plugin::PluginIndex& index);
 /// Returns the same for programs: [{type, kind, file, text}].
 [[nodiscard]] std::string types_json(const plugin::PluginIndex& index);

@@ -20,6 +20,7 @@
 #include "orca/text/object_table.hpp"
 #include "orca/xml/names.hpp"
 #include "table.hpp"
+#include "tapping/object_learning.hpp"
 
 namespace orca::orcactl {
 namespace {
@@ -258,6 +259,7 @@ ExitCode handle_bag(const apps::Call& call) {
                             xml::did_you_mean(xml::nearest_name(call.words.front(), names))),
                    ExitCode::usage});
   }
+  learn_objects_in_folders(call);
   const Status done = way->second({call.words.begin() + 1, call.words.end()}, call.has("--json"));
   if (done.ok()) return ExitCode::done;
   return report(

@@ -29,6 +29,9 @@ class Client {
   /// Takes a part of an answer.
   using Taker = std::function<void(supervisor::ControlAnswer&)>;
 
+  /// Takes over a connection.
+  explicit Client(Descriptor socket) : channel_(std::make_unique<supervisor::Channel>(std::move(socket))) {}
+
   /// Connects to the system that a call names; if it names none, to the only one that runs.
   [[nodiscard]] static std::variant<Client, Failure> connect(const apps::Call& call);
 
@@ -43,8 +46,6 @@ class Client {
   Result<supervisor::LineAnswer> open_line(const std::string& port, const std::vector<std::string>& options);
 
  private:
-  explicit Client(Descriptor socket) : channel_(std::make_unique<supervisor::Channel>(std::move(socket))) {}
-
   std::unique_ptr<supervisor::Channel> channel_;
   std::uint64_t last_request_ = 0;
 };

@@ -128,6 +128,11 @@ std::vector<Command> showing_commands() {
        .text = "the plugin files, and who uses them",
        .details = "A file counts as pinned if it, or a copy of it that was exchanged, stays in memory "
                   "although nothing uses it: the alarm PLUGIN_PINNED, which was not acknowledged, says why."},
+      {.name = "objects",
+       .text = "the libraries of object types that are not Orca's own, with their types",
+       .details =
+           "They stay in memory until the system ends. deployer --describe TYPE --plugins FOLDER shows "
+           "the fields of one."},
   };
 }
 
@@ -146,6 +151,8 @@ std::vector<Command> file_commands() {
        .arguments = {{"info|check|recover|cut|csv|carmen|diff"},
                      {"FILE.mcap|FOLDER|SYSTEM", Names::file},
                      {"MORE", Names::port, true, true}},
+       .options = {{"--plugins", "FOLDER", "where the libraries of object types lie that are not Orca's own",
+                    true}},
        .text = "show, check, repair, convert or compare a recording; no system needs to run",
        .details = kBagDetails},
       {.name = "map",
@@ -371,7 +378,10 @@ constexpr std::string_view kNewDetails =
     "component: a behaviour, its test without a robot, and a graph in which it drives a simulated Scout. "
     "driver: "
     "a made-up laser on a line, an emulation of it, and a test over good and bad lines. experiment: two "
-    "avoid behaviours in three worlds. NAME consists of letters, digits and _; the type of follow_light is "
+    "avoid behaviours in three worlds. object: a type of objects that travel, its test, a component that "
+    "makes "
+    "them and one that uses them, and a graph. NAME consists of letters, digits and _; the type of "
+    "follow_light is "
     "my.FollowLight. What it prints can be pasted: the commands that build, try and run it, which the "
     "folder's "
     "README.md explains. The templates are in share/orca/templates. Nothing is overwritten.";
@@ -389,9 +399,10 @@ constexpr std::string_view kImportDetails =
 std::vector<Command> shell_commands() {
   return {
       {.name = "new",
-       .arguments = {{"component|driver|experiment"}, {"NAME"}},
-       .text =
-           "begin a component, driver or experiment of your own, in a folder NAME; no system needs to run",
+       .arguments = {{"component|driver|experiment|object"}, {"NAME"}},
+       .text = "begin a component, driver, experiment or object type of your own, in a folder NAME; no "
+               "system needs "
+               "to run",
        .details = kNewDetails},
       {.name = "import",
        .arguments = {{"FILE.xml", Names::file}},

@@ -17,6 +17,7 @@
 #include "orca/idl/value.hpp"
 #include "orca/text/object_xml.hpp"
 #include "table.hpp"
+#include "tapping/object_learning.hpp"
 
 namespace orca::orcactl {
 namespace {
@@ -146,6 +147,7 @@ Result<ObjectLoan> ask_port(Client& client, const std::string& port, const Objec
 ExitCode offer(const apps::Call& call) {
   std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
+  learn_objects(call);
   Result<LineAnswer> answer = std::get<Client>(connected).open_line(call.words.front(), {});
   if (!answer) return report({answer.error()});
   const Status done = carry_out(call, *answer);

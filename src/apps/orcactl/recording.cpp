@@ -31,6 +31,7 @@
 #include "orca/recording/objects/ring_writer.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/values.hpp"
+#include "tapping/object_learning.hpp"
 #include "tapping/tapping.hpp"
 
 namespace orca::orcactl {
@@ -424,6 +425,7 @@ ExitCode record(const apps::Call& call) {
     if (!call.text("--ring")) (void)std::remove(file.c_str());  // nothing is in it
     return report(*failure);
   }
+  learn_objects(call);
   Recording recording(std::get<Descriptor>(std::move(socket)), *writer,
                       {call.words.begin() + 1, call.words.end()});
   const Status done = recording.run(call.duration("--for"));

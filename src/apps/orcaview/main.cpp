@@ -20,6 +20,7 @@
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "replay/playback.hpp"
+#include "tapping/object_learning.hpp"
 #include "view_server.hpp"
 
 // after view_server.hpp, which includes what Boost.Asio lacks
@@ -52,6 +53,8 @@ const apps::Program& program() {
       .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
                    false, "Options", 0, 65535},
                   {"--batch", "DIR", "show a folder of simbatch, and no system"},
+                  {"--plugins", "FOLDER",
+                   "where the libraries of object types of a recording lie that are not Orca's own", true},
                   {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
       .exits = {"0 ended by a signal", "1 the address is in use, or the page's files are missing",
                 "2 the command line is wrong", "3 no system runs, and none is named"},
@@ -166,6 +169,7 @@ ExitCode serve(
 bool is_recording(const std::string& word) { return word.ends_with(".mcap"); }
 
 ExitCode show_recording(const apps::Call& call, const Tokens& tokens, const WebFiles& files) {
+  orcactl::learn_objects_in_folders(call);
   Result<RecordedSystem> recording = RecordedSystem::open(call.words.front());
   if (!recording)
     return report(recording.error(),
@@ -188,7 +192,13 @@ ExitCode show_system(const apps::Call& call, const Tokens& tokens, const WebFile
   const std::string& name = std::get<std::string>(system);
   Loop loop;
   Desk desk(
-      loop.get_executor(), name, [&name] { return supervisor::connect_to_system(name); }, false);
+      loop.get_executor(), name,
+      [&name] {
+        if (Result<Descriptor> asked = supervisor::connect_to_system(name))
+          orcactl::learn_objects(std::move(asked).value());
+        return supervisor::connect_to_system(name);
+      },
+      false);
   ViewServer server(loop, tokens, files);
   server.show(desk);
   return serve(call, name, "", loop, server, tokens, [&] { desk.start(); });

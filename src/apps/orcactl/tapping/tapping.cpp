@@ -12,6 +12,7 @@
 #include "client.hpp"
 #include "figures.hpp"
 #include "following.hpp"
+#include "object_learning.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/object_type.hpp"
@@ -153,7 +154,9 @@ Result<Tapped> tapped(supervisor::Message message) {
 Result<ObjectRef> object_of(const Tapped& passed) {
   const ObjectType* const type = find_object_type(passed.type);
   if (type == nullptr)
-    return fail(Code::data_loss, "objects of the type " + passed.type + " are not known here");
+    return fail(Code::data_loss,
+                "objects of the type " + passed.type +
+                    " are not known here; orcactl objects shows which libraries the system has");
   ObjectLoan object = make_object(*type);
   if (const Status read = type->deserialize(passed.object, object.get()); !read.ok()) return read.error();
   return std::move(object).seal();
@@ -164,10 +167,12 @@ ExitCode tap(const apps::Call& call) {
   std::variant<Client, Failure> connected = Client::connect(call);
   if (auto* const failure = std::get_if<Failure>(&connected)) return report(*failure);
   if (call.has("--from")) {
+    learn_objects(call);
     const Status done = follow(std::get<Client>(connected), call);
     return done.ok() ? ExitCode::done : report({done.error()});
   }
   const bool echoes = call.command->name == "echo";
+  if (echoes) learn_objects(call);
   std::vector<std::string> options{"--tap"};
   if (echoes) options.emplace_back("--objects");
   Result<supervisor::LineAnswer> opened = std::get<Client>(connected).open_line(call.words.front(), options);

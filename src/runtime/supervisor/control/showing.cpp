@@ -10,6 +10,7 @@
 #include "orca/graph/print.hpp"
 #include "orca/host/alarm.hpp"
 #include "orca/host/component_state.hpp"
+#include "orca/plugin/object_library.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -125,6 +126,11 @@ void Showing::plugins(Reply& reply) const {
   for (const auto& [file, use] : uses)
     show(file, use, pinned.erase(std::filesystem::path(file).filename().string()) > 0);
   for (const std::string& file : pinned) show(file, {}, true);
+}
+
+void Showing::objects(Reply& reply) {
+  for (const plugin::ObjectLibrary& library : plugin::object_libraries())
+    reply.add(Record{{"library", library.file}, {"types", joined(library.types, ", ")}});
 }
 
 void Showing::names(Reply& reply) const {

@@ -45,6 +45,8 @@ class Showing {
   void ports(Reply& reply) const;
   /// A line for each plugin, with the types and components that need it.
   void plugins(Reply& reply) const;
+  /// A line for each library of object types, with its types.
+  static void objects(Reply& reply);
   /// The names of all ports and parameters, for completion.
   void names(Reply& reply) const;
   /// What all connections have carried. The processes answer one after the other.

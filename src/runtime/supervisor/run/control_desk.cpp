@@ -156,6 +156,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
+      {"objects", [](ControlDesk&, const Ask&, const ReplyPtr& r) { Showing::objects(*r); }},
       {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},
       {"counters", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.counters(r); }},
       {"alarms",
