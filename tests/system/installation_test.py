@@ -78,6 +78,13 @@ class Installation(unittest.TestCase):
         self.assertNotIn("contact", reader.out)
         self.assertTrue((reader.folder / "follow_light/run.svg").exists())
 
+    def test_a_new_object_type_is_built_tried_and_driven_outside(self):
+        reader = Reader("orcactl new", self.folder, self.orca, without_tree())
+        reader.run(reader.run("orcactl new object free_way\n"))
+        self.assertIn("100% tests passed, 0 tests failed out of 1", reader.out)
+        self.assertIn("distance  double [m]", reader.out)
+        self.assertGreater((reader.folder / "free_way/nearest.csv").read_text().count("finder.nearest"), 20)
+
     def test_a_new_experiment_is_right(self):
         reader = Reader("orcactl new", self.folder, self.orca, without_tree())
         reader.run("orcactl new experiment two\ncd two\ndeployer graph.xml --check\nsimbatch two.xml --check 2>&1\n")
