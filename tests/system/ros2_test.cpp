@@ -25,8 +25,10 @@ const bool kSet = [] {
   const std::string domain = std::to_string(40 + getpid() % 50);
   return setenv("ROS_LOCALHOST_ONLY", "1", 1) == 0 && setenv("ROS_DOMAIN_ID", domain.c_str(), 1) == 0 &&
          setenv("CYCLONEDDS_URI",
-                "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/>"
-                "</Interfaces></General></Domain></CycloneDDS>",
+                "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
+                "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto"
+                "</ParticipantIndex><Peers><Peer "
+                "Address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
                 1) == 0;
 }();
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kEncapsulation = 4;  // [bytes] in front of each object
 
-TimePoint instant(std::uint64_t ns) { return TimePoint(Duration(static_cast<Duration::rep>(ns))); }
+TimePoint time_of(std::uint64_t ns) { return TimePoint(Duration(static_cast<Duration::rep>(ns))); }
 
 // Returns the file of a recording: of a bag's folder the one that is in it.
 Result<std::string> file_of(const std::string& path) {
@@ -121,7 +121,7 @@ Values facts_of(const Reader& file) {
 Result<ObjectRef> ObjectReader::object_of(const Source& source, const Message& message) const {
   if (source.twin != nullptr) {
     const auto mount_of = [this](const std::string& frame) { return frames_.mount_of(frame); };
-    return source.twin->from_ros(message.payload, mount_of, instant(message.log_time));
+    return source.twin->from_ros(message.payload, mount_of, time_of(message.log_time));
   }
   if (message.payload.size() < kEncapsulation) return fail(Code::data_loss, "an object is cut short");
   ObjectLoan object = make_object(*source.type);
@@ -143,7 +143,7 @@ Status ObjectReader::objects(const std::set<std::string>& rows,
     const Source& source = sources_.at(message.channel);
     const Result<ObjectRef> object = object_of(source, message);
     if (!object) return status = fail(object.error().code, source.row + ": " + object.error().message), false;
-    return take({source.row, *object, instant(message.log_time)});
+    return take({source.row, *object, time_of(message.log_time)});
   });
   return status.ok() ? read : status;
 }
