@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Writes the C++ that describes IDL types: field visitors, and the table of object types."""
 
+import re
 from pathlib import Path
 
 from idl_model import Enum, IdlFile, Struct, layout_hash
@@ -166,9 +167,15 @@ def layouts_source(files: list[IdlFile]) -> str:
     )
 
 
+def sentence_of(text: str) -> str:
+    """Returns the first sentence of a comment, as cmake/plugin/write_types.cmake does for components."""
+    return re.split(r"[.:] (?=[A-Z@])", text)[0].rstrip(".: ") + "."
+
+
 def types_list(files: list[IdlFile]) -> str:
     """Returns the list that lies beside a library of object types."""
-    return "".join(f"object {s.name}\n" for s in sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name))
+    structs = sorted((s for f in files for s in objects_of(f)), key=lambda s: s.name)
+    return "".join(f"object {s.name} {sentence_of(s.text)}\n" for s in structs)
 
 
 def layouts_header(files: list[IdlFile]) -> str:

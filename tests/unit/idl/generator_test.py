@@ -288,7 +288,7 @@ class TypesOfOthers(unittest.TestCase):
         self.assertEqual(file.structs[-1].object_layout, "my.Sun:my.Light{seq:int32,lit:my.Lit{spot:Spot{x:double {m},n:int32}},spots:int32}")
         self.assertIn("struct Reflection<::my::Light>", reflection_header(file))
         self.assertIn("object_type<::my::Light>()", types_header(file))
-        self.assertEqual(types_list([file]), "object my.Light\nobject my.Sun\n")
+        self.assertEqual(types_list([file]), "object my.Light What is seen.\nobject my.Sun A kind of it.\n")
 
     def test_the_library_refers_to_what_it_uses_of_orcas_types(self):
         source = library_source(self.files(OWN))

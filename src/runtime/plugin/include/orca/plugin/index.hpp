@@ -46,7 +46,7 @@ class PluginIndex {
   /// An object type in a library.
   struct ObjectPlace {
     std::string library;
-    std::string text;  ///< What it is, a sentence of its author; empty if he says nothing.
+    std::string text;  ///< A sentence of its author on what it is; may be empty.
   };
 
   /// Returns the object types of these libraries by name; where two libraries list one, in the first.
