@@ -36,6 +36,14 @@ bool is_finite(const Pose2& pose) {
   return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
 }
 
+// Places are in the frame of the map: nobody here turns them from another one.
+Status check_map(const std_msgs::Header& header, const char* message) {
+  const std::string& frame = header.frame_id;
+  if (frame.empty() || frame == "map" || frame.ends_with("/map")) return ok();
+  return fail(Code::data_loss,
+              std::string(message) + " is in the frame '" + frame + "'; only places in 'map' are understood");
+}
+
 // --- Twist ------------------------------------------------------------------------------------------------
 
 // A command without an opinion is no message.
@@ -101,7 +109,7 @@ Result<ObjectRef> stamped_to_command(std::span<const std::byte> payload, const M
                                      TimePoint came) {
   geometry_msgs::TwistStamped message;
   if (Status read = from_cdr(payload, message); !read.ok()) return read.error();
-  return to_command(message.twist, stamp_or(message.header.stamp, came), message.header.frame_id);
+  return to_command(message.twist, came, message.header.frame_id);
 }
 
 // --- Poses, paths, maps -----------------------------------------------------------------------------------
@@ -113,6 +121,7 @@ void to_ros(const idl::RobotPose& pose, TimePoint stamp,
 
 Status from_ros(const geometry_msgs::PoseWithCovarianceStamped& message, const MountOf& /*mount_of*/,
                 idl::RobotPose& pose) {
+  if (Status known = check_map(message.header, "a PoseWithCovarianceStamped"); !known.ok()) return known;
   const Pose2 X_WR = to_plane(message.pose.pose);
   if (!is_finite(X_WR)) return not_numbers("a PoseWithCovarianceStamped");
   pose.x(X_WR.x);
@@ -132,6 +141,7 @@ void to_ros(const idl::GoalPoint& goal, TimePoint stamp, std::vector<geometry_ms
 
 Status from_ros(const geometry_msgs::PoseStamped& message, const MountOf& /*mount_of*/,
                 idl::GoalPoint& goal) {
+  if (Status known = check_map(message.header, "a PoseStamped"); !known.ok()) return known;
   const geometry_msgs::Point& place = message.pose.position;
   const idl::Rotation3D rotation = to_rotation(message.pose.orientation);
   if (!is_finite({place.x, place.y, rotation.yaw()})) return not_numbers("a PoseStamped");
@@ -153,6 +163,7 @@ void to_ros(const idl::Path& path, TimePoint stamp, std::vector<nav_msgs::Path>&
 }
 
 Status from_ros(const nav_msgs::Path& message, const MountOf& /*mount_of*/, idl::Path& path) {
+  if (Status known = check_map(message.header, "a Path"); !known.ok()) return known;
   for (const geometry_msgs::PoseStamped& stamped : message.poses) {
     const geometry_msgs::Point& place = stamped.pose.position;
     idl::Pose3D pose;
@@ -178,6 +189,7 @@ void to_ros(const idl::OccupancyGrid& grid, TimePoint stamp, std::vector<nav_msg
 
 Status from_ros(const nav_msgs::OccupancyGrid& message, const MountOf& /*mount_of*/,
                 idl::OccupancyGrid& grid) {
+  if (Status known = check_map(message.header, "an OccupancyGrid"); !known.ok()) return known;
   const nav_msgs::MapMetaData& info = message.info;
   const Pose2 corner = to_plane(info.origin);
   if (!is_finite(corner) || !std::isfinite(info.resolution) || info.resolution <= 0.0F)
@@ -214,16 +226,16 @@ void to_ros(const idl::Alarm& alarm, TimePoint stamp,
   constexpr std::uint8_t kOk = 0;
   constexpr std::uint8_t kWarn = 1;
   constexpr std::uint8_t kError = 2;
-  diagnostic_msgs::DiagnosticStatus status;
-  const std::uint8_t raised = alarm.severity() == idl::ALARM_CRITICAL ? kError : kWarn;
-  status.level = alarm.active() ? raised : kOk;
-  status.name = alarm.source();
-  status.message = alarm.text();
-  status.hardware_id = alarm.source();
   const std::string_view kind =
       alarm.kind() == idl::OWN_KIND
           ? std::string_view(alarm.own_kind())
           : EnumReflection<idl::AlarmKind>::names[static_cast<std::size_t>(alarm.kind())];
+  diagnostic_msgs::DiagnosticStatus status;
+  const std::uint8_t raised = alarm.severity() == idl::ALARM_CRITICAL ? kError : kWarn;
+  status.level = alarm.active() ? raised : kOk;
+  status.name = alarm.source() + ": " + std::string(kind);  // readers keep one status for each name
+  status.message = alarm.text();
+  status.hardware_id = alarm.source();
   status.values = {{"kind", std::string(kind)}, {"hook", alarm.hook()}};
   messages.push_back({make_header(stamp, ""), {std::move(status)}});
 }

@@ -11,6 +11,12 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::array<std::size_t, 3> kPlaneOfSix{0, 1, 5};
+constexpr geometry_msgs::Quaternion kOpticalInCamera{-0.5, 0.5, -0.5, 0.5};
+
+geometry_msgs::Quaternion product(const geometry_msgs::Quaternion& a, const geometry_msgs::Quaternion& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
 
 }  // namespace
 
@@ -25,6 +31,23 @@ std::string sensor_frame(const idl::OrcaObject& object) {
 
 std::string sensor_frame(const idl::OrcaObject& object, std::size_t index, std::size_t count) {
   return sensor_frame(object) + (count == 1 ? "" : "_" + std::to_string(index));
+}
+
+std::string optical_frame(const idl::OrcaObject& object) { return sensor_frame(object) + "_optical"; }
+
+std::string camera_frame(const std::string& optical_frame) {
+  constexpr std::string_view kOptical = "_optical";
+  if (!optical_frame.ends_with(kOptical)) return optical_frame;
+  return optical_frame.substr(0, optical_frame.size() - kOptical.size());
+}
+
+idl::Rotation3D to_optical(const idl::Rotation3D& rotation) {
+  return to_rotation(product(to_quaternion(rotation), kOpticalInCamera));
+}
+
+idl::Rotation3D from_optical(const idl::Rotation3D& rotation) {
+  constexpr geometry_msgs::Quaternion kCameraInOptical{0.5, -0.5, 0.5, 0.5};
+  return to_rotation(product(to_quaternion(rotation), kCameraInOptical));
 }
 
 builtin_interfaces::Time to_ros_time(TimePoint time) {

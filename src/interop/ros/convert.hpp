@@ -20,6 +20,14 @@ namespace orca::ros {
 /// Returns the frame of one sensor of a ring of so many.
 [[nodiscard]] std::string sensor_frame(const idl::OrcaObject& object, std::size_t index, std::size_t count);
 
+/// Returns the frame in which a camera's images are (REP 103): z along the line of sight, x to the right.
+[[nodiscard]] std::string optical_frame(const idl::OrcaObject& object);
+/// Returns the name of the camera whose optical frame that is.
+[[nodiscard]] std::string camera_frame(const std::string& optical_frame);
+/// Turn the axes of a camera as Orca has them, x along the line of sight and z up, into those of its optical frame, and back.
+[[nodiscard]] idl::Rotation3D to_optical(const idl::Rotation3D& rotation);
+[[nodiscard]] idl::Rotation3D from_optical(const idl::Rotation3D& rotation);
+
 [[nodiscard]] builtin_interfaces::Time to_ros_time(TimePoint time);
 [[nodiscard]] TimePoint to_instant(const builtin_interfaces::Time& time);
 [[nodiscard]] std_msgs::Header make_header(TimePoint stamp, std::string frame);

@@ -23,6 +23,7 @@ constexpr std::uint8_t kInfrared = 1;
 // In the order of idl::ImageEncoding.
 constexpr std::array<std::string_view, 7> kEncodings{"mono8", "mono16",      "rgb8", "bgr8",
                                                      "rgba8", "bayer_rggb8", "16UC1"};
+constexpr std::array<std::uint32_t, 7> kBytesPerPixel{1, 2, 3, 3, 4, 1, 2};
 
 // REP 117: what was not heard is infinitely far, what is too near is minus infinity.
 float to_ros_range(double range, double min_range, double max_range) {
@@ -118,7 +119,10 @@ Status range_to_ring(const sensor_msgs::Range& message, const MountOf& mount_of,
     return fail(Code::data_loss, "a Range says limits that are not numbers");
   ring.min_range(message.min_range);
   ring.max_range(message.max_range);
-  ring.ranges().push_back(from_ros_range(message.range, message.min_range, message.max_range));
+  // 0 is the reading of a sensor that something touches, unlike a laser's.
+  ring.ranges().push_back(message.range == 0.0F
+                              ? 0.5 * message.min_range
+                              : from_ros_range(message.range, message.min_range, message.max_range));
   mount(ring, message.header, mount_of);
   idl::Frame3D place;
   place.position(ring.pose().position());
@@ -170,7 +174,7 @@ Status from_ros(const nav_msgs::Odometry& message, const MountOf& /*mount_of*/, 
 
 void to_ros(const idl::Image& image, TimePoint stamp, std::vector<sensor_msgs::Image>& messages) {
   sensor_msgs::Image message;
-  message.header = make_header(stamp, sensor_frame(image));
+  message.header = make_header(stamp, optical_frame(image));
   message.height = image.height();
   message.width = image.width();
   message.encoding = kEncodings[std::min<std::size_t>(image.encoding(), kEncodings.size() - 1)];
@@ -185,11 +189,14 @@ Status from_ros(const sensor_msgs::Image& message, const MountOf& mount_of, idl:
   if (encoding == kEncodings.end())
     return fail(Code::data_loss,
                 "an Image has the encoding '" + message.encoding + "', which Orca has no name for");
-  if (message.is_bigendian != 0 || message.data.size() != std::size_t{message.step} * message.height)
+  const auto kind = static_cast<std::size_t>(encoding - kEncodings.begin());
+  if (message.is_bigendian != 0 || message.step / kBytesPerPixel[kind] < message.width ||
+      message.data.size() != std::size_t{message.step} * message.height)
     return fail(Code::data_loss,
                 "an Image has " + std::to_string(message.data.size()) +
-                    " bytes, or high bytes first; expected step times height, low bytes first");
-  image.encoding(static_cast<idl::ImageEncoding>(encoding - kEncodings.begin()));
+                    " bytes, rows that are too short, or high bytes first; expected step times "
+                    "height, low bytes first");
+  image.encoding(static_cast<idl::ImageEncoding>(kind));
   image.width(message.width);
   image.height(message.height);
   image.step(message.step);
@@ -197,7 +204,7 @@ Status from_ros(const sensor_msgs::Image& message, const MountOf& mount_of, idl:
   const std::optional<idl::Frame3D> place = mount_of ? mount_of(message.header.frame_id) : std::nullopt;
   if (place) {
     image.pose().position(place->position());
-    image.pose().rotation(place->rotation());
+    image.pose().rotation(from_optical(place->rotation()));
   }
   image.pose().stamp(to_time_value(to_instant(message.header.stamp)));
   return ok();
@@ -222,12 +229,13 @@ void to_ros(const idl::Battery& battery, TimePoint stamp, std::vector<sensor_msg
 Status from_ros(const sensor_msgs::BatteryState& message, const MountOf& /*mount_of*/,
                 idl::Battery& battery) {
   constexpr std::uint8_t kCharging = 1;
+  constexpr std::uint8_t kFull = 4;
   battery.name(message.location);
   battery.voltage(message.voltage);
   battery.temperature(message.temperature);
   battery.current(message.current);
   battery.charge(message.percentage);
-  battery.charging(message.power_supply_status == kCharging);
+  battery.charging(message.power_supply_status == kCharging || message.power_supply_status == kFull);
   battery.stamp(to_time_value(to_instant(message.header.stamp)));
   return ok();
 }

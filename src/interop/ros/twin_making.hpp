@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,17 +30,26 @@ builtin_interfaces::Time stamp_of(const Message& message) {
   return {};
 }
 
+// Gives a message without a stamp, as small devices send them, that of its arrival.
+template <class Message>
+void date(Message& message, TimePoint came) {
+  if constexpr (requires { message.header.stamp; })
+    if (message.header.stamp == builtin_interfaces::Time{}) message.header.stamp = to_ros_time(came);
+}
+
+// Returns the frame of a message, or of its camera.
 template <class Message>
 std::string frame_of(const Message& message) {
+  if constexpr (std::is_same_v<Message, sensor_msgs::Image>) return camera_frame(message.header.frame_id);
   if constexpr (requires { message.header.frame_id; }) return message.header.frame_id;
   return {};
 }
 
 }  // namespace detail
 
-/// Returns a message's stamp; if it has none, when it came.
+/// Returns a message's stamp; if it has none, or one of the future as the sender's clock may have it, when it came.
 inline TimePoint stamp_or(const builtin_interfaces::Time& stamp, TimePoint came) {
-  return stamp == builtin_interfaces::Time{} ? came : to_instant(stamp);
+  return stamp == builtin_interfaces::Time{} ? came : std::min(to_instant(stamp), came);
 }
 
 /// Returns a twin of T, with its conversions. A null one: not in that direction.
@@ -62,6 +72,7 @@ Twin make_twin(TwinUse use) {
                        TimePoint came) -> Result<ObjectRef> {
       Message message;
       if (Status read = from_cdr(payload, message); !read.ok()) return read.error();
+      detail::date(message, came);
       Loan<T> object = make_object<T>();
       if (Status said = from(message, mount_of, *object); !said.ok()) return said.error();
       object->creation_time(to_time_value(stamp_or(detail::stamp_of(message), came)));

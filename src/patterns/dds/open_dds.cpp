@@ -14,13 +14,13 @@ template <class Make, class Made, class Options>
 void make_part(const std::string& library, const char* function, const Options& options, Made& made) {
   void* const opened = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (opened == nullptr) {
-    made.emplace(fail(Code::unavailable, std::string("the link dds cannot be used: ") + dlerror()));
+    made.emplace(fail(Code::unavailable, "the library for DDS cannot be used: " + std::string(dlerror())));
     return;
   }
   if (const auto make = reinterpret_cast<Make>(dlsym(opened, function)))
     make(options, made);
   else
-    made.emplace(fail(Code::unavailable, library + " is not the library of Orca's link dds"));
+    made.emplace(fail(Code::unavailable, library + " is not Orca's library for DDS"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/ros/cdr.hpp"
@@ -139,12 +140,17 @@ Status ObjectReader::objects(const std::set<std::string>& rows,
     if (rows.empty() || rows.contains(source.row)) channels.insert(id);
   if (channels.empty()) return ok();  // no channels would be all of them
   Status status = ok();
+  std::map<std::string, std::uint64_t> silent;  // messages that are left out, by row
   const Status read = file_.messages(channels, [&](const Message& message) {
     const Source& source = sources_.at(message.channel);
     const Result<ObjectRef> object = object_of(source, message);
+    if (!object && source.twin != nullptr) return ++silent[source.row], true;  // as on a live topic
     if (!object) return status = fail(object.error().code, source.row + ": " + object.error().message), false;
     return take({source.row, *object, time_of(message.log_time)});
   });
+  for (const auto& [row, count] : silent)
+    log::warning(row, std::to_string(count) +
+                          " messages of the bag say nothing that Orca understands, and are left out");
   return status.ok() ? read : status;
 }
 

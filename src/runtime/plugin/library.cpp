@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <new>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "loaded_plugins.hpp"
 #include "opening.hpp"
 #include "orca/base/activity.hpp"
+#include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/code_limit.hpp"
@@ -108,6 +110,7 @@ Result<Judgement> judge_once(const std::string& path, const std::string& file) {
                           status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
   if (const auto found = known.find(identity); found != known.end()) return found->second;
   Result<Judgement> judged = judge(path, file, Trial::now);
+  if (!judged && judged.error().message.starts_with(kNoMemoryText)) throw std::bad_alloc();
   if (judged) known.emplace(identity, *judged);
   return judged;
 }

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <thread>
 #include <utility>
@@ -120,7 +121,7 @@ void report_terminate() {
     try {
       throw;
     } catch (const std::bad_alloc&) {
-      report_bare(Kind::impossible);  // without a text: there is too little memory
+      report_bare(Kind::impossible);  // without a text: it found no memory
       _exit(0);
     } catch (...) {
       report(Kind::thrown, describe_current_exception());
@@ -199,7 +200,7 @@ class Heard {
       case Kind::question: return ask_(text);
       case Kind::thrown: thrown = std::move(text); return;
       case Kind::effect: return end(Ending::effect, kEffectText);
-      case Kind::impossible: return end(Ending::silent, std::move(text));
+      case Kind::impossible: return end(Ending::silent, text.empty() ? kNoMemoryText : std::move(text));
       case Kind::end: return end(Ending::well, {});
     }
   }
@@ -306,6 +307,12 @@ TrialResult conclude(pid_t copy, int fd, Duration limit, const std::function<boo
   return std::move(heard.result);
 }
 
+// Returns whether there is memory for more than what a plugin needs at its start.
+bool has_memory() {
+  constexpr std::size_t kMuch = std::size_t{32} << 20;
+  return std::unique_ptr<char[]>(new (std::nothrow) char[kMuch]) != nullptr;
+}
+
 TrialResult cannot_try(int reason) {
   throw_if_exhausted(reason);
   TrialResult result;
@@ -342,9 +349,9 @@ Status survives_trial(const std::function<void(const Step&)>& attempt, Duration 
   switch (tried.ending) {
     case Ending::well: return ok();
     case Ending::silent:
-      if (tried.text.empty())
-        throw std::bad_alloc();  // the copy found no memory, so neither would this process
-      if (tried.last_step.empty()) return fail(Code::unavailable, tried.text);
+      if (tried.text == kNoMemoryText && has_memory())
+        return fail(Code::internal, tried.last_step + " threw std::bad_alloc, which nothing can catch there");
+      if (tried.last_step.empty() || tried.text == kNoMemoryText) return fail(Code::unavailable, tried.text);
       [[fallthrough]];
     case Ending::too_long: return fail(Code::deadline_exceeded, tried.last_step + " " + tried.text);
     default: return fail(Code::internal, tried.last_step + " " + tried.text);

@@ -120,20 +120,19 @@ TEST_CASE("a bag's folder is its one file", "[recording][bag]") {
   CHECK_THAT(several.error().message, Catch::Matchers::Contains("drive_0.mcap"));
 }
 
-TEST_CASE("a message that says nothing sensible ends the reading with its topic", "[recording][bag]") {
+TEST_CASE("a message that says nothing sensible is left out, and the reading goes on", "[recording][bag]") {
   const TempFolder folder;
   {
     Bag bag(folder.file("bag.mcap"));
     const std::uint16_t scans = bag.topic<ros::sensor_msgs::LaserScan>("/scan");
     bag.add(scans, 1, ros_scan_at(1));
     bag.add_bytes(scans, 2, {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{1}});
+    bag.add(scans, 3, ros_scan_at(3));
     bag.close();
   }
   const Result<ObjectReader> reader = ObjectReader::open(folder.file("bag.mcap"));
   REQUIRE(reader);
   int passed = 0;
-  const Status read = reader->objects({}, [&](const RecordedObject& /*one*/) { return ++passed, true; });
-  REQUIRE_FALSE(read.ok());
-  CHECK(passed == 1);
-  CHECK_THAT(read.error().message, Catch::Matchers::StartsWith("/scan: "));
+  CHECK(reader->objects({}, [&](const RecordedObject& /*one*/) { return ++passed, true; }).ok());
+  CHECK(passed == 2);
 }

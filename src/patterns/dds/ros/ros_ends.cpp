@@ -10,6 +10,7 @@ namespace orca::dds::of_ros {
 namespace {
 
 constexpr std::size_t kMostQueued = std::size_t{4} << 20;  // [bytes] that wait for the outbox
+constexpr Duration kPatience = 3s;                         // with those who say where sensors are
 constexpr std::size_t kMostWaiting = 256;                  // objects that wait for a strand
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;  // [bytes] that they had as messages
 
@@ -19,7 +20,7 @@ constexpr std::size_t kMostBytes = std::size_t{16} << 20;  // [bytes] that they 
 
 bool RosPublication::write(const ObjectRef& object, std::size_t /*size*/, const Label& /*label*/) {
   // An object of a derived type may say more in the same message.
-  const ros::Twin* const twin = ros::twin_to_ros(object.type(), message_);
+  const ros::Twin* const twin = ros::twin_to_ros(object.type(), twin_.message);
   if (twin == nullptr) return false;
   std::vector<std::vector<std::byte>> payloads;
   twin->to_ros(object, payloads);
@@ -30,10 +31,11 @@ bool RosPublication::write(const ObjectRef& object, std::size_t /*size*/, const 
 
 bool RosPublication::write(std::vector<std::byte> /*messages*/) { return false; }
 
-void RosPublication::post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object,
+bool RosPublication::post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object,
                           Outbox& outbox) {
-  if (to->queued.load(std::memory_order_relaxed) >= kMostQueued) return;
+  if (!to->is_latched() && to->queued.load(std::memory_order_relaxed) >= kMostQueued) return false;
   outbox.post({to, object, {}, {}, object.type().write(object.get(), {})});
+  return true;
 }
 
 PushToRos::PushToRos(Strand& strand, PushSource& source, std::shared_ptr<RosPublication> publication,
@@ -55,16 +57,19 @@ PushToRos::~PushToRos() {
 }
 
 std::optional<Duration> PushToRos::deliver(ObjectRef&& object) {
-  RosPublication::post(publication_, object, outbox_);
   Unread first = Unread::first;
-  if (unread_.compare_exchange_strong(first, Unread::nothing)) bell_->ring();  // it may leave now
+  if (RosPublication::post(publication_, object, outbox_) &&
+      unread_.compare_exchange_strong(first, Unread::nothing))
+    bell_->ring();  // it may leave now
   return std::nullopt;
 }
 
 bool PushToRos::take_in() {
   if (!mutex_.try_lock()) return false;
   const MutexLock lock(mutex_, std::adopt_lock);
-  const bool wanted = unread_ != Unread::nothing || publication_->has_readers();
+  const Unread unread = unread_;
+  const bool wanted = unread == Unread::all || unread == Unread::first || publication_->has_readers() ||
+                      (unread == Unread::moves && publication_->are_frames_heard());
   if (wanted == attached_) return false;
   attached_ = wanted;
   if (wanted)
@@ -76,10 +81,10 @@ bool PushToRos::take_in() {
 
 std::optional<Status> SendToRos::offer(const ObjectRef& object, SendReplySink& /*reply_to*/, RequestId /*id*/,
                                        bool /*may_wait*/) {
-  if (!publication_->has_readers())
+  if (!publication_->is_latched() && !publication_->has_readers())
     return fail(Code::unavailable, "nobody reads topic " + topic_ + " of ROS 2");
-  RosPublication::post(publication_, object, outbox_);
-  return ok();
+  if (RosPublication::post(publication_, object, outbox_)) return ok();
+  return fail(Code::unavailable, "topic " + topic_ + " of ROS 2 takes no more: the network is slower");
 }
 
 // --- In ---------------------------------------------------------------------------------------------------
@@ -89,6 +94,7 @@ RosIntake::RosIntake(Strand& strand, std::string user, std::string topic, const 
     : strand_(strand), user_(std::move(user)), topic_(std::move(topic)), twin_(twin), frames_(frames) {}
 
 Status RosIntake::open(RosParticipant& participant, const RosChannel& channel) {
+  opened_ = strand_.executive().now();
   auto reader =
       participant.make_reader(channel, [this](std::span<const std::byte> payload) { hear(payload); });
   if (!reader) return reader.error();
@@ -104,35 +110,49 @@ void RosIntake::close() {
 }
 
 void RosIntake::hear(std::span<const std::byte> payload) {
-  const auto mount_of = [this](const std::string& frame) { return frames_.mount_of(frame); };
+  const TimePoint now = strand_.executive().now();
+  const auto mount_of = [this](const std::string& frame) { return find_mount(frame); };
+  is_mount_missing_ = false;
   Result<ObjectRef> object =
-      contain_exhaustion([&] { return twin_.from_ros(payload, mount_of, strand_.executive().now()); });
+      contain_exhaustion([&]() -> Result<ObjectRef> { return twin_.from_ros(payload, mount_of, now); });
   if (!object) {
     if (!complained_.exchange(true))
       log::warning(user_, "a message of topic " + topic_ +
                               " is dropped, and others like it without a word: " + object.error().message);
     return;
   }
-  keep(std::move(object).value(), payload.size());
+  if (is_mount_missing_ && now < opened_ + kPatience) return;  // /tf_static comes soon
+  if (is_mount_missing_ && !std::exchange(warned_of_mount_, true))
+    log::warning(user_, "nobody says on /tf_static where the frame '" + object->header().origin() +
+                            "' of topic " + topic_ +
+                            " is; it is taken to be in the middle of the robot, looking ahead");
+  keep(ring_.take(*object), payload.size());
   strand_.wake();
 }
 
-// The newest are dropped first: who is that far behind has no use for one more.
+std::optional<idl::Frame3D> RosIntake::find_mount(const std::string& frame) {
+  if (frame.empty()) return std::nullopt;
+  std::optional<idl::Frame3D> mount = frames_.mount_of(frame);
+  is_mount_missing_ = !mount.has_value();
+  return mount;
+}
+
+// The oldest are dropped, as from any queue of sensors.
 void RosIntake::keep(ObjectRef object, std::size_t size) {
   const MutexLock lock(mutex_);
-  const bool fits = waiting_.size() < kMostWaiting && waiting_bytes_ + size <= kMostBytes;
-  if (!fits && !waiting_.empty()) {
-    ++lost_;
-    return;
-  }
-  waiting_.push_back(std::move(object));
+  waiting_.push_back({std::move(object), size});
   waiting_bytes_ += size;
+  while (waiting_.size() > 1 && (waiting_.size() > kMostWaiting || waiting_bytes_ > kMostBytes)) {
+    waiting_bytes_ -= waiting_.front().size;
+    waiting_.pop_front();
+    ++lost_;
+  }
 }
 
 bool RosIntake::take_in() {
   if (!reading_.try_lock()) return false;
   const MutexLock reading(reading_, std::adopt_lock);
-  std::deque<ObjectRef> taken;
+  std::deque<Waiting> taken;
   std::uint64_t lost = 0;
   {
     const MutexLock lock(mutex_);
@@ -141,7 +161,7 @@ bool RosIntake::take_in() {
     lost = std::exchange(lost_, 0);
   }
   if (lost > 0) pass_on_losses(lost);
-  for (ObjectRef& object : taken) pass_on(std::move(object));
+  for (Waiting& waiting : taken) pass_on(std::move(waiting.object));
   return !taken.empty();
 }
 

@@ -14,6 +14,7 @@
 #include "orca/patterns/endpoints/endpoint.hpp"
 #include "orca/patterns/endpoints/push_link.hpp"
 #include "orca/patterns/endpoints/request_link.hpp"
+#include "orca/ros/range_ring.hpp"
 #include "orca/ros/twin.hpp"
 #include "ros_frames.hpp"
 #include "ros_participant.hpp"
@@ -25,45 +26,32 @@ namespace orca::dds::of_ros {
 /// Thread contract: as TopicWriter.
 class RosPublication final : public TopicWriter {
  public:
-  /// @param message  what is written; the objects have it as a twin.
-  RosPublication(std::shared_ptr<RosWriter> writer, std::string message, RosFrames& frames)
-      : writer_(std::move(writer)), message_(std::move(message)), frames_(frames) {}
+  /// @param twin  of the port's type: what is written.
+  RosPublication(std::shared_ptr<RosWriter> writer, const ros::Twin& twin, RosFrames& frames)
+      : writer_(std::move(writer)), twin_(twin), frames_(frames) {}
 
   bool write(const ObjectRef& object, std::size_t size, const Label& label) override;
   bool write(std::vector<std::byte> messages) override;
   [[nodiscard]] bool has_readers() const { return writer_->readers() > 0; }
+  [[nodiscard]] bool are_frames_heard() const { return frames_.are_heard(); }
 
-  /// Lets the outbox write an object, or drops it if too much waits there.
-  static void post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object, Outbox& outbox);
+  [[nodiscard]] bool is_latched() const { return twin_.is_latched; }
+
+  /// Lets the outbox write an object. If too much waits there it is dropped, unless readers that come later want it.
+  /// @return whether it will be written.
+  static bool post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object, Outbox& outbox);
 
  private:
   const std::shared_ptr<RosWriter> writer_;
-  const std::string message_;
+  const ros::Twin& twin_;
   RosFrames& frames_;
-};
-
-/// Wakes a strand from threads of DDS, for as long as the strand's port is there.
-class Bell {
- public:
-  explicit Bell(Strand& strand) : strand_(&strand) {}
-  void ring() {
-    const MutexLock lock(mutex_);
-    if (strand_ != nullptr) strand_->wake();
-  }
-  void remove() {
-    const MutexLock lock(mutex_);
-    strand_ = nullptr;
-  }
-
- private:
-  Mutex mutex_;
-  Strand* strand_ ORCA_GUARDED_BY(mutex_);
 };
 
 /// The objects for which a port is subscribed to without readers of its topic.
 enum class Unread {
   nothing,
   first,  ///< The first object, which says where a sensor is mounted.
+  moves,  ///< All of them while others hear on /tf how robots move.
   all     ///< The latest object, for readers that come later.
 };
 
@@ -137,9 +125,15 @@ class RosIntake : public Intake {
   [[nodiscard]] const std::string& user() const { return user_; }
 
  private:
+  struct Waiting {
+    ObjectRef object;
+    std::size_t size;  // as it came [bytes]
+  };
+
   virtual void pass_on(ObjectRef object) = 0;
   virtual void pass_on_losses(std::uint64_t objects) = 0;
   void hear(std::span<const std::byte> payload);
+  [[nodiscard]] std::optional<idl::Frame3D> find_mount(const std::string& frame);
   void keep(ObjectRef object, std::size_t size);
 
   Strand& strand_;
@@ -147,10 +141,14 @@ class RosIntake : public Intake {
   const std::string topic_;
   const ros::Twin& twin_;
   RosFrames& frames_;
+  ros::RangeRing ring_;  // used by the reader's callback, as the next three
+  TimePoint opened_{};
+  bool is_mount_missing_ = false;  // of the message that is read now
+  bool warned_of_mount_ = false;
   std::atomic<bool> complained_{false};
   Mutex reading_;  // held by whoever takes in; before mutex_
   Mutex mutex_;
-  std::deque<ObjectRef> waiting_ ORCA_GUARDED_BY(mutex_);
+  std::deque<Waiting> waiting_ ORCA_GUARDED_BY(mutex_);
   std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;  // as they came
   std::uint64_t lost_ ORCA_GUARDED_BY(mutex_) = 0;
   std::unique_ptr<RosReader> reader_;  // the last member: its callback uses the others

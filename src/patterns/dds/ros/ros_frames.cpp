@@ -26,7 +26,7 @@ Status RosFrames::publish() {
     const MutexLock lock(mutex_);
     if (moving_ != nullptr) return ok();
   }
-  auto moving = participant_.make_writer(channel("/tf", false), [] {});
+  auto moving = participant_.make_writer(channel("/tf", false), [this] { ring(); });
   if (!moving) return moving.error();
   auto mounted = participant_.make_writer(channel("/tf_static", true), [] {});
   if (!mounted) return mounted.error();
@@ -45,6 +45,28 @@ Status RosFrames::listen() {
   heard_moving_ = std::move(moving).value();
   heard_static_ = std::move(mounted).value();
   return ok();
+}
+
+// A reader of this process counts as well.
+bool RosFrames::are_heard() const {
+  const MutexLock lock(mutex_);
+  return moving_ != nullptr && moving_->readers() > (heard_moving_ == nullptr ? 0 : 1);
+}
+
+void RosFrames::add(std::weak_ptr<Bell> bell) {
+  const MutexLock lock(mutex_);
+  std::erase_if(bells_, [](const auto& known) { return known.expired(); });
+  bells_.push_back(std::move(bell));
+}
+
+void RosFrames::ring() {
+  std::vector<std::weak_ptr<Bell>> bells;
+  {
+    const MutexLock lock(mutex_);
+    bells = bells_;
+  }
+  for (const std::weak_ptr<Bell>& known : bells)
+    if (const std::shared_ptr<Bell> bell = known.lock()) bell->ring();
 }
 
 Result<std::unique_ptr<RosReader>> RosFrames::hear(const std::string& topic, bool is_latched) {

@@ -44,7 +44,8 @@ bool is_stream(const ObjectType& type) {
 
 Unread unread_of(const ObjectType& type, const ros::Twin& twin) {
   if (twin.is_latched) return Unread::all;
-  return needs_frames(type) ? Unread::first : Unread::nothing;
+  if (needs_frames(type)) return Unread::first;
+  return says_frames(type) ? Unread::moves : Unread::nothing;
 }
 
 class FastRosTopics final : public RosTopics {
@@ -89,18 +90,19 @@ class FastRosTopics final : public RosTopics {
                                             (topic.message.empty() ? "message" : topic.message));
   }
 
+  // @param changed  as of make_writer().
   Result<std::shared_ptr<RosPublication>> publication(Endpoint& port, const RosTopic& topic,
-                                                      const ros::Twin& twin, std::shared_ptr<Bell> bell) {
+                                                      const ros::Twin& twin, std::function<void()> changed) {
     const RosChannel channel{topic.name, std::string(twin.message),    twin.is_latched,
                              true,       twin.is_latched ? 1 : kDepth, port.path()};
-    auto writer = participant_->make_writer(channel, [bell = std::move(bell)] { bell->ring(); });
+    auto writer = participant_->make_writer(channel, std::move(changed));
     if (!writer) return writer.error();
     if (says_frames(type_of(port)))
       if (Status said = frames_.publish(); !said.ok()) return said.error();
     if (is_a(type_of(port), object_type<idl::RobotPose>()))
       if (Status heard = frames_.listen(); !heard.ok()) return heard.error();
     nodes_[port.component()].writers.push_back((*writer)->gid());
-    return std::make_shared<RosPublication>(std::move(writer).value(), std::string(twin.message), frames_);
+    return std::make_shared<RosPublication>(std::move(writer).value(), twin, frames_);
   }
 
   Status publish(PushServerEndpoint& server, const RosTopic& topic) {
@@ -108,18 +110,20 @@ class FastRosTopics final : public RosTopics {
     if (twin == nullptr) return no_message(server, topic);
     Strand& strand = server.home().strand;
     auto bell = std::make_shared<Bell>(strand);
-    auto publication = this->publication(server, topic, *twin, bell);
+    auto publication = this->publication(server, topic, *twin, [bell] { bell->ring(); });
     if (!publication) return publication.error();
+    const Unread unread = unread_of(type_of(server), *twin);
+    if (unread == Unread::moves) frames_.add(bell);
     server.adopt(std::make_unique<PushToRos>(strand, server.connect(topic.name),
                                              std::move(publication).value(), outbox_, std::move(bell),
-                                             unread_of(type_of(server), *twin)));
+                                             unread));
     return ok();
   }
 
   Status publish(SendClientEndpoint& client, const RosTopic& topic) {
     const ros::Twin* const twin = ros::twin_to_ros(type_of(client), topic.message);
     if (twin == nullptr) return no_message(client, topic);
-    auto publication = this->publication(client, topic, *twin, std::make_shared<Bell>(client.home().strand));
+    auto publication = this->publication(client, topic, *twin, [] {});
     if (!publication) return publication.error();
     auto target = std::make_unique<SendToRos>(topic.name, std::move(publication).value(), outbox_);
     client.connect(*target);

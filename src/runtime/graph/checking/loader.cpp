@@ -8,6 +8,7 @@
 #include "endpoints.hpp"
 #include "model.hpp"
 #include "orca/xml/document.hpp"
+#include "ports.hpp"
 #include "reading/assembly.hpp"
 #include "reading/command_line.hpp"
 #include "reading/merging/parameter_settings.hpp"
@@ -61,6 +62,7 @@ Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catal
   check_processes(parts.processes, model, report);
   check_hardware(parts.hardware, types, model, report);
   check_components(parts.components, types, model, report);
+  check_topics(model, catalogue, report);
   check_placement(parts.components, model, report);
   check_start_order(model, report);
   return model;

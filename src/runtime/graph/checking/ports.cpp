@@ -2,6 +2,7 @@
 #include "ports.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -226,6 +227,29 @@ void read_ports(const Node& node, CheckedComponent& component, const Catalogue& 
   for (const Node& child : node.children)
     if (child.is("port")) reader.read(child);
   reader.apply();
+}
+
+void check_topics(const Model& model, const Catalogue& catalogue, Report& report) {
+  struct Use {
+    std::string port;
+    std::string message;
+  };
+  std::map<std::string, Use> known;  // by topic
+  for (const CheckedComponent& component : model.components) {
+    for (const auto& [name, setting] : component.value.ports) {
+      const std::string& alias = setting.alias.empty() ? name : setting.alias;
+      const PortContract* const port = component.contract ? component.contract->port(alias) : nullptr;
+      if (setting.topic.empty() || port == nullptr) continue;
+      Use use{component.value.name + "." + alias, setting.message};
+      if (use.message.empty()) use.message = catalogue.messages(port->type.name, is_from_end(*port)).front();
+      const Use& first = known.try_emplace(setting.topic, use).first->second;
+      if (first.message != use.message)
+        report.error(codes::kTopic, component.value.position,
+                     in_quotes(use.port) + " says or hears " + use.message + " on topic " + setting.topic +
+                         ", and " + in_quotes(first.port) + " " + first.message +
+                         "; give one of them another topic or message");
+    }
+  }
 }
 
 std::string ports_of(const Contract& contract) {

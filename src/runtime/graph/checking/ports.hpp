@@ -12,6 +12,9 @@ namespace orca::graph {
 // connection any more.
 void read_ports(const Node& node, CheckedComponent& component, const Catalogue& catalogue, Report& report);
 
+// Reports topics that have one message at one port and another one at another: they would never meet.
+void check_topics(const Model& model, const Catalogue& catalogue, Report& report);
+
 // Returns the ports of a contract for people: "in: laser, sonar; out: motion".
 std::string ports_of(const Contract& contract);
 

@@ -25,6 +25,7 @@ ListedPort listed(const ComponentNode& node, const PortContract& contract) {
   if (!found->second.alias.empty()) port.ref.port = found->second.alias;
   port.disabled = found->second.disabled;
   port.candidates = found->second.candidates;
+  port.topic = found->second.topic;
   return port;
 }
 
@@ -49,6 +50,7 @@ std::string connection_text(const ListedPort& port) {
   if (!port.peers.empty()) text = (is_from_end(port.contract) ? "to " : "from ") + names(port.peers);
   if (!port.candidates.empty())
     text += (text.empty() ? "one of " : "; one of ") + names(port.candidates) + ", named at run time";
+  if (!port.topic.empty()) text += (text.empty() ? "topic " : "; topic ") + port.topic;
   return text.empty() ? "not connected" : text;
 }
 
@@ -101,6 +103,7 @@ void write(const ListedPort& port, JsonWriter& json) {
   write_values("choices", choices, json);
   write_values("in_use", in_use, json);
   json.member("candidates", texts(port.candidates));
+  if (!port.topic.empty()) json.member("topic", port.topic);
   json.member("text", port.contract.text);
   json.end();
 }

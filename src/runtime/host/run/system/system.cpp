@@ -68,9 +68,10 @@ Result<std::unique_ptr<ComponentInstance>> System::make(const graph::ComponentNo
   if (run_.doorbell) instance->set_doorbell(*run_.doorbell(node.name));
   const Status made = node.on_demand ? declare(graph_, node, *instance, catalogue) : instance->load();
   if (!made.ok()) return made.error();
-  // In virtual time nobody of ROS 2 is there: topics are silent.
-  if (run_.executive.is_virtual()) return instance;
-  if (Status connected = topics_.connect(node, *instance); !connected.ok()) return connected.error();
+  // In virtual time nobody of ROS 2 is there.
+  const Status connected =
+      run_.executive.is_virtual() ? connect_silence(node, *instance) : topics_.connect(node, *instance);
+  if (!connected.ok()) return connected.error();
   return instance;
 }
 

@@ -4,6 +4,7 @@
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "run/system/component_making.hpp"
+#include "run/system/topics.hpp"
 
 namespace orca::host {
 
@@ -31,24 +32,8 @@ Status Backdrop::connect(const graph::Graph& graph, ComponentInstance& object, T
     }
     if (is_client) take_first_choice(edge, *own);
   }
-  return connect_topics(graph, object);
-}
-
-// A proxy with a topic is connected, for whoever asks.
-Status Backdrop::connect_topics(const graph::Graph& graph, ComponentInstance& object) {
   const graph::ComponentNode* const node = graph.find_component(object.name());
-  if (node == nullptr) return ok();
-  for (const auto& [name, setting] : node->ports) {
-    Endpoint* const own = object.endpoint(setting.alias.empty() ? name : setting.alias);
-    if (setting.topic.empty() || own == nullptr || own->contract().role != Role::proxy) continue;
-    Endpoint& other = *counterpart({setting.topic, name}, *own);
-    const bool hears = own->contract().pattern == Pattern::push;
-    LocalLinks links;
-    if (Status connected = links.connect(hears ? other : *own, hears ? *own : other, own->contract().queue);
-        !connected.ok())
-      return connected;
-  }
-  return ok();
+  return node == nullptr ? ok() : connect_silence(*node, object);
 }
 
 // Connects the object's end of an edge with a port of a peer.

@@ -29,10 +29,6 @@ class Backdrop {
   /// @errors  those of Links::connect().
   Status connect(const graph::Graph& graph, ComponentInstance& object, TrialServers* servers = nullptr);
 
-  /// Connects an object's proxies that have topics of ROS 2, on which nobody speaks here. connect() does that as well.
-  /// @errors  those of Links::connect().
-  Status connect_topics(const graph::Graph& graph, ComponentInstance& object);
-
   /// Lets a peer push an object, if it is connected.
   /// @param from  the peer's port.
   void push(const graph::PortRef& from, ObjectRef object);

@@ -8,12 +8,12 @@
 #include <tuple>
 #include <utility>
 
-#include "backdrop.hpp"
 #include "orca/host/last_words.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "orca/plugin/trial.hpp"
 #include "quiet_run.hpp"
 #include "run/system/component_making.hpp"
+#include "run/system/topics.hpp"
 
 namespace orca::host {
 namespace {
@@ -61,8 +61,8 @@ class Rehearsal {
   bool connect_all() {
     const auto find = [this](const std::string& name) { return components_.at(name).get(); };
     if (!sound_ || !connect(graph_, find, [](const graph::Edge&) { return LocalLinks(); }).ok()) return false;
-    return std::ranges::all_of(components_, [this](const auto& component) {
-      return backdrop_.connect_topics(graph_, *component.second).ok();
+    return std::ranges::all_of(graph_.components, [this](const graph::ComponentNode& node) {
+      return connect_silence(node, *components_.at(node.name)).ok();
     });
   }
 
@@ -138,7 +138,6 @@ class Rehearsal {
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
   QuietRun quiet_{executive_, "trial", kSeed, [this] { changed_->notify(); }, missions_};
-  Backdrop backdrop_{executive_};
   std::map<std::string, std::unique_ptr<ComponentInstance>> components_;
   std::map<std::string, std::vector<std::string>> start_after_;
   std::set<std::string> down_;

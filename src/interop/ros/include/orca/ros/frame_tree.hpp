@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,7 +27,8 @@ struct FrameNews {
 /// Thread contract: not synchronised.
 class FrameTree {
  public:
-  /// Takes an object. @return nothing if it tells nothing of a frame.
+  /// Takes an object. A pose belongs to the odometry of its stamp.
+  /// @return nothing if it tells nothing of a frame.
   [[nodiscard]] std::optional<FrameNews> hear(const ObjectRef& object);
 
   /// Takes what others say of frames: where they say how a robot has moved in its odometry frame, hear() need not be told.
@@ -36,7 +38,17 @@ class FrameTree {
   [[nodiscard]] std::optional<idl::Frame3D> mount_of(const std::string& frame) const;
 
  private:
-  std::map<std::string, Pose2> odometry_;  // of robots, by context: X_OB
+  // Where a robot was in its odometry frame.
+  struct Moment {
+    TimePoint stamp;
+    Pose2 X_OB;
+  };
+
+  [[nodiscard]] std::optional<idl::Frame3D> chain(const std::string& frame, const std::string& end) const;
+  void note_odometry(const std::string& context, TimePoint stamp, const Pose2& X_OB);
+  [[nodiscard]] std::optional<Pose2> odometry_at(const std::string& context, TimePoint instant) const;
+
+  std::map<std::string, std::deque<Moment>> odometry_;                               // of robots, by context
   std::map<std::string, std::pair<std::string, geometry_msgs::Transform>> parents_;  // of frames, and X_PF
 };
 

@@ -29,6 +29,7 @@ struct ListedPort {
   std::vector<ListedPeer> peers;    ///< Ports connected to it, in the order of the graph.
   std::vector<PortRef> candidates;  ///< Ports that it may be connected to at run time.
   std::string process{};            ///< Of its component.
+  std::string topic{};              ///< Of ROS 2, on which it speaks as well; empty: none.
 };
 
 /// Returns all ports of all components of a checked graph, in its order.

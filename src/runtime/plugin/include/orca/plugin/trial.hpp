@@ -58,7 +58,7 @@ using TrialAnswerer = std::function<std::string(const std::string& question)>;
 /// @param limit    [s of the steady clock] for the whole trial.
 /// @param give_up  asked several times a second; true ends the trial, with the ending `silent`. Empty: never.
 /// @param answer   empty: all questions get an empty answer.
-/// @errors  ending `silent` with the reason in `text`, or without one if the copy found no memory.
+/// @errors  ending `silent` with the reason in `text`; kNoMemoryText if the copy found no memory.
 /// @thread  any; the copy has only the calling thread.
 [[nodiscard]] TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration limit,
                                     Effects effects, const std::function<bool()>& give_up = {},
@@ -68,7 +68,7 @@ using TrialAnswerer = std::function<std::string(const std::string& question)>;
 ///
 /// @param attempt  calls its argument before each step with a description of the step, for people.
 /// @errors  internal with the step and how it ended the copy; deadline_exceeded if it takes too long; unavailable if it
-///          could not be tried. Throws std::bad_alloc if the copy found no memory.
+///          could not be tried, with kNoMemoryText if there is no memory.
 /// @thread  any; the copy has only the calling thread.
 [[nodiscard]] Status survives_trial(
     const std::function<void(const std::function<void(const std::string&)>&)>& attempt, Duration limit);
