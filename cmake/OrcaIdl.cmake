@@ -33,6 +33,8 @@ function(orca_generate_idl name)
     OUTPUT ${classes} ${headers} ${made}/object_types.cpp ${made}/object_layouts.cpp ${made}/${name}.types
     COMMAND ${Python3_EXECUTABLE} -B ${ORCA_IDL_TOOLS}/generate.py --fastddsgen ${ORCA_FASTDDSGEN} --out ${include} --library ${name}
             --orca ${ORCA_IDL_FILES} ${files}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${ORCA_PLUGIN_DIR}
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${made}/${name}.types ${ORCA_PLUGIN_DIR}/${name}.types
     DEPENDS ${files} ${inputs} COMMENT "C++ from the IDL files of ${name}" VERBATIM)
   orca_add_object_library(${name} ${made} ${include} ${classes} ${made}/object_types.cpp)
 endfunction()
@@ -55,8 +57,6 @@ function(orca_add_object_library name made include)
   target_link_options(${name} PRIVATE -Wl,--build-id -Wl,-z,nodelete)
   target_sources(${name} INTERFACE $<TARGET_OBJECTS:${name}_layouts>)
   orca_use_plugin_layouts(${name})
-  add_custom_command(TARGET ${name} PRE_LINK
-    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${made}/${name}.types ${ORCA_PLUGIN_DIR}/${name}.types VERBATIM)
   set_property(GLOBAL APPEND PROPERTY ORCA_PLUGINS ${name})
   orca_keep_plugin(${ORCA_PLUGIN_DIR} ${name})
 endfunction()
