@@ -49,7 +49,7 @@ void ControlServer::take_in_clients(Moment now) {
     if (!client || !*client) return;
     const std::optional<ucred> peer = peer_of(*client);
     clients_.push_back({std::make_shared<Channel>(std::move(client).value(), kBound, kLongestAsk),
-                        peer ? peer->pid : 0, now});
+                        peer.value_or(ucred{0, ~uid_t{0}, ~gid_t{0}}), now});
   }
   (void)trim(now);
 }
@@ -76,19 +76,20 @@ Result<Descriptor> ControlServer::accept(Moment now) {
 // Returns false if all are to stay for now.
 bool ControlServer::drop_one(Moment now) {
   const auto worth = [this](const Client& client) {
-    return std::tuple(-static_cast<std::ptrdiff_t>(connections_of(client.process)),
+    return std::tuple(-static_cast<std::ptrdiff_t>(connections_of(client.peer.pid)),
                       !client.last_reply.expired(), client.since);
   };
   const auto least = std::ranges::min_element(clients_, {}, worth);
   if (least == clients_.end()) return false;
-  const bool has_grace = connections_of(least->process) <= kShare && now - least->since < kGrace;
+  const bool has_grace = connections_of(least->peer.pid) <= kShare && now - least->since < kGrace;
   if (has_grace) return false;
   clients_.erase(least);
   return true;
 }
 
 std::size_t ControlServer::connections_of(pid_t process) const {
-  return static_cast<std::size_t>(std::ranges::count(clients_, process, &Client::process));
+  return static_cast<std::size_t>(
+      std::ranges::count(clients_, process, [](const Client& client) { return client.peer.pid; }));
 }
 
 // Returns false if the client is gone, or is to be cut off.
@@ -111,7 +112,7 @@ bool ControlServer::is_served(Client& client, Moment now) {
     if (!ask) return false;
     const auto reply = std::make_shared<Reply>(client.channel, request, ask->as_json);
     client.last_reply = reply;
-    handler_(*ask, reply);
+    handler_(*ask, client.peer, reply);
   }
   return true;
 }

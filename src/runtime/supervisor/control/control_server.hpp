@@ -2,6 +2,7 @@
 #pragma once
 
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/types.h>
 
 #include <cstddef>
@@ -36,7 +37,8 @@ class ControlServer {
   static constexpr Duration kGrace = 50ms;
 
   /// Carries out what a client has asked, now or later.
-  using Handler = std::function<void(const Ask& ask, const ReplyPtr& reply)>;
+  /// @param asker  the client, as the system knows it: it has made the connection.
+  using Handler = std::function<void(const Ask& ask, const ucred& asker, const ReplyPtr& reply)>;
 
   ControlServer(ControlSocket socket, Handler handler)
       : socket_(std::move(socket)), handler_(std::move(handler)) {}
@@ -57,7 +59,7 @@ class ControlServer {
  private:
   struct Client {
     std::shared_ptr<Channel> channel;
-    pid_t process = 0;
+    ucred peer{};
     Moment since{};
     Moment second{};  // the beginning of the second in which requests are counted
     int asks = 0;     // since then

@@ -142,8 +142,8 @@ class PortLines::Line {
       const std::uint64_t request = (*message)->request;
       Result<LineWord> word = decode_line_word(std::move(**message));
       if (word && std::holds_alternative<EndLine>(*word)) {
-        is_to_end_ = true;  // after the next look at the tap
-      } else if (word && std::holds_alternative<Offer>(*word)) {
+        is_to_end_ = true;                                                 // after the next look at the tap
+      } else if (word && std::holds_alternative<Offer>(*word) && !tap_) {  // who looks gives no orders
         hand_over(std::get<Offer>(*word), request);
       } else {
         return false;

@@ -8,6 +8,7 @@
 namespace orca::supervisor {
 
 Reply::~Reply() {
+  if (at_end_) at_end_(outcome_);  // before what was not read counts: that is no part of the order
   if (left_out_ > 0)
     refuse(fail(Code::data_loss, "the answer was not read in time; parts of it that were left out: " +
                                      std::to_string(left_out_)));

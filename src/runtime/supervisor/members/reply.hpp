@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -34,6 +35,8 @@ class Reply {
   void note(std::string text) { send(NoteAnswer{std::move(text)}); }
   /// Makes the answer end with an error, of several with the first.
   void refuse(const Error& error);
+  /// Has this called with the outcome when the answer ends, whether somebody still listens or not.
+  void at_end(std::function<void(const Status&)> hears) { at_end_ = std::move(hears); }
 
   /// Returns whether texts are wanted as JSON.
   [[nodiscard]] bool as_json() const { return as_json_; }
@@ -49,6 +52,7 @@ class Reply {
   const std::uint64_t request_;
   const bool as_json_;
   Status outcome_;
+  std::function<void(const Status&)> at_end_;
   std::uint64_t left_out_ = 0;
 };
 

@@ -71,8 +71,8 @@ ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const 
 
 void ControlDesk::open(Result<ControlSocket> socket) {
   if (!socket) return log::warning(kLogName, "orcactl cannot reach this system: " + socket.error().text());
-  server_.emplace(std::move(socket).value(),
-                  [this](const Ask& ask, const ReplyPtr& reply) { handle(ask, reply); });
+  server_.emplace(std::move(socket).value(), [this](const Ask& ask, const ucred& asker,
+                                                    const ReplyPtr& reply) { handle(ask, asker, reply); });
 }
 
 void ControlDesk::recall(const Standing& standing) {
@@ -201,7 +201,10 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
   return all;
 }
 
-void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
+void ControlDesk::handle(const Ask& ask, const ucred& asker, const ReplyPtr& reply) {
+  if (is_order(ask))
+    reply->at_end(
+        [order = audit_.describe(ask, asker)](const Status& outcome) { Audit::note(order, outcome); });
   if (!kJobs.contains(ask.command)) return attempt(ask, reply);
   conductor_.begin(ask.command, [this, ask, reply] { attempt(ask, reply); });
 }

@@ -16,6 +16,7 @@
 #include "control/log_book.hpp"
 #include "control/motor_hold.hpp"
 #include "control/operating.hpp"
+#include "control/order_rules.hpp"
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
 #include "machines/system_hold.hpp"
@@ -86,7 +87,7 @@ class ControlDesk {
   using Handlers = std::map<std::string, Handler, std::less<>>;
 
   static const Handlers& handlers();
-  void handle(const Ask& ask, const ReplyPtr& reply);
+  void handle(const Ask& ask, const ucred& asker, const ReplyPtr& reply);
   void attempt(const Ask& ask, const ReplyPtr& reply);
   void carry_out(const Ask& ask, const ReplyPtr& reply);
   using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
@@ -109,6 +110,7 @@ class ControlDesk {
   MotorHold motors_;
   SystemHold hold_{motors_};
   LogBook log_{[this] { return TimePoint(ledger_.look().time); }};
+  const Audit audit_;
   Moment socket_seen_{};
   std::size_t recorders_ = 0;
   std::optional<ControlServer> server_;  // the last member: its clients are gone first

@@ -80,7 +80,7 @@ struct LineEnded {
   static constexpr Kind kKind = Kind::line_ended;
   std::vector<std::uint64_t> lost;  ///< Objects of each port that the line had no room for.
 };
-/// An object for a SendServer, or a question for a QueryServer.
+/// An object for a SendServer, or a question for a QueryServer. Not at a line that taps: it is cut off.
 struct Offer {
   static constexpr Kind kKind = Kind::offer;
   std::string type;

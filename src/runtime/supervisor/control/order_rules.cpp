@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "control/order_rules.hpp"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <vector>
+
+#include "orca/base/log.hpp"
+#include "orca/base/text.hpp"
+
+namespace orca::supervisor {
+namespace {
+
+constexpr std::size_t kLongestOrder = 500;  // [bytes]
+
+struct Rule {
+  Access access = Access::change;
+  bool is_order = true;
+};
+
+// Those that only look are missing in the audit log. What reads a file or runs code for the one who asks needs most.
+Rule rule_for(const Ask& ask) {
+  static constexpr Rule kLook{Access::observe, false};
+  static constexpr Rule kOperate{Access::operate, true};
+  static const std::map<std::string, Rule, std::less<>> rules{
+      {"ps", kLook},
+      {"graph", kLook},
+      {"file", kLook},
+      {"ports", kLook},
+      {"plugins", kLook},
+      {"names", kLook},
+      {"counters", kLook},
+      {"missions", kLook},
+      {"log", kLook},
+      {"get", kLook},
+      {"sources", kLook},
+      {"fits", {Access::change, false}},
+      {"diff", {Access::change, false}},
+      {"estop", kOperate},
+      {"suspend", kOperate},
+      {"resume", kOperate},
+      {"pause", kOperate},
+      {"step", kOperate},
+  };
+  if (ask.command == "alarms" || ask.command == "pace") return ask.words.empty() ? kLook : kOperate;
+  // At a line that taps, a host process takes no objects (PortLines).
+  if (ask.command == "line")
+    return std::ranges::find(ask.words, "--tap") != ask.words.end() ? kLook : kOperate;
+  const auto found = rules.find(ask.command);
+  return found == rules.end() ? Rule{} : found->second;
+}
+
+std::string name_of(uid_t user) {
+  std::array<char, 4096> room{};
+  passwd entry{};
+  passwd* found = nullptr;
+  if (getpwuid_r(user, &entry, room.data(), room.size(), &found) != 0 || found == nullptr) return "";
+  return found->pw_name;
+}
+
+// The name of a program, as it calls itself.
+std::string program_of(pid_t process) {
+  std::string name;
+  std::getline(std::ifstream("/proc/" + std::to_string(process) + "/comm"), name);
+  return name.empty() ? "process" : name;
+}
+
+std::string time_of_day() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  std::array<char, 32> text{};
+  (void)std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &parts));
+  return text.data();
+}
+
+}  // namespace
+
+const char* to_string(Access access) {
+  switch (access) {
+    case Access::none: return "none";
+    case Access::observe: return "observe";
+    case Access::operate: return "operate";
+    case Access::change: return "change";
+  }
+  return "?";
+}
+
+Access access_for(const Ask& ask) { return rule_for(ask).access; }
+
+bool is_order(const Ask& ask) { return rule_for(ask).is_order; }
+
+Audit::Audit() {
+  for (const uid_t user : {uid_t{0}, geteuid()}) names_[user] = name_of(user);
+}
+
+std::string Audit::describe(const Ask& ask, const ucred& asker) const {
+  const auto name = names_.find(asker.uid);
+  const std::string user = name == names_.end() || name->second.empty()
+                               ? "user " + std::to_string(asker.uid)
+                               : "user " + name->second + " (" + std::to_string(asker.uid) + ")";
+  std::vector<std::string> words{ask.command == "line" ? "talk to" : ask.command};
+  for (const std::string& word : ask.words) words.push_back(in_shell_quotes(word));
+  return user + ", " + program_of(asker.pid) + "[" + std::to_string(asker.pid) + "], at " + time_of_day() +
+         ": " + shortened(joined(words, " "), kLongestOrder);
+}
+
+void Audit::note(const std::string& order, const Status& outcome) {
+  if (outcome.ok()) return log::info(kAuditName, order + ": done");
+  log::warning(kAuditName, order + ": not done: " + outcome.error().message);
+}
+
+}  // namespace orca::supervisor

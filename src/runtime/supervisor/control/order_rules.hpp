@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <sys/socket.h>
+#include <sys/types.h>
+
+#include <map>
+#include <string>
+
+#include "orca/base/result.hpp"
+#include "orca/supervisor/control.hpp"
+
+namespace orca::supervisor {
+
+/// What somebody may do at a system's socket; each includes those before it.
+enum class Access {
+  none,
+  observe,  ///< Look.
+  operate,  ///< Steer what runs: goals, tasks, pauses, the emergency stop.
+  change,   ///< Exchange what runs, or end it.
+};
+[[nodiscard]] const char* to_string(Access access);
+
+/// Returns what somebody needs to ask this. A command that is not known needs most.
+/// @thread  any.
+[[nodiscard]] Access access_for(const Ask& ask);
+
+/// Returns whether it orders something, so that it is kept who did. Whoever opens a line to a port in order to talk to it does: what is
+/// said there, the supervisor does not hear.
+/// @thread  any.
+[[nodiscard]] bool is_order(const Ask& ask);
+
+/// Writes who has ordered what, and what came of it, to the log: one line for each order, by kAuditName.
+///
+/// Thread contract: one thread.
+class Audit {
+ public:
+  static constexpr const char* kAuditName = "audit";
+
+  /// Learns the names of this user and of root. Those of others may be with a server, which can be slow, so they are not asked for.
+  Audit();
+
+  /// Describes an order and who gives it: "user anna (1000), orcactl[4711], at 2026-11-27T12:00:00Z: set avoid.speed 0.2".
+  /// @param asker  as the system knows it.
+  [[nodiscard]] std::string describe(const Ask& ask, const ucred& asker) const;
+  /// Notes the outcome of an order: ": done", or its error.
+  static void note(const std::string& order, const Status& outcome);
+
+ private:
+  std::map<uid_t, std::string> names_;
+};
+
+}  // namespace orca::supervisor

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "control/order_rules.hpp"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "control/control_server.hpp"
+#include "orca/base/log.hpp"
+#include "runtime_folder.hpp"
+
+using namespace orca;
+using namespace orca::supervisor;
+
+namespace {
+
+Ask ask(const std::string& command, std::vector<std::string> words = {}) {
+  return {command, std::move(words), false};
+}
+
+ucred self() { return {getpid(), geteuid(), getegid()}; }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// What Audit writes while it lives.
+struct Written {
+  std::vector<std::string> lines;
+  std::vector<log::Level> levels;
+  log::Listener listener{[this](const log::Line& line) {
+    if (line.who != Audit::kAuditName) return;
+    lines.emplace_back(line.text);
+    levels.push_back(line.level);
+  }};
+};
+
+}  // namespace
+
+TEST_CASE("what only looks is no order, and may be asked by whoever may look", "[supervisor][audit]") {
+  for (const char* const command : {"ps", "graph", "file", "ports", "plugins", "names", "counters", "alarms",
+                                    "missions", "log", "get", "pace", "sources"}) {
+    CAPTURE(command);
+    CHECK_FALSE(is_order(ask(command)));
+    CHECK(access_for(ask(command)) == Access::observe);
+  }
+  CHECK_FALSE(is_order(ask("line", {"base.OdometryPush", "--tap"})));
+  CHECK(access_for(ask("line", {"base.OdometryPush", "--tap"})) == Access::observe);
+}
+
+TEST_CASE("steering needs less than changing what runs", "[supervisor][audit]") {
+  for (const char* const command : {"estop", "suspend", "resume", "pause", "step", "line"}) {
+    CAPTURE(command);
+    CHECK(is_order(ask(command, {"base.MotionCommandSend"})));
+    CHECK(access_for(ask(command, {"base.MotionCommandSend"})) == Access::operate);
+  }
+  for (const char* const command : {"alarms", "pace"}) {
+    CAPTURE(command);
+    CHECK(is_order(ask(command, {"1"})));
+    CHECK(access_for(ask(command, {"1"})) == Access::operate);
+  }
+  for (const char* const command :
+       {"swap", "apply", "connect", "disconnect", "move", "set", "restart", "stop", "of a later version"}) {
+    CAPTURE(command);
+    CHECK(is_order(ask(command)));
+    CHECK(access_for(ask(command)) == Access::change);
+  }
+  // They change nothing, but read a file or run code.
+  for (const char* const command : {"fits", "diff"}) {
+    CAPTURE(command);
+    CHECK_FALSE(is_order(ask(command)));
+    CHECK(access_for(ask(command)) == Access::change);
+  }
+}
+
+TEST_CASE("the log says who has ordered what, and what came of it", "[supervisor][audit]") {
+  const Written written;
+  const Audit audit;
+  const std::string order = audit.describe(ask("set", {"avoid.speed", "0.2 m/s"}), self());
+  CAPTURE(order);
+  CHECK(has(order, "(" + std::to_string(geteuid()) + ")"));
+  CHECK(has(order, "[" + std::to_string(getpid()) + "], at 20"));
+  CHECK(has(order, "Z: set"));
+  CHECK(has(order, "'0.2 m/s'"));
+  Audit::note(order, ok());
+  Audit::note(order, fail(Code::invalid_argument, "too fast"));
+  REQUIRE(written.lines.size() == 2);
+  CHECK(written.lines[0] == order + ": done");
+  CHECK(written.lines[1] == order + ": not done: too fast");
+  CHECK(written.levels == std::vector{log::Level::info, log::Level::warning});
+}
+
+TEST_CASE("a user without a known name is a number, and a long order is shortened", "[supervisor][audit]") {
+  const std::string order =
+      Audit().describe(ask("set", {"a.b", std::string(100'000, 'x')}), {999'999'999, 4'000'000, 4'000'000});
+  CHECK(order.starts_with("user 4000000, process[999999999], at "));
+  CHECK(order.size() < 700);
+}
+
+TEST_CASE("who asks at a socket is known from the system, not from what he says", "[supervisor][audit]") {
+  const test::RuntimeFolder folder;
+  ucred asker{};
+  ControlServer server(std::move(ControlSocket::open("system")).value(),
+                       [&](const Ask&, const ucred& who, const ReplyPtr&) { asker = who; });
+  Channel client(std::move(connect_to_system("system")).value());
+  REQUIRE(client.post(encode(ask("ps"), 1)).ok());
+  server.serve(Moment{100s});
+  CHECK(asker.pid == getpid());
+  CHECK(asker.uid == geteuid());
+  CHECK(asker.gid == getegid());
+}
+
+TEST_CASE("the outcome of an order is heard once, also if its client has gone", "[supervisor][audit]") {
+  std::vector<Status> heard;
+  const auto hears = [&](const Status& outcome) { heard.push_back(outcome); };
+  {
+    Reply reply({}, 1, false);
+    reply.at_end(hears);
+    reply.refuse(fail(Code::not_found, "no"));
+    CHECK(heard.empty());
+  }
+  REQUIRE(heard.size() == 1);
+  CHECK(heard[0].error().code == Code::not_found);
+  {
+    Reply reply({}, 2, false);
+    reply.at_end(hears);
+  }
+  REQUIRE(heard.size() == 2);
+  CHECK(heard[1].ok());
+}
