@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "orca/base/files/trusted_code.hpp"
+
 namespace orca::plugin {
 namespace {
 
@@ -47,6 +49,8 @@ Result<PluginImage> PluginImage::copy(const std::string& file) {
   struct stat status {};
   if (fstat(from.number(), &status) == 0 && !S_ISREG(status.st_mode))
     return fail(Code::not_found, "there is no such plugin: it is no file", file);
+  if (const Status trusted = check_trusted_code(file); !trusted.ok())
+    return fail(trusted.error().code, "is not loaded: " + trusted.error().message, file);
   Descriptor bytes(memfd_create(next_name(file).c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!bytes || !copy_all(from.number(), bytes.number()) ||
       fcntl(bytes.number(), F_ADD_SEALS, kUnchangeable) != 0)

@@ -20,6 +20,7 @@
 #include "opening.hpp"
 #include "orca/base/activity.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/base/files/trusted_code.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/plugin/code_limit.hpp"
@@ -145,6 +146,8 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::load(const std::string& pa
   if (!fs::is_regular_file(path, unused)) return fail(Code::not_found, "there is no such plugin", path);
   // Absolute, because a name without a slash would be searched in the folders of shared libraries.
   const std::string file = fs::absolute(path).string();
+  if (const Status trusted = check_trusted_code(file); !trusted.ok())
+    return fail(trusted.error().code, "is not loaded: " + trusted.error().message, path);
   Result<Judgement> judged = judge_once(path, file);
   if (!judged) return judged.error();
   Result<std::unique_ptr<PluginLibrary>> library = open({file, file, file, std::move(judged).value()});

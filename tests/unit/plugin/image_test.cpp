@@ -12,6 +12,7 @@
 #include <iterator>
 #include <string>
 
+#include "places.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;
@@ -71,4 +72,17 @@ TEST_CASE("a file that is not there, is none, or cannot be read has no image", "
   CHECK(refusal_of(pipe) == Code::not_found);
   CHECK(refusal_of(folder.write("file", "") + "/below.so") == Code::unavailable);
   CHECK(refusal_of("/proc/self/mem") == Code::unavailable);  // nothing is mapped where it begins
+}
+
+TEST_CASE("a file that others can write is neither loaded nor copied", "[plugin][image]") {
+  const TempFolder folder;
+  const std::string file = folder.write("open.so", contents_of(orca::test::kExample));
+  REQUIRE(chmod(file.c_str(), 0755) == 0);
+  CHECK(plugin::PluginLibrary::load(file));
+  REQUIRE(chmod(file.c_str(), 0757) == 0);
+  CHECK(refusal_of(file) == Code::failed_precondition);
+  const Error refused = orca::test::refusal(file);
+  CHECK(refused.where == file);
+  CHECK_THAT(refused.message, Catch::Contains("is not loaded: " + file + " can be written to by everybody") &&
+                                  Catch::Contains("run: chmod go-w "));
 }

@@ -17,7 +17,7 @@ namespace orca::plugin {
 class PluginImage {
  public:
   /// Copies a file.
-  /// @errors  not_found if there is no such file; unavailable if it cannot be read, or memory is short.
+  /// @errors  not_found if there is no such file; failed_precondition if others can write it (orca/base/files/trusted_code.hpp); unavailable if it cannot be read, or memory is short.
   static Result<PluginImage> copy(const std::string& file);
 
   /// Takes over an image that another process has made.

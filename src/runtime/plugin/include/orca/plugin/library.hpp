@@ -33,7 +33,8 @@ class PluginLibrary {
   /// loads it. A file that has passed is not checked again until it is changed.
   ///
   /// @thread  any; one call at a time.
-  /// @errors  not_found if there is no such file; invalid_argument, with all errors and what to do, for a
+  /// @errors  not_found if there is no such file; failed_precondition if others can write it
+  ///          (orca/base/files/trusted_code.hpp); invalid_argument, with all errors and what to do, for a
   ///          file that cannot be loaded, that is not an Orca plugin, that was built for another ABI version
   ///          or other layouts of the objects, or not by the recipe (docs/adr/0004); internal or
   ///          deadline_exceeded if the copy of the process did not survive or come to an end.
