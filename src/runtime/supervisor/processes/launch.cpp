@@ -2,7 +2,9 @@
 #include "processes/launch.hpp"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <sched.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
@@ -108,10 +110,24 @@ void set_limits(const HostStart& start, const Child& child) {
   if (start.priority > 0 && sched_setscheduler(0, SCHED_FIFO, &priority) != 0) report(child, Step::priority);
 }
 
+// What no component needs, also where root runs the system: powers over the kernel, the machine's clock and other processes.
+// Files, devices, networks and priorities stay with root.
+constexpr int kGivenUp[] = {
+    CAP_SYS_MODULE,    CAP_SYS_BOOT, CAP_SYS_ADMIN, CAP_SYS_PTRACE, CAP_SYS_CHROOT,
+    CAP_SYS_TIME,      CAP_MKNOD,    CAP_SETFCAP,   CAP_MAC_ADMIN,  CAP_MAC_OVERRIDE,
+    CAP_AUDIT_CONTROL, CAP_SYSLOG,   CAP_SETPCAP};  // the last one, without which the others could not go
+
+// The program gets no rights that this one does not have, whatever it runs. A user who is not root has none of these to give up.
+void give_up_rights() {
+  (void)prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  for (const int capability : kGivenUp) (void)prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
+}
+
 [[noreturn]] void become(const HostStart& start, const Child& child) {
   reset_signals();
   if (arrange_descriptors(child)) {
     set_limits(start, child);
+    give_up_rights();
     execv(start.program.c_str(), child.arguments.data());
     report(child, Step::exec);
   } else {

@@ -2,6 +2,7 @@
 #include "orca/supervisor/host_process.hpp"
 
 #include <fcntl.h>
+#include <linux/capability.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
@@ -13,6 +14,8 @@
 #include <catch2/catch.hpp>
 
 #include <csignal>
+#include <cstdint>
+#include <string>
 
 #include "open_descriptors.hpp"
 #include "orca/supervisor/vocabulary.hpp"
@@ -130,6 +133,10 @@ TEST_CASE("A host process begins with nothing of the supervisor's but what it ne
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they catch some themselves
   CHECK(line_of(text, "SigCgt:").ends_with("0000000000000000"));
 #endif
+  CHECK(line_of(text, "NoNewPrivs:") == "NoNewPrivs:\t1");
+  const std::uint64_t powers = std::stoull("0x" + line_of(text, "CapEff:").substr(8), nullptr, 16);
+  for (const int power : {CAP_SYS_MODULE, CAP_SYS_ADMIN, CAP_SYS_PTRACE, CAP_SYS_TIME, CAP_SETPCAP})
+    CHECK((powers >> power & 1) == 0);
   CHECK(line_of(text, "group") == "group " + std::to_string(getpgrp()));
   CHECK(line_of(text, "data") == "data " + std::to_string(RLIM_INFINITY));
   CHECK(process->warnings().empty());

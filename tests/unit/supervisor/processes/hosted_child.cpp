@@ -42,7 +42,8 @@ std::string description() {
   for (int number = 0; number < 1024; ++number)
     if (fcntl(number, F_GETFD) >= 0) text << " " << number;
   text << "\nstdin " << std::filesystem::read_symlink("/proc/self/fd/0").string();
-  for (const char* const name : {"Name", "SigBlk", "SigIgn", "SigCgt", "Cpus_allowed_list"})
+  for (const char* const name :
+       {"Name", "SigBlk", "SigIgn", "SigCgt", "Cpus_allowed_list", "NoNewPrivs", "CapEff"})
     text << "\n" << status_line(name);
   rlimit data{};
   getrlimit(RLIMIT_DATA, &data);
