@@ -289,6 +289,12 @@ ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions r
   return run_here(loaded, options, run, stop, **attendance);
 }
 
+// Returns the option that is for operators of host processes; "" if there is none.
+const char* option_of_operators(const Options& options) {
+  if (options.hold) return "--hold";
+  return options.grants.empty() ? "" : "--allow";
+}
+
 // Runs everything in this process, in steps of virtual time that a program asks for.
 ExitCode run_steered(Loaded& loaded, const Options& options, host::RunOptions run, host::StopSignal& stop,
                      Console& console) {
@@ -346,11 +352,11 @@ ExitCode run(const Options& options) {
                          fail(Code::invalid_argument,
                               "--view: in real time the page reaches host processes only; leave out "
                               "--in-process"));
-  if (options.hold)
-    return refuse_option(codes::kExcluding,
-                         fail(Code::invalid_argument,
-                              "--hold: orcactl, which releases it, reaches host processes only; leave out "
-                              "--in-process and --clock virtual"));
+  if (const char* const option = option_of_operators(options); *option != 0)
+    return refuse_option(
+        codes::kExcluding,
+        fail(Code::invalid_argument, std::string(option) + ": orcactl reaches host processes only; leave out "
+                                                           "--in-process and --clock virtual"));
   if (!options.machine.empty())
     return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
                                                  "--machine: here everything runs in this process; leave it "

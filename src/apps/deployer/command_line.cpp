@@ -55,6 +55,11 @@ std::vector<OptionSpec> running_options() {
       {"--in-process", "",
        "everything in this process, for a debugger, instead of host processes below it; the virtual clock "
        "always does so"},
+      {"--allow", "ROLE=WHO",
+       "what another user may do, or all of a group, with orcactl --of USER: operate=user:anna, "
+       "observe=group:robots; "
+       "ROLE: observe, operate (goals, tasks, pauses, emergency stop) or change (everything)",
+       true},
       {"--hold", "",
        "nothing moves before orcactl estop --release: for a first motion, and for a deployer that a service "
        "starts"},

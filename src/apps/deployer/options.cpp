@@ -135,10 +135,17 @@ Status set_guest(Options& options, const std::string& value) {
 
 // Options whose values the table does not describe.
 using Setter = Status (*)(Options&, const std::string&);
+Status add_grant(Options& options, const std::string& value) {
+  const Result<supervisor::Grant> grant = supervisor::read_grant(value);
+  if (!grant) return wrong("--allow: " + grant.error().message);
+  options.grants.push_back(*grant);
+  return ok();
+}
+
 constexpr std::pair<const char*, Setter> kOfOwnForm[] = {
     {"--computing", set_computing}, {"--pace", set_pace},     {"--guest", set_guest},
     {"--fail", add_failure},        {"--change", add_change}, {"--record", add_recording},
-    {"--picture", set_picture},     {"--hide", hide}};
+    {"--picture", set_picture},     {"--hide", hide},         {"--allow", add_grant}};
 
 const char* code_of(apps::Problem::Kind kind) {
   switch (kind) {

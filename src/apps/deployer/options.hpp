@@ -11,6 +11,7 @@
 #include "orca/base/result.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_system.hpp"
+#include "orca/supervisor/access.hpp"
 #include "orca/xml/diagnostics.hpp"
 
 namespace orca::deployer {
@@ -26,6 +27,7 @@ struct Options {
   bool json = false;                        ///< Output for programs.
   bool stats = false;                       ///< Write what the connections of a run carried.
   bool watch = false;                       ///< Code that is built anew takes the place of the old one.
+  std::vector<supervisor::Grant> grants{};  ///< What other users may do.
   bool hold = false;                        ///< Nothing moves before an operator releases it.
   bool view = false;                        ///< orcaview is started beside the system.
   std::optional<double> pace;               ///< Of virtual time, see Pace; nothing: not given.

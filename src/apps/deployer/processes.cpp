@@ -185,6 +185,7 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   supervised.graph_file = fs::absolute(options.file).lexically_normal().string();
   supervised.watches = options.watch;
   supervised.holds = options.hold;
+  supervised.grants = options.grants;
   if (options.watch) supervised.graph_files = files_of(options, stop);
   supervised.seed = options.run.seed;
   supervised.until = options.run.until;

@@ -2,6 +2,8 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "client.hpp"
 
+#include <pwd.h>
+
 #include <memory>
 #include <optional>
 #include <utility>
@@ -22,10 +24,22 @@ Failure no_system(const std::string& what) {
 // Nobody can be reached: not that there is no system, but that it cannot be trusted, or takes nobody in.
 Failure unreachable(const Error& why) { return {why, ExitCode::no_deployer}; }
 
+std::variant<Descriptor, Failure> connect_to_user(const std::string& user, const std::string& system) {
+  const passwd* const owner = getpwnam(user.c_str());
+  if (owner == nullptr)
+    return Failure{fail(Code::invalid_argument, "--of: this machine knows no user " + in_quotes(user)),
+                   ExitCode::usage};
+  Result<Descriptor> socket = supervisor::connect_to_shared(system, owner->pw_uid);
+  if (socket) return std::move(socket).value();
+  if (socket.error().code == Code::invalid_argument) return Failure{socket.error(), ExitCode::usage};
+  return unreachable(socket.error());
+}
+
 }  // namespace
 
 std::variant<Descriptor, Failure> connect_to(const apps::Call& call) {
   std::string name = call.text("--system").value_or("");
+  if (const auto owner = call.text("--of")) return connect_to_user(*owner, name);
   if (name.empty()) {
     const Result<std::vector<std::string>> running = supervisor::running_systems();
     if (!running) return unreachable(running.error());

@@ -428,6 +428,7 @@ const apps::Program& program() {
             "  orcactl estop                         stop all motors now\n",
         .options = {{"--system", "NAME", "which system, if several run: the name of its graph", false,
                      "Options"},
+                    {"--of", "USER", "a system of another user, who has allowed it: see deployer --allow"},
                     {"--json", "",
                      "for programs: JSON on stdout; one object per line where the output goes on"},
                     {"--watch", "", "repeat every second, until interrupted"}},

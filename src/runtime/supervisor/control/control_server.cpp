@@ -47,9 +47,9 @@ void ControlServer::take_in_clients(Moment now) {
     if (!trim(now)) return;
     Result<Descriptor> client = accept(now);
     if (!client || !*client) return;
-    const std::optional<ucred> peer = peer_of(*client);
-    clients_.push_back({std::make_shared<Channel>(std::move(client).value(), kBound, kLongestAsk),
-                        peer.value_or(ucred{0, ~uid_t{0}, ~gid_t{0}}), now});
+    Asker asker = asker_at(*client);
+    clients_.push_back(
+        {std::make_shared<Channel>(std::move(client).value(), kBound, kLongestAsk), std::move(asker), now});
   }
   (void)trim(now);
 }
@@ -76,12 +76,12 @@ Result<Descriptor> ControlServer::accept(Moment now) {
 // Returns false if all are to stay for now.
 bool ControlServer::drop_one(Moment now) {
   const auto worth = [this](const Client& client) {
-    return std::tuple(-static_cast<std::ptrdiff_t>(connections_of(client.peer.pid)),
+    return std::tuple(-static_cast<std::ptrdiff_t>(connections_of(client.asker.who.pid)),
                       !client.last_reply.expired(), client.since);
   };
   const auto least = std::ranges::min_element(clients_, {}, worth);
   if (least == clients_.end()) return false;
-  const bool has_grace = connections_of(least->peer.pid) <= kShare && now - least->since < kGrace;
+  const bool has_grace = connections_of(least->asker.who.pid) <= kShare && now - least->since < kGrace;
   if (has_grace) return false;
   clients_.erase(least);
   return true;
@@ -89,7 +89,7 @@ bool ControlServer::drop_one(Moment now) {
 
 std::size_t ControlServer::connections_of(pid_t process) const {
   return static_cast<std::size_t>(
-      std::ranges::count(clients_, process, [](const Client& client) { return client.peer.pid; }));
+      std::ranges::count(clients_, process, [](const Client& client) { return client.asker.who.pid; }));
 }
 
 // Returns false if the client is gone, or is to be cut off.
@@ -112,7 +112,7 @@ bool ControlServer::is_served(Client& client, Moment now) {
     if (!ask) return false;
     const auto reply = std::make_shared<Reply>(client.channel, request, ask->as_json);
     client.last_reply = reply;
-    handler_(*ask, client.peer, reply);
+    handler_(*ask, client.asker, reply);
   }
   return true;
 }

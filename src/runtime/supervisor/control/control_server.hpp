@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "members/reply.hpp"
+#include "orca/supervisor/access.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/control.hpp"
 #include "orca/supervisor/control_socket.hpp"
@@ -38,7 +39,7 @@ class ControlServer {
 
   /// Carries out what a client has asked, now or later.
   /// @param asker  the client, as the system knows it: it has made the connection.
-  using Handler = std::function<void(const Ask& ask, const ucred& asker, const ReplyPtr& reply)>;
+  using Handler = std::function<void(const Ask& ask, const Asker& asker, const ReplyPtr& reply)>;
 
   ControlServer(ControlSocket socket, Handler handler)
       : socket_(std::move(socket)), handler_(std::move(handler)) {}
@@ -59,7 +60,7 @@ class ControlServer {
  private:
   struct Client {
     std::shared_ptr<Channel> channel;
-    ucred peer{};
+    Asker asker{};
     Moment since{};
     Moment second{};  // the beginning of the second in which requests are counted
     int asks = 0;     // since then

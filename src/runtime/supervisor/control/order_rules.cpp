@@ -17,6 +17,7 @@ namespace orca::supervisor {
 namespace {
 
 constexpr std::size_t kLongestOrder = 500;  // [bytes]
+constexpr std::size_t kMostRefused = 1000;  // users that are remembered
 
 struct Rule {
   Access access = Access::change;
@@ -80,16 +81,6 @@ std::string time_of_day() {
 
 }  // namespace
 
-const char* to_string(Access access) {
-  switch (access) {
-    case Access::none: return "none";
-    case Access::observe: return "observe";
-    case Access::operate: return "operate";
-    case Access::change: return "change";
-  }
-  return "?";
-}
-
 Access access_for(const Ask& ask) { return rule_for(ask).access; }
 
 bool is_order(const Ask& ask) { return rule_for(ask).is_order; }
@@ -107,6 +98,30 @@ std::string Audit::describe(const Ask& ask, const ucred& asker) const {
   for (const std::string& word : ask.words) words.push_back(in_shell_quotes(word));
   return user + ", " + program_of(asker.pid) + "[" + std::to_string(asker.pid) + "], at " + time_of_day() +
          ": " + shortened(joined(words, " "), kLongestOrder);
+}
+
+Status Audit::allow(const Ask& ask, const Asker& asker, Access access) {
+  const Access needed = access_for(ask);
+  if (access >= needed) return ok();
+  const std::string user = std::to_string(asker.who.uid);
+  const std::string role = to_string(needed);
+  const Error error =
+      fail(Code::failed_precondition,
+           in_quotes(ask.command) + " takes the role " + role + " in this system, and user " + user +
+               " has " + (access == Access::none ? "none" : std::string("only ") + to_string(access)) +
+               "; who started it, user " + std::to_string(geteuid()) + ", can give it: deployer --allow " +
+               role + "=user:" + user);
+  if (is_worth_a_line(asker.who.uid)) note(describe(ask, asker.who), error);
+  return error;
+}
+
+// A stranger cannot fill the log with refusals.
+bool Audit::is_worth_a_line(uid_t user) {
+  if (refusals_.size() > kMostRefused) refusals_.clear();
+  Refusals& refusals = refusals_[user];
+  const auto now = std::chrono::steady_clock::now();
+  if (now - refusals.second >= std::chrono::seconds(1)) refusals = {now, 0};
+  return ++refusals.noted <= kMostNoted;
 }
 
 void Audit::note(const std::string& order, const Status& outcome) {

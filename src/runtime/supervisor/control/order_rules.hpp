@@ -4,22 +4,15 @@
 #include <sys/socket.h>
 #include <sys/types.h>
 
+#include <chrono>
 #include <map>
 #include <string>
 
 #include "orca/base/result.hpp"
+#include "orca/supervisor/access.hpp"
 #include "orca/supervisor/control.hpp"
 
 namespace orca::supervisor {
-
-/// What somebody may do at a system's socket; each includes those before it.
-enum class Access {
-  none,
-  observe,  ///< Look.
-  operate,  ///< Steer what runs: goals, tasks, pauses, the emergency stop.
-  change,   ///< Exchange what runs, or end it.
-};
-[[nodiscard]] const char* to_string(Access access);
 
 /// Returns what somebody needs to ask this. A command that is not known needs most.
 /// @thread  any.
@@ -36,6 +29,7 @@ enum class Access {
 class Audit {
  public:
   static constexpr const char* kAuditName = "audit";
+  static constexpr int kMostNoted = 5;  ///< Refusals of one user in a second.
 
   /// Learns the names of this user and of root. Those of others may be with a server, which can be slow, so they are not asked for.
   Audit();
@@ -43,11 +37,21 @@ class Audit {
   /// Describes an order and who gives it: "user anna (1000), orcactl[4711], at 2026-11-27T12:00:00Z: set avoid.speed 0.2".
   /// @param asker  as the system knows it.
   [[nodiscard]] std::string describe(const Ask& ask, const ucred& asker) const;
+  /// Checks that somebody may ask this. What is refused is noted, of each user at most kMostNoted times in a second.
+  /// @errors  failed_precondition, with the role that it takes and how it is given.
+  [[nodiscard]] Status allow(const Ask& ask, const Asker& asker, Access access);
   /// Notes the outcome of an order: ": done", or its error.
   static void note(const std::string& order, const Status& outcome);
 
  private:
+  [[nodiscard]] bool is_worth_a_line(uid_t user);
+
   std::map<uid_t, std::string> names_;
+  struct Refusals {
+    std::chrono::steady_clock::time_point second{};  // its beginning
+    int noted = 0;                                   // since then
+  };
+  std::map<uid_t, Refusals> refusals_;
 };
 
 }  // namespace orca::supervisor

@@ -19,6 +19,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/hash.hpp"
+#include "orca/base/text.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -95,15 +96,43 @@ int connect_to(const Descriptor& socket, const Address& address) {
   return connect(socket.number(), plain(address), address.size) == 0 ? 0 : errno;
 }
 
-bool is_trusted(uid_t user) { return user == geteuid() || user == 0; }
+bool is_trusted(uid_t user, uid_t owner) { return user == owner || user == 0; }
 
-// Checks that somebody else has not put a socket in the place of ours.
-Status prove_listener(const Descriptor& socket, const std::string& path) {
+// Checks that somebody else has not put a socket in the place of the owner's.
+Status prove_listener(const Descriptor& socket, const std::string& path, uid_t owner) {
   const std::optional<ucred> peer = peer_of(socket);
-  if (peer && is_trusted(peer->uid)) return ok();
+  if (peer && is_trusted(peer->uid, owner)) return ok();
   const std::string who = peer ? "user " + std::to_string(peer->uid) : std::string("nobody knows who");
-  return fail(Code::unavailable, "at the socket " + path + " listens " + who +
-                                     ", and no deployer of yours; have that process ended");
+  return fail(Code::unavailable, "at the socket " + path + " listens " + who + ", and no deployer of " +
+                                     (owner == geteuid() ? "yours" : "user " + std::to_string(owner)) +
+                                     "; have that process ended");
+}
+
+std::string shared_folder_of(uid_t owner) { return "/tmp/orca-shared-" + std::to_string(owner); }
+
+// Checks that only the owner can have put something there. Its parent, /tmp, lets nobody else rename it.
+Status prove_shared_folder(const std::string& folder, uid_t owner) {
+  struct stat found {};
+  if (lstat(folder.c_str(), &found) != 0) {
+    if (errno == ENOENT) return fail(Code::not_found, "user " + std::to_string(owner) + " shares no system");
+    return refused("cannot look at the folder " + folder, errno);
+  }
+  const bool is_owners = S_ISDIR(found.st_mode) && found.st_uid == owner && (found.st_mode & 0022) == 0;
+  struct stat parent {};
+  const bool is_kept = stat("/tmp", &parent) == 0 && is_trusted(parent.st_uid, geteuid()) &&
+                       ((parent.st_mode & 0022) == 0 || (parent.st_mode & S_ISVTX) != 0);
+  if (is_owners && is_kept) return ok();
+  return fail(Code::unavailable, "the folder " + folder + " is not one that only user " +
+                                     std::to_string(owner) +
+                                     " can change; have it removed, and /tmp given mode 1777");
+}
+
+Status make_shared_folder() {
+  const std::string folder = shared_folder_of(geteuid());
+  constexpr mode_t kOthersLook = 0755;
+  if (mkdir(folder.c_str(), 0700) == 0 && chmod(folder.c_str(), kOthersLook) != 0)
+    return refused("cannot open the folder " + folder + " for others", errno);
+  return prove_shared_folder(folder, geteuid());
 }
 
 Result<OwnFolder> lock_folder() {
@@ -161,7 +190,21 @@ Result<ControlSocket> ControlSocket::open_file(const std::string& file, const Er
   if (reason == 0 || reason == EAGAIN) return taken;
   Result<Descriptor> name = take_name(path, taken);
   if (!name) return name.error();
-  ControlSocket socket(std::move(name).value(), path);
+  ControlSocket socket(std::move(name).value(), path, false);
+  if (Status listens = socket.listen(); !listens.ok()) return listens.error();
+  return socket;
+}
+
+Result<ControlSocket> ControlSocket::open_shared(const std::string& system) {
+  const std::string path = shared_folder_of(geteuid()) + "/" + file_of(system);
+  if (!address_of(path)) return too_long(path);
+  const Result<OwnFolder> lock = lock_folder();
+  if (!lock) return lock.error();
+  Result<Descriptor> name = take_name(
+      path,
+      fail(Code::already_exists, "another system of this user and of the name " + system + " is shared"));
+  if (!name) return name.error();
+  ControlSocket socket(std::move(name).value(), path, true);
   if (Status listens = socket.listen(); !listens.ok()) return listens.error();
   return socket;
 }
@@ -177,12 +220,14 @@ ControlSocket::~ControlSocket() {
 Status ControlSocket::listen() {
   const std::optional<Address> address = address_of(path_);
   if (!address) return too_long(path_);
+  if (is_shared_)
+    if (Status made = make_shared_folder(); !made.ok()) return made;
   unlink(path_.c_str());
   Descriptor made = make_socket(SOCK_NONBLOCK);
   if (!made) return refused("cannot make a socket", errno);
   struct stat found {};
-  if (bind(made.number(), plain(*address), address->size) != 0 || chmod(path_.c_str(), 0600) != 0 ||
-      lstat(path_.c_str(), &found) != 0)
+  if (bind(made.number(), plain(*address), address->size) != 0 ||
+      chmod(path_.c_str(), is_shared_ ? 0666 : 0600) != 0 || lstat(path_.c_str(), &found) != 0)
     return refused("cannot make the socket " + path_, errno);
   if (::listen(made.number(), kWaiting) != 0) return refused("cannot listen at the socket " + path_, errno);
   listening_ = std::move(made);
@@ -208,29 +253,57 @@ Result<Descriptor> ControlSocket::accept() const {
       return fail(Code::unavailable, std::string("cannot accept a client: ") + std::strerror(errno));
     if (!client) return client;
     const std::optional<ucred> peer = peer_of(client);
-    if (!peer || !is_trusted(peer->uid)) continue;
+    if (!peer || (!is_shared_ && !is_trusted(peer->uid, geteuid()))) continue;
     make_room(client);
     return client;
   }
 }
 
-Result<Descriptor> connect_to_file(const std::string& file) {
-  const std::string path = path_of(file);
+namespace {
+
+Error nobody_at(const std::string& path) {
+  return fail(Code::not_found, "nobody listens at the socket " + path);
+}
+
+// Connects to a socket in a folder that was proven.
+Result<Descriptor> connect_to_owner(const std::string& path, uid_t owner) {
   const std::optional<Address> address = address_of(path);
   if (!address) return too_long(path);
-  const Result<OwnFolder> folder = OwnFolder::open();
-  const Error nobody = fail(Code::not_found, "nobody listens at the socket " + path);
-  if (!folder) return folder.error().code == Code::not_found ? nobody : folder.error();
   Descriptor socket = make_socket();
   setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
   const int reason = connect_to(socket, *address);
-  if (reason == ENOENT || reason == ECONNREFUSED) return nobody;
+  if (reason == ENOENT || reason == ECONNREFUSED) return nobody_at(path);
   if (reason == EAGAIN)
     return fail(Code::unavailable,
                 "the system at the socket " + path + " takes in no more clients; try again");
   if (reason != 0) return refused("cannot connect to " + path, reason);
-  if (Status proven = prove_listener(socket, path); !proven.ok()) return proven.error();
+  if (Status proven = prove_listener(socket, path, owner); !proven.ok()) return proven.error();
   return socket;
+}
+
+}  // namespace
+
+Result<Descriptor> connect_to_file(const std::string& file) {
+  const std::string path = path_of(file);
+  const Result<OwnFolder> folder = OwnFolder::open();
+  if (!folder) return folder.error().code == Code::not_found ? nobody_at(path) : folder.error();
+  return connect_to_owner(path, geteuid());
+}
+
+Result<Descriptor> connect_to_shared(const std::string& system, uid_t owner) {
+  const std::string folder = shared_folder_of(owner);
+  if (Status proven = prove_shared_folder(folder, owner); !proven.ok()) return proven.error();
+  if (!system.empty()) return connect_to_owner(folder + "/" + file_of(system), owner);
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+    if (entry.path().extension() == kSuffix) names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  if (names.empty()) return fail(Code::not_found, "user " + std::to_string(owner) + " shares no system");
+  if (names.size() == 1) return connect_to_owner(folder + "/" + file_of(names.front()), owner);
+  return fail(Code::invalid_argument,
+              "user " + std::to_string(owner) +
+                  " shares several systems; choose one with --system: " + joined(names, ", "));
 }
 
 // Somebody who is just about to listen holds the lock.

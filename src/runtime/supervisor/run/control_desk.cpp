@@ -69,10 +69,10 @@ ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const 
       showing_(whole, here, facts, members, ledger, exchanging_, levers.edges_in_use),
       motors_(members, ledger) {}
 
-void ControlDesk::open(Result<ControlSocket> socket) {
+void ControlDesk::open(Result<ControlSocket> socket, SharedSocket others) {
+  doors_.open(std::move(others));
   if (!socket) return log::warning(kLogName, "orcactl cannot reach this system: " + socket.error().text());
-  server_.emplace(std::move(socket).value(), [this](const Ask& ask, const ucred& asker,
-                                                    const ReplyPtr& reply) { handle(ask, asker, reply); });
+  doors_.open(std::move(socket).value());
 }
 
 void ControlDesk::recall(const Standing& standing) {
@@ -88,13 +88,11 @@ void ControlDesk::obey(const PeerCalled& call) {
   });
 }
 
-void ControlDesk::add_to(std::vector<pollfd>& all) const {
-  if (server_) server_->add_to(all);
-}
+void ControlDesk::add_to(std::vector<pollfd>& all) const { doors_.add_to(all); }
 
 void ControlDesk::serve(Moment now) {
-  if (server_) server_->serve(now);
-  if (server_ && now - socket_seen_ >= kSocketLook) look_after_socket(now);
+  doors_.serve(now);
+  if (now - socket_seen_ >= kSocketLook) look_after_socket(now);
   if (watch_) look_at_files(now);
   exchanging_.go_on();
   applying_.go_on();
@@ -104,7 +102,9 @@ void ControlDesk::serve(Moment now) {
 // Whoever cleans up folders may have removed it, and with it the emergency stop.
 void ControlDesk::look_after_socket(Moment now) {
   socket_seen_ = now;
-  const Result<bool> restored = server_->restore_socket();
+  const std::optional<Result<bool>> looked = doors_.restore();
+  if (!looked) return;
+  const Result<bool>& restored = *looked;
   if (!restored && !ledger_.is_active(idl::CONTROL_LOST, ""))
     ledger_.raise(
         idl::CONTROL_LOST, "",
@@ -201,10 +201,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
   return all;
 }
 
-void ControlDesk::handle(const Ask& ask, const ucred& asker, const ReplyPtr& reply) {
-  if (is_order(ask))
-    reply->at_end(
-        [order = audit_.describe(ask, asker)](const Status& outcome) { Audit::note(order, outcome); });
+void ControlDesk::handle(const Ask& ask, const ReplyPtr& reply) {
   if (!kJobs.contains(ask.command)) return attempt(ask, reply);
   conductor_.begin(ask.command, [this, ask, reply] { attempt(ask, reply); });
 }

@@ -11,12 +11,11 @@
 
 #include "applying/applying.hpp"
 #include "control/code_watch.hpp"
-#include "control/control_server.hpp"
+#include "control/doors.hpp"
 #include "control/exchanging.hpp"
 #include "control/log_book.hpp"
 #include "control/motor_hold.hpp"
 #include "control/operating.hpp"
-#include "control/order_rules.hpp"
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
 #include "machines/system_hold.hpp"
@@ -43,9 +42,10 @@ class ControlDesk {
   /// Notes which file the graph was read from.
   void note_file(std::string graph_file) { graph_file_ = std::move(graph_file); }
   /// Takes the system's socket. If it could not be made, nobody can reach the system, and the log says so.
-  void open(Result<ControlSocket> socket);
+  /// @param others  for other users.
+  void open(Result<ControlSocket> socket, SharedSocket others = {});
   /// Gives the system's socket up. From now on nobody can reach the system.
-  void close() { server_.reset(); }
+  void close() { doors_.close(); }
   /// Adds what it waits for.
   void add_to(std::vector<pollfd>& all) const;
   /// Carries out what clients ask, and passes on what they follow. Never waits.
@@ -87,7 +87,7 @@ class ControlDesk {
   using Handlers = std::map<std::string, Handler, std::less<>>;
 
   static const Handlers& handlers();
-  void handle(const Ask& ask, const ucred& asker, const ReplyPtr& reply);
+  void handle(const Ask& ask, const ReplyPtr& reply);
   void attempt(const Ask& ask, const ReplyPtr& reply);
   void carry_out(const Ask& ask, const ReplyPtr& reply);
   using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
@@ -110,10 +110,11 @@ class ControlDesk {
   MotorHold motors_;
   SystemHold hold_{motors_};
   LogBook log_{[this] { return TimePoint(ledger_.look().time); }};
-  const Audit audit_;
   Moment socket_seen_{};
   std::size_t recorders_ = 0;
-  std::optional<ControlServer> server_;  // the last member: its clients are gone first
+  Doors doors_{[this](const Ask& ask, const ReplyPtr& reply) {
+    handle(ask, reply);
+  }};  // the last member: its clients are gone first
 };
 
 }  // namespace orca::supervisor

@@ -78,20 +78,20 @@ class SupervisedRun {
         [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });
   }
 
-  host::RunResult execute(Result<ControlSocket> socket) {
+  host::RunResult execute(Result<ControlSocket> socket, SharedSocket others) {
     host::RunResult result;
     conductor_.run([&] {
-      result = run(std::move(socket));
+      result = run(std::move(socket), std::move(others));
       control_.close();  // before the jobs of operators end without an answer
     });
     return result;
   }
 
  private:
-  host::RunResult run(Result<ControlSocket> socket) {
+  host::RunResult run(Result<ControlSocket> socket, SharedSocket others) {
     stop_.on_request([this] { poller_.wake(); });
     if (options_.outputs.looks_on) listener_.built(ledger_);
-    control_.open(std::move(socket));
+    control_.open(std::move(socket), std::move(others));
     if (options_.holds) control_.hold();
     const Members missing = inherited_.empty() ? on_demand_.put_others_to_sleep() : take_over();
     gather();
@@ -435,11 +435,13 @@ host::RunResult run_supervised(const graph::Graph& graph, const SupervisedOption
   Result<ControlSocket> socket = ControlSocket::open(graph.name);
   if (!socket && (socket.error().code == Code::already_exists || !graph.hardware.empty()))
     return refuse(unreachable(socket.error()), options.log_name, listener);
+  Result<SharedSocket> others = SharedSocket::open(graph.name, options.grants);
+  if (!others) return refuse(others.error(), options.log_name, listener);
   Result<Beginning> beginning = begin_or_go_on(graph, options.machine);
   if (!beginning) return refuse(beginning.error(), options.log_name, listener);
   log::set_clock([start = beginning->run.start] { return TimePoint(steady_now() - start); });
-  host::RunResult result =
-      SupervisedRun(graph, options, std::move(beginning).value(), stop, listener).execute(std::move(socket));
+  host::RunResult result = SupervisedRun(graph, options, std::move(beginning).value(), stop, listener)
+                               .execute(std::move(socket), std::move(others).value());
   clear_meeting_places(graph.name);
   log::set_clock(nullptr);
   return result;

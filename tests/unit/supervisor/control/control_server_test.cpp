@@ -30,7 +30,7 @@ class Served {
     folder_ = path;
     setenv("XDG_RUNTIME_DIR", path, 1);
     server_.emplace(std::move(ControlSocket::open("system")).value(),
-                    [this](const Ask& ask, const ucred&, const ReplyPtr& reply) { answer(ask, reply); });
+                    [this](const Ask& ask, const Asker&, const ReplyPtr& reply) { answer(ask, reply); });
   }
   ~Served() {
     server_.reset();

@@ -101,7 +101,7 @@ TEST_CASE("who asks at a socket is known from the system, not from what he says"
   const test::RuntimeFolder folder;
   ucred asker{};
   ControlServer server(std::move(ControlSocket::open("system")).value(),
-                       [&](const Ask&, const ucred& who, const ReplyPtr&) { asker = who; });
+                       [&](const Ask&, const Asker& who, const ReplyPtr&) { asker = who.who; });
   Channel client(std::move(connect_to_system("system")).value());
   REQUIRE(client.post(encode(ask("ps"), 1)).ok());
   server.serve(Moment{100s});
@@ -127,4 +127,49 @@ TEST_CASE("the outcome of an order is heard once, also if its client has gone", 
   }
   REQUIRE(heard.size() == 2);
   CHECK(heard[1].ok());
+}
+
+TEST_CASE("who has no role for an order learns which, and cannot fill the log", "[supervisor][audit]") {
+  const Written written;
+  Audit audit;
+  const Asker stranger{{1, 60'001, 60'001}, {}};
+  CHECK(audit.allow(ask("ps"), stranger, Access::observe).ok());
+  CHECK(audit.allow(ask("swap"), stranger, Access::change).ok());
+  CHECK(written.lines.empty());
+  const Status refused = audit.allow(ask("swap"), stranger, Access::operate);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(has(refused.error().message,
+            R"("swap" takes the role change in this system, and user 60001 has only operate)"));
+  CHECK(has(refused.error().message, "deployer --allow change=user:60001"));
+  for (int i = 0; i < 50; ++i) CHECK_FALSE(audit.allow(ask("ps"), stranger, Access::none).ok());
+  CHECK(written.lines.size() >= Audit::kMostNoted);
+  CHECK(written.lines.size() <= 2 * Audit::kMostNoted);  // a second may have begun meanwhile
+  CHECK_FALSE(audit.allow(ask("ps"), {{1, 60'002, 60'002}, {}}, Access::none).ok());
+  CHECK(has(written.lines.back(), "user 60002"));
+}
+
+TEST_CASE("a role is given to a user or a group, and the most of several counts", "[supervisor][audit]") {
+  const auto grants = [](const std::vector<std::string>& texts) {
+    std::vector<Grant> all;
+    for (const std::string& text : texts) all.push_back(std::move(read_grant(text)).value());
+    return all;
+  };
+  const auto given =
+      grants({"observe=user:60001", "operate=group:60100", "change=user:60003", "observe=group:60003"});
+  CHECK(access_of({{1, 60'001, 60'001}, {}}, given) == Access::observe);
+  CHECK(access_of({{1, 60'001, 60'001}, {60'099, 60'100}}, given) == Access::operate);
+  CHECK(access_of({{1, 60'002, 60'100}, {}}, given) == Access::operate);
+  CHECK(access_of({{1, 60'003, 60'003}, {}}, given) == Access::change);
+  CHECK(access_of({{1, 60'004, 60'004}, {60'099}}, given) == Access::none);
+  CHECK(access_of({{1, 60'100, 60'001}, {}}, given) == Access::none);  // a user with the number of a group
+  CHECK(access_of(Asker{}, given) == Access::none);
+  CHECK(access_of({{1, 0, 0}, {}}, {}) == Access::change);
+  CHECK(access_of({self(), {}}, {}) == Access::change);
+  for (const char* const wrong :
+       {"", "observe", "observe=60001", "see=user:60001", "none=user:60001",
+        "observe=user:", "observe=host:a", "observe:user=60001", "observe=user:no such user",
+        "observe=user:-1", "observe=user:99999999999999"}) {
+    CAPTURE(wrong);
+    CHECK(read_grant(wrong).error().code == Code::invalid_argument);
+  }
 }

@@ -40,6 +40,10 @@ class ControlSocket {
   /// @param taken  the error if somebody listens there.
   /// @errors  `taken`; unavailable as above.
   [[nodiscard]] static Result<ControlSocket> open_file(const std::string& file, const Error& taken);
+  /// Makes a second socket of a system, at which everybody may ask: who may be answered, the caller decides (access.hpp). It lies in a folder
+  /// that only this user may write to, /tmp/orca-shared-UID.
+  /// @errors  unavailable as above; already_exists if another system of this user and of this name has one.
+  [[nodiscard]] static Result<ControlSocket> open_shared(const std::string& system);
   ~ControlSocket();
   ControlSocket(ControlSocket&&) = default;
   ControlSocket& operator=(ControlSocket&&) = delete;
@@ -50,7 +54,8 @@ class ControlSocket {
   /// @errors  unavailable, with the reason, if they cannot be made again: nobody can reach the socket.
   [[nodiscard]] Result<bool> restore();
 
-  /// Accepts the next client that waits; empty if there is none. A client of another user, except root, is turned away.
+  /// Accepts the next client that waits; empty if there is none. A client of another user, except root, is turned
+  /// away, but not at a shared socket.
   /// @errors  unavailable if there are no descriptors left: the client waits on, and poll() reports it all the time.
   [[nodiscard]] Result<Descriptor> accept() const;
   /// Returns the number of the socket, for poll().
@@ -58,12 +63,14 @@ class ControlSocket {
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  ControlSocket(Descriptor name, std::string path) : name_(std::move(name)), path_(std::move(path)) {}
+  ControlSocket(Descriptor name, std::string path, bool is_shared)
+      : name_(std::move(name)), path_(std::move(path)), is_shared_(is_shared) {}
   [[nodiscard]] Status listen();
 
   Descriptor name_;       // keeps others out; empty after a move
   Descriptor listening_;  // empty after a move
   std::string path_;
+  bool is_shared_;
   dev_t device_ = 0;  // of the file
   ino_t number_ = 0;
 };
@@ -72,6 +79,14 @@ class ControlSocket {
 /// @errors  not_found if none of this name runs; unavailable with the reason, also if another user answers in its place.
 /// @thread  any.
 [[nodiscard]] Result<Descriptor> connect_to_system(const std::string& system);
+
+/// Connects to the shared socket of a system of another user. It is that user, or root, who listens there, and only they could have put it
+/// there.
+/// @param system  empty: the only one of that user.
+/// @errors  not_found if that user shares none, or none of this name; invalid_argument if it is to be chosen among several; unavailable with the
+///          reason.
+/// @thread  any.
+[[nodiscard]] Result<Descriptor> connect_to_shared(const std::string& system, uid_t owner);
 
 /// Connects to a socket of ControlSocket::open_file(), in the same way.
 /// @errors  not_found if nobody listens there; unavailable as above.

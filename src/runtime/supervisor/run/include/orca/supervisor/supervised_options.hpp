@@ -14,6 +14,7 @@
 #include "orca/base/time.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/host/run_outputs.hpp"
+#include "orca/supervisor/access.hpp"
 #include "orca/supervisor/log_name.hpp"
 #include "orca/supervisor/system_facts.hpp"
 
@@ -44,7 +45,8 @@ struct SupervisedOptions {
   /// second while the system runs, and hears whether all has come up; what it no longer names is right again. Empty: there are no
   /// such programs.
   std::function<std::map<std::string, std::string>(bool has_come_up)> look_beside;
-  bool holds = false;  ///< What moves is held from the start, until an operator releases it.
+  std::vector<Grant> grants;  ///< What other users may do; none: nobody else can ask anything.
+  bool holds = false;         ///< What moves is held from the start, until an operator releases it.
 };
 
 }  // namespace orca::supervisor
