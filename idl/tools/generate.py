@@ -34,7 +34,10 @@ def run_fastddsgen(program: str, sources: list[Path], kinds: int, out: Path, cha
     Of each file `kinds` pairs of source and header are taken over: the classes, and what Fast DDS needs of them.
     """
     with tempfile.TemporaryDirectory(dir=out) as scratch:
-        command = [program, "-replace", "-cs", "-d", scratch, *(s.name for s in sources)]
+        # Without -t, runs at the same time share their preprocessed files if these have one name.
+        own = Path(scratch) / "preprocessed"
+        own.mkdir()
+        command = [program, "-replace", "-cs", "-t", str(own), "-d", scratch, *(s.name for s in sources)]
         run = subprocess.run(command, cwd=sources[0].parent, capture_output=True, text=True)
         for source in sources:
             generated = sorted(Path(scratch).glob(f"{source.stem}.*")) + sorted(
