@@ -243,10 +243,9 @@ std::vector<Command> history_commands() {
                      {"COMPONENT", Names::component, true}},
        .options = {kTimeout},
        .text = "the tasks with their steps, or an order to one",
-       .details = "pause lets the robot stand, and resume begins the step on the way again. skip takes that "
-                  "step for done, end "
-                  "takes the task for failed, begin begins it again. yes and no answer the question that a "
-                  "task asks."},
+       .details =
+           "pause lets the robot stand, and resume begins the step on the way again. skip takes that "
+           "step for done, end takes the task for failed, begin begins it again. yes and no answer it."},
       {.name = "go",
        .arguments = {{"GOAL", Names::none, true, true}},
        .options = {{"--queue", "", "after the goals that it has, instead of them"},
