@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -69,9 +70,16 @@ Status check(const fs::path& path, const struct stat& found) {
   return ok();
 }
 
-// Checks a path and all folders above it.
+// Returns whether a folder is one of those above the program that runs: whoever can exchange things there can exchange the program.
+bool holds_program(const fs::path& folder) {
+  std::error_code unused;
+  const fs::path program = fs::read_symlink("/proc/self/exe", unused);
+  return std::mismatch(folder.begin(), folder.end(), program.begin(), program.end()).first == folder.end();
+}
+
+// Checks a path and all folders above it, up to one that the program is in as well.
 Status check_all(fs::path path) {
-  for (;; path = path.parent_path()) {
+  for (; !holds_program(path); path = path.parent_path()) {
     struct stat found {};
     if (stat(path.c_str(), &found) != 0) {
       const int reason = errno;
@@ -80,8 +88,8 @@ Status check_all(fs::path path) {
                   "cannot look at " + path.string() + ": " + std::strerror(reason));
     }
     if (Status trusted = check(path, found); !trusted.ok()) return trusted;
-    if (path == path.root_path()) return ok();
   }
+  return ok();
 }
 
 }  // namespace
