@@ -138,6 +138,8 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "scout_from_afar",
                                        "scout_behaviours",
                                        "replay",
+                                       "ros2_pioneer",  // ros2_test
+                                       "ros2_robot",
                                        "intel_log",
                                        "calibrate",
                                        "pioneer_localize",

@@ -87,7 +87,7 @@ class OwnObjects(unittest.TestCase):
         self.assertRegex(self.orcactl("echo", "near.nearest", "--count", "1", "--field", "distance"), r"^\d")
         self.assertIn(f"/{LIBRARY}", self.orcactl("objects"))
         self.orcactl("record", "run.mcap", "finder.nearest", "--for", "2s")
-        rows = list(csv.DictReader(io.StringIO(self.orcactl("bag", "csv", "run.mcap", "--plugins", "build/plugins"))))
+        rows = list(csv.DictReader(io.StringIO(self.orcactl("bag", "csv", "run.mcap", "finder.nearest", "--plugins", "build/plugins"))))
         self.assertGreater(len(rows), 3)
         self.assertTrue(all(float(row["distance"]) > 0 for row in rows))
         status, said = self.call("orcactl", "bag", "csv", "run.mcap")

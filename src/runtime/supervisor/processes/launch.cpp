@@ -110,12 +110,13 @@ void set_limits(const HostStart& start, const Child& child) {
   if (start.priority > 0 && sched_setscheduler(0, SCHED_FIFO, &priority) != 0) report(child, Step::priority);
 }
 
-// What no component needs, also where root runs the system: powers over the kernel, the machine's clock and other processes.
-// Files, devices, networks and priorities stay with root.
-constexpr int kGivenUp[] = {
-    CAP_SYS_MODULE,    CAP_SYS_BOOT, CAP_SYS_ADMIN, CAP_SYS_PTRACE, CAP_SYS_CHROOT,
-    CAP_SYS_TIME,      CAP_MKNOD,    CAP_SETFCAP,   CAP_MAC_ADMIN,  CAP_MAC_OVERRIDE,
-    CAP_AUDIT_CONTROL, CAP_SYSLOG,   CAP_SETPCAP};  // the last one, without which the others could not go
+// What no component needs, also where root runs the system: powers over the kernel and the machine's clock. Files, devices, networks and
+// priorities stay with root. So does CAP_SYS_ADMIN, because a pseudo terminal keeps the exclusive mode of a driver that was
+// killed, and CAP_SYS_PTRACE, because a process writes to the supervisor's own output through /proc.
+constexpr int kGivenUp[] = {CAP_SYS_MODULE,    CAP_SYS_BOOT, CAP_SYS_CHROOT, CAP_SYS_TIME,
+                            CAP_MKNOD,         CAP_SETFCAP,  CAP_MAC_ADMIN,  CAP_MAC_OVERRIDE,
+                            CAP_AUDIT_CONTROL, CAP_SYSLOG,   CAP_SETPCAP};  // the last one, without which the others
+                                                                            // could not go
 
 // The program gets no rights that this one does not have, whatever it runs. A user who is not root has none of these to give up.
 void give_up_rights() {
