@@ -27,7 +27,8 @@ const bool kSet = [] {
   return setenv("ROS_LOCALHOST_ONLY", "1", 1) == 0 && setenv("ROS_DOMAIN_ID", domain.c_str(), 1) == 0 &&
          setenv("CYCLONEDDS_URI",
                 "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-                "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto"
+                "<AllowMulticast>false</AllowMulticast></General><Discovery><SPDPInterval>200 "
+                "ms</SPDPInterval><ParticipantIndex>auto"
                 "</ParticipantIndex><Peers><Peer "
                 "Address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
                 1) == 0;

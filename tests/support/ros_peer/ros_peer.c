@@ -2,11 +2,9 @@
 /* A node as others write them, over another implementation of DDS (Eclipse Cyclone DDS): what Orca says to ROS 2 must be understood here.
  *
  *   ros_peer read TOPIC TYPE QOS SECONDS      prints each sample: "TIME bytes HEX"; QOS: best_effort, reliable, latched, deadline
- *   ros_peer twist TOPIC X Z SECONDS          says a Twist ten times a second, then falls silent
- *   ros_peer pose TOPIC X Y YAW SECONDS       says a PoseStamped once, to whoever reads within that time
+ *   ros_peer twist TOPIC X Z SECONDS          says a Twist ten times a second from the moment when it is read, then falls silent
  *   ros_peer writers SECONDS                  prints the writers of the domain: "writer TOPIC TYPE USER_DATA GID"
  * The first line is "ready". Domain and interface are those of CYCLONEDDS_URI and ROS_DOMAIN_ID. */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -100,6 +98,14 @@ static dds_entity_t make_writer(const char* topic, const dds_topic_descriptor_t*
   return dds_create_writer(g_participant, make_topic(topic, type), make_qos("reliable"), NULL);
 }
 
+/* Returns whether somebody reads what is written, at the latest after that time. */
+static int wait_for_reader(dds_entity_t writer, double seconds) {
+  dds_publication_matched_status_t matched = {0};
+  for (const double end = now() + seconds; now() < end && matched.current_count == 0; dds_sleepfor(DDS_MSECS(20)))
+    dds_get_publication_matched_status(writer, &matched);
+  return matched.current_count > 0;
+}
+
 static int run_twist(const char* topic, double x, double z, double seconds) {
   const dds_entity_t writer = make_writer(topic, &geometry_msgs_msg_dds__Twist__desc);
   if (writer < 0) return fail(dds_strretcode(writer));
@@ -109,32 +115,8 @@ static int run_twist(const char* topic, double x, double z, double seconds) {
   twist.angular.z = z;
   printf("ready\n");
   fflush(stdout);
+  if (!wait_for_reader(writer, 60)) return fail("nobody reads it");
   for (const double end = now() + seconds; now() < end; dds_sleepfor(DDS_MSECS(100))) dds_write(writer, &twist);
-  return 0;
-}
-
-static int run_pose(const char* topic, double x, double y, double yaw, double seconds) {
-  const dds_entity_t writer = make_writer(topic, &geometry_msgs_msg_dds__PoseStamped__desc);
-  if (writer < 0) return fail(dds_strretcode(writer));
-  geometry_msgs_msg_dds__PoseStamped_ pose;
-  memset(&pose, 0, sizeof pose);
-  pose.header.frame_id = "map";
-  pose.pose.position.x = x;
-  pose.pose.position.y = y;
-  pose.pose.orientation.z = sin(0.5 * yaw);
-  pose.pose.orientation.w = cos(0.5 * yaw);
-  printf("ready\n");
-  fflush(stdout);
-  const double end = now() + seconds;
-  dds_publication_matched_status_t matched = {0};
-  while (now() < end && matched.current_count == 0) {
-    dds_get_publication_matched_status(writer, &matched);
-    dds_sleepfor(DDS_MSECS(20));
-  }
-  if (matched.current_count == 0) return fail("nobody reads it");
-  dds_write(writer, &pose);
-  dds_wait_for_acks(writer, DDS_SECS(2));
-  printf("said\n");
   return 0;
 }
 
@@ -173,8 +155,6 @@ int main(int argc, char** argv) {
     result = run_read(argv[2], argv[3], argv[4], atof(argv[5]));
   else if (argc == 6 && strcmp(argv[1], "twist") == 0)
     result = run_twist(argv[2], atof(argv[3]), atof(argv[4]), atof(argv[5]));
-  else if (argc == 7 && strcmp(argv[1], "pose") == 0)
-    result = run_pose(argv[2], atof(argv[3]), atof(argv[4]), atof(argv[5]), atof(argv[6]));
   else if (argc == 3 && strcmp(argv[1], "writers") == 0)
     result = run_writers(atof(argv[2]));
   else
