@@ -32,8 +32,9 @@ Status not_numbers(const char* message) {
   return fail(Code::data_loss, std::string(message) + " holds what is not a number");
 }
 
-bool is_finite(const Pose2& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+bool is_finite(const geometry_msgs::Pose& pose) {
+  const auto& [x, y, z, w] = pose.orientation;
+  return std::isfinite(pose.position.x + pose.position.y + pose.position.z) && std::isfinite(x + y + z + w);
 }
 
 // Places are in the frame of the map: nobody here turns them from another one.
@@ -123,7 +124,7 @@ Status from_ros(const geometry_msgs::PoseWithCovarianceStamped& message, const M
                 idl::RobotPose& pose) {
   if (Status known = check_map(message.header, "a PoseWithCovarianceStamped"); !known.ok()) return known;
   const Pose2 X_WR = to_plane(message.pose.pose);
-  if (!is_finite(X_WR)) return not_numbers("a PoseWithCovarianceStamped");
+  if (!is_finite(message.pose.pose)) return not_numbers("a PoseWithCovarianceStamped");
   pose.x(X_WR.x);
   pose.y(X_WR.y);
   pose.orientation(X_WR.yaw);
@@ -144,7 +145,7 @@ Status from_ros(const geometry_msgs::PoseStamped& message, const MountOf& /*moun
   if (Status known = check_map(message.header, "a PoseStamped"); !known.ok()) return known;
   const geometry_msgs::Point& place = message.pose.position;
   const idl::Rotation3D rotation = to_rotation(message.pose.orientation);
-  if (!is_finite({place.x, place.y, rotation.yaw()})) return not_numbers("a PoseStamped");
+  if (!is_finite(message.pose)) return not_numbers("a PoseStamped");
   goal.name("goal");
   goal.coordinate().point(make_point(place.x, place.y, place.z));
   goal.reach_radius().distance(kReachRadius);
@@ -170,7 +171,7 @@ Status from_ros(const nav_msgs::Path& message, const MountOf& /*mount_of*/, idl:
     pose.position(make_point(place.x, place.y, place.z));
     pose.rotation(to_rotation(stamped.pose.orientation));
     pose.stamp(to_time_value(to_instant(stamped.header.stamp)));
-    if (!is_finite(plane_pose(pose))) return not_numbers("a Path");
+    if (!is_finite(stamped.pose)) return not_numbers("a Path");
     path.poses().push_back(pose);
   }
   return ok();
@@ -192,7 +193,7 @@ Status from_ros(const nav_msgs::OccupancyGrid& message, const MountOf& /*mount_o
   if (Status known = check_map(message.header, "an OccupancyGrid"); !known.ok()) return known;
   const nav_msgs::MapMetaData& info = message.info;
   const Pose2 corner = to_plane(info.origin);
-  if (!is_finite(corner) || !std::isfinite(info.resolution) || info.resolution <= 0.0F)
+  if (!is_finite(info.origin) || !std::isfinite(info.resolution) || info.resolution <= 0.0F)
     return not_numbers("an OccupancyGrid");
   if (message.data.size() != std::size_t{info.width} * info.height)
     return fail(Code::data_loss, "an OccupancyGrid has " + std::to_string(message.data.size()) +

@@ -3,18 +3,19 @@
 #include "foxglove/ros_messages.hpp"
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
-#include <vector>
+#include <span>
+#include <type_traits>
 
 #include "answers.hpp"
-#include "orca/base/portable_math.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/object.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/ros/cdr.hpp"
+#include "orca/ros/generated/messages.hpp"
+#include "orca/ros/twin.hpp"
 #include "orca/text/object_xml.hpp"
 
 namespace orca::view {
@@ -22,139 +23,80 @@ namespace {
 
 using nlohmann::json;
 
-// Reads CDR, little-endian. After its end all numbers are NaN.
-class CdrNumbers {
+// Reads a message from JSON. Numbers that are not there are NaN; texts and lists may be left out.
+class JsonReader {
  public:
-  explicit CdrNumbers(const std::string& bytes) : bytes_(bytes) {}
+  explicit JsonReader(const json& from) : from_(from) {}
 
-  void skip_header() {
-    at_ += 2 * sizeof(std::uint32_t);  // the time
-    const auto length = read<std::uint32_t>();
-    at_ = length > bytes_.size() ? bytes_.size() : at_ + length;
-  }
-  double number() {
-    if (is_over_) return std::nan("");
-    return read<double>();
+  template <class T>
+  void field(const FieldInfo& info, T& value) {
+    const std::string name(info.name);
+    read(from_.is_object() && from_.contains(name) ? from_.at(name) : json(), value);
   }
 
  private:
-  template <class Number>
-  Number read() {
-    constexpr std::size_t kSize = sizeof(Number);
-    at_ = (at_ + kSize - 1) / kSize * kSize;
-    Number number{};
-    is_over_ = is_over_ || at_ + kSize + kEncapsulation > bytes_.size();
-    if (is_over_) return sizeof(Number) == sizeof(double) ? static_cast<Number>(std::nan("")) : Number{};
-    std::memcpy(&number, bytes_.data() + kEncapsulation + at_, kSize);
-    at_ += kSize;
-    return number;
+  template <class T>
+  void read(const json& from, T& value) {
+    if constexpr (ReflectedStruct<T>) {
+      JsonReader inner(from);
+      Reflection<T>::fields(value, inner);
+    } else if constexpr (std::is_same_v<T, double>) {
+      value = from.is_number() ? from.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      if (from.is_string()) value = from.get<std::string>();
+    }
   }
 
-  static constexpr std::size_t kEncapsulation = 4;
-  const std::string& bytes_;
-  std::size_t at_ = 0;  // after the encapsulation
-  bool is_over_ = false;
+  const json& from_;
 };
 
-// A message type, and where its numbers are in JSON.
-struct Kind {
-  bool has_header = false;
-  std::vector<const char*> paths{};
-};
-
-const std::map<std::string_view, Kind>& kinds() {
-  static const std::map<std::string_view, Kind> all{
-      {"Twist", {false, {"/linear/x", "/linear/y", "/linear/z", "/angular/x", "/angular/y", "/angular/z"}}},
-      {"TwistStamped",
-       {true,
-        {"/twist/linear/x", "/twist/linear/y", "/twist/linear/z", "/twist/angular/x", "/twist/angular/y",
-         "/twist/angular/z"}}},
-      {"PoseStamped",
-       {true,
-        {"/pose/position/x", "/pose/position/y", "/pose/position/z", "/pose/orientation/x",
-         "/pose/orientation/y", "/pose/orientation/z", "/pose/orientation/w"}}},
-      {"PoseWithCovarianceStamped",
-       {true,
-        {"/pose/pose/position/x", "/pose/pose/position/y", "/pose/pose/position/z",
-         "/pose/pose/orientation/x", "/pose/pose/orientation/y", "/pose/pose/orientation/z",
-         "/pose/pose/orientation/w"}}}};
-  return all;
+template <class Message>
+Status decode(std::string_view encoding, const std::string& bytes, Message& message) {
+  if (encoding == "cdr") return ros::from_cdr(std::as_bytes(std::span(bytes)), message);
+  const json from = read_json(bytes);
+  JsonReader reader(from);
+  Reflection<Message>::fields(message, reader);
+  return ok();
 }
 
-std::vector<double> numbers_of(const Kind& kind, bool is_cdr, const std::string& bytes) {
-  std::vector<double> numbers;
-  if (is_cdr) {
-    CdrNumbers cdr(bytes);
-    if (kind.has_header) cdr.skip_header();
-    for (std::size_t i = 0; i < kind.paths.size(); ++i) numbers.push_back(cdr.number());
-    return numbers;
-  }
-  const json message = read_json(bytes);
-  for (const char* const path : kind.paths) {
-    const json::json_pointer place(path);
-    const bool is_there = message.is_object() && message.contains(place) && message.at(place).is_number();
-    numbers.push_back(is_there ? message.at(place).get<double>() : std::nan(""));
-  }
-  return numbers;
-}
-
-double yaw_of(const std::vector<double>& n) {  // a quaternion in 3 to 6: x, y, z, w
-  return portable::atan2(2.0 * (n[6] * n[5] + n[3] * n[4]), 1.0 - 2.0 * (n[4] * n[4] + n[5] * n[5]));
-}
-
-Published goal(const std::vector<double>& n) {
-  auto object = make_object<idl::GoalPoint>();
-  object->name("viewer");
-  object->coordinate().point().x(n[0]);
-  object->coordinate().point().y(n[1]);
-  constexpr double kReach = 0.2;  // [m]
-  object->reach_radius().distance(kReach);
-  object->use_orientation(true);
-  object->orientation().orientation().yaw(yaw_of(n));
-  constexpr double kReachAngle = 0.2;  // [rad]
-  object->reach_angle(kReachAngle);
-  return {".GotoCoordinateSend", to_xml(std::move(object).seal())};
-}
-
-Published place(const std::vector<double>& n) {
-  auto object = make_object<idl::RobotPose>();
-  object->x(n[0]);
-  object->y(n[1]);
-  object->orientation(yaw_of(n));
-  return {".RobotPoseSend", to_xml(std::move(object).seal())};
-}
-
-Published drive(const std::vector<double>& n) {
-  auto object = make_object<idl::MotionCommand>();
-  object->kind(idl::NORMAL);
-  object->steering(idl::BY_TURN_RATE);
-  object->speed(n[0]);
-  object->turn_rate(n[5]);
-  return {".MotionSend", to_xml(std::move(object).seal())};
+// Returns the object that a message says, for the port that takes it.
+// @tparam T  the port's type.
+template <class T, class Message>
+Result<Published> published(const char* port_end, std::string_view encoding, const std::string& bytes) {
+  Message message;
+  if (const Status read = decode(encoding, bytes, message); !read.ok())
+    return fail(Code::data_loss,
+                "the bytes are no " + std::string(Reflection<Message>::name) + ": " + read.error().text());
+  // A viewer's clock is none of the system's, which may run in virtual time.
+  if constexpr (requires { message.header.stamp; }) message.header.stamp = {};
+  const ros::Twin& twin = *ros::twin_from_ros(object_type<T>(), Reflection<Message>::name);
+  const Result<ObjectRef> object = twin.from_ros(ros::to_cdr(message), {}, {});
+  if (!object) return object.error();
+  ObjectLoan fresh = copy_value(*object);
+  fresh.header().origin("");
+  return Published{port_end, to_xml(std::move(fresh).seal())};
 }
 
 }  // namespace
 
 Result<Published> read_ros_message(std::string_view type, std::string_view encoding,
                                    const std::string& bytes) {
+  namespace msg = ros::geometry_msgs;
   if (encoding != "cdr" && encoding != "json")
     return fail(Code::unimplemented, "messages are read as cdr or json, not as " + std::string(encoding));
-  const std::string_view name = type.substr(type.rfind('/') + 1);
-  const auto kind = kinds().find(name);
-  if (!type.starts_with("geometry_msgs/") || kind == kinds().end())
-    return fail(
-        Code::unimplemented,
-        "a robot takes geometry_msgs PoseStamped, PoseWithCovarianceStamped, Twist and TwistStamped, not " +
-            std::string(type));
-  if (encoding == "cdr" && !bytes.starts_with(std::string_view("\0\1", 2)))
-    return fail(Code::data_loss, "the bytes are no plain CDR with the least byte first");
-  const std::vector<double> numbers = numbers_of(kind->second, encoding == "cdr", bytes);
-  for (const double number : numbers)
-    if (!std::isfinite(number))
-      return fail(Code::data_loss, "the bytes are no " + std::string(type) + ", or a number in it is none");
-  if (name == "PoseStamped") return goal(numbers);
-  if (name == "PoseWithCovarianceStamped") return place(numbers);
-  return drive(numbers);
+  const std::string_view name =
+      type.starts_with("geometry_msgs/") ? type.substr(type.rfind('/') + 1) : std::string_view();
+  if (name == "PoseStamped")
+    return published<idl::GoalPoint, msg::PoseStamped>(".GotoCoordinateSend", encoding, bytes);
+  if (name == "PoseWithCovarianceStamped")
+    return published<idl::RobotPose, msg::PoseWithCovarianceStamped>(".RobotPoseSend", encoding, bytes);
+  if (name == "Twist") return published<idl::MotionCommand, msg::Twist>(".MotionSend", encoding, bytes);
+  if (name == "TwistStamped")
+    return published<idl::MotionCommand, msg::TwistStamped>(".MotionSend", encoding, bytes);
+  return fail(
+      Code::unimplemented,
+      "a robot takes geometry_msgs PoseStamped, PoseWithCovarianceStamped, Twist and TwistStamped, not " +
+          std::string(type));
 }
 
 }  // namespace orca::view

@@ -15,10 +15,11 @@ struct Published {
   std::string xml;       ///< The object's text form.
 };
 
-/// Reads a message of ROS 2 that a viewer publishes: geometry_msgs/msg/PoseStamped is a goal, PoseWithCovarianceStamped says where the
+/// Reads a message of ROS 2 that a viewer publishes, by the twins that topics have (orca/ros/twin.hpp): geometry_msgs/msg/PoseStamped is a goal, PoseWithCovarianceStamped says where the
 /// robot is, Twist and TwistStamped drive it. "geometry_msgs/Twist" means the same.
 /// @param encoding  "cdr" or "json".
-/// @errors  unimplemented for another type or encoding; data_loss if the bytes are no such message, or a number in it is none.
+/// @errors  unimplemented for another type or encoding; data_loss if the bytes are no such message, a number in it is none, or a place
+///          is in another frame than the map's.
 [[nodiscard]] Result<Published> read_ros_message(std::string_view type, std::string_view encoding,
                                                  const std::string& bytes);
 
