@@ -91,6 +91,11 @@ std::optional<FrameNews> FrameTree::hear(const ObjectRef& object) {
   if (const auto image = object_cast<idl::Image>(object))
     return one(base, optical_frame(object.header()),
                to_ros_pose(image->pose().position(), to_optical(image->pose().rotation())), true);
+  return std::nullopt;
+}
+
+std::optional<FrameNews> mounts_of_ring(const ObjectRef& object) {
+  const std::string base = context_of(object.header()) + "base_link";
   if (const auto ring = object_cast<idl::SonarRangeReadings>(object))
     return mounts_of(*ring, object.stamp(), base);
   if (const auto ring = object_cast<idl::InfraredRangeReadings>(object))

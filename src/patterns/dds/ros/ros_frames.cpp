@@ -85,6 +85,7 @@ void RosFrames::say(const ObjectRef& object) {
     const MutexLock lock(mutex_);
     if (moving_ == nullptr) return;
     news = tree_.hear(object);
+    if (!news) news = ros::mounts_of_ring(object);
     if (!news) return;
     writer = news->is_static ? static_ : moving_;
   }

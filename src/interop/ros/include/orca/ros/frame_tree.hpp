@@ -52,4 +52,9 @@ class FrameTree {
   std::map<std::string, std::pair<std::string, geometry_msgs::Transform>> parents_;  // of frames, and X_PF
 };
 
+/// Returns how the sensors of a ring are mounted, which viewers and recordings are not given with each round of it.
+/// @return nothing for what is no ring of sonars or infrared sensors.
+/// @thread  any.
+[[nodiscard]] std::optional<FrameNews> mounts_of_ring(const ObjectRef& object);
+
 }  // namespace orca::ros
