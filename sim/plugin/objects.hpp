@@ -19,6 +19,7 @@ void fill(idl::SonarRangeReadings& object, const SonarScan& scan, const SonarRin
 void fill(idl::LaserRangeReadings& object, const LaserScan& scan, const LaserScanner& laser);
 void fill(idl::InfraredRangeReadings& object, const InfraredScan& scan, const InfraredRing& ring);
 void fill(idl::BumperReadings& object, const BumperReading& reading, const BumperRing& ring);
+void fill(idl::Image& object, const CameraShot& shot, const Camera& camera);
 /// @param covariance [m2, m rad, rad2]  of x, y and orientation, row by row; all zero: not known.
 void fill(idl::Odometry& object, const OdometryReading& reading, const std::array<double, 9>& covariance);
 void fill(idl::TurretAngle& object, const TurretReading& reading);

@@ -116,6 +116,7 @@ SharedWorld::Inbox in_world(SharedWorld::Inbox inbox, const Pose2& X_WF) {
   move(inbox.laser);
   move(inbox.infrared);
   move(inbox.bumper);
+  move(inbox.camera);
   for (auto& [ring, scan] : inbox.sonar)
     for (SonarReading& reading : scan.readings) reading.sensor = X_WF * reading.sensor;
   return inbox;

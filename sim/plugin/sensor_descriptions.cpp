@@ -50,6 +50,8 @@ void describe_sensors(const RobotModel& model, idl::Robot& robot) {
     robot.sensors().push_back(named<idl::Sensor>(ring, ring.name, "InfraredRangeReadings"));
   for (const BumperRing& ring : model.bumpers)
     robot.sensors().push_back(named<idl::Sensor>(ring, ring.name, "BumperReadings"));
+  for (const Camera& camera : model.cameras)
+    robot.sensors().push_back(named<idl::Sensor>(camera, camera.name, "Image"));
   if (model.odometer) robot.sensors().push_back(named<idl::Sensor>(*model.odometer, "odometry", "Odometry"));
   if (model.turret)
     robot.sensors().push_back(named<idl::Sensor>(*model.turret, model.turret->joint, "TurretAngle"));

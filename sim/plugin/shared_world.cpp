@@ -143,6 +143,8 @@ void SharedWorld::collect_readings(Member& member) {
     take(world_.infrared(robot, i), i, epoch_, inbox.infrared);
   for (std::size_t i = 0; i < model.bumpers.size(); ++i)
     take(world_.bumper(robot, i), i, epoch_, inbox.bumper);
+  for (std::size_t i = 0; i < model.cameras.size(); ++i)
+    take(picture_in(world_, robot, i), i, epoch_, inbox.camera);
 }
 
 void SharedWorld::collect_turret(Member& member) {

@@ -44,6 +44,7 @@ class SharedWorld {
     Readings<LaserScan> laser;
     Readings<InfraredScan> infrared;
     Readings<BumperReading> bumper;
+    Readings<CameraShot> camera;
     std::vector<OdometryReading> odometry;
     std::vector<TurretReading> turret;
     std::vector<GripperReading> gripper;

@@ -54,6 +54,7 @@ SimSensors::SimSensors(const RobotModel& robot, Realism realism) : realism_(real
   make(lasers_, robot.lasers);
   make(infrareds_, robot.infrareds);
   make(bumpers_, robot.bumpers);
+  make(cameras_, robot.cameras);
   if (robot.turret) turret_ = std::make_unique<hw::SensorHW<idl::TurretAngle>>(robot.turret->period);
   if (robot.gripper) gripper_ = std::make_unique<hw::SensorHW<idl::GripperState>>(robot.gripper->period);
   if (robot.battery) battery_ = std::make_unique<hw::SensorHW<idl::Battery>>(robot.battery->period);
@@ -68,6 +69,7 @@ std::vector<hw::SensorEndpoint*> SimSensors::endpoints() {
   list(lasers_, all);
   list(infrareds_, all);
   list(bumpers_, all);
+  list(cameras_, all);
   if (odometry_) all.push_back(odometry_.get());
   if (turret_) all.push_back(turret_.get());
   if (gripper_) all.push_back(gripper_.get());
@@ -81,6 +83,7 @@ void SimSensors::publish(const SharedWorld::Inbox& inbox) {
   publish_ranges(lasers_, inbox.laser, realism_);
   publish_ranges(infrareds_, inbox.infrared, realism_);
   publish_all(bumpers_, inbox.bumper);
+  publish_all(cameras_, inbox.camera);
   for (const OdometryReading& reading : inbox.odometry) {
     uncertainty_->move_to(reading.pose);
     publish_one(*odometry_, reading, uncertainty_->covariance());

@@ -49,6 +49,7 @@ class SimSensors {
   Devices<idl::LaserRangeReadings, LaserScanner> lasers_;
   Devices<idl::InfraredRangeReadings, InfraredRing> infrareds_;
   Devices<idl::BumperReadings, BumperRing> bumpers_;
+  Devices<idl::Image, Camera> cameras_;
   std::unique_ptr<hw::SensorHW<idl::Odometry>> odometry_;
   std::optional<OdometryUncertainty> uncertainty_;
   std::unique_ptr<hw::SensorHW<idl::TurretAngle>> turret_;

@@ -135,6 +135,14 @@ void Bodies::remove(std::size_t number) {
   surround(number);
 }
 
+void Bodies::add_heights(std::vector<double>& heights) const {
+  for (const Moving& moving : bodies_) {
+    if (!moving.present) continue;
+    for (const Piece& piece : moving.pieces)
+      heights.insert(heights.end(), {piece.solid.bottom, piece.solid.top});
+  }
+}
+
 void Bodies::place(std::size_t number) {
   if (!cells_.hold(bodies_[number].bounds)) choose_cells();
   list(number);

@@ -52,6 +52,13 @@ class Bodies {
   // Does the same for the bodies with these numbers only.
   void cast(const Ray& ray, std::span<const std::uint32_t> numbers, Hit& hit) const;
 
+  // Returns the colour of the body that has an element of that number.
+  [[nodiscard]] Colour colour_of(std::uint64_t element) const {
+    return bodies_.at(element / kMostEdges).pieces.front().solid.colour;
+  }
+  // Adds the heights at which solids begin and end.
+  void add_heights(std::vector<double>& heights) const;
+
   // Collects the bodies that rays within the cone can hit; the rays equal the axis but for origin and
   // direction. Returns false if the cone is too wide for the search to pay off.
   bool choose(const Ray& axis, const Cone& cone, std::vector<std::uint32_t>& found) const;

@@ -2,6 +2,7 @@
 #include "orca/sim/caster.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "bodies.hpp"
@@ -38,6 +39,20 @@ std::vector<Finish> finishes_of(const WorldModel& world) {
   return edges;
 }
 
+constexpr double kMeshSlice = 0.1;  // [m]
+constexpr Colour kBlack{36, 36, 38};
+constexpr Colour kGlass{188, 212, 216};
+
+std::set<double> heights_of(const WorldModel& world) {
+  std::set<double> heights{0.0};
+  for (const Obstacle& o : world.obstacles) {
+    heights.insert({o.bottom, o.height});
+    if (o.mesh == nullptr) continue;
+    for (int k = 1; o.bottom + k * kMeshSlice < o.height; ++k) heights.insert(o.bottom + k * kMeshSlice);
+  }
+  return heights;
+}
+
 std::vector<std::shared_ptr<const Mesh>> meshes_of(const WorldModel& world) {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   for (const Obstacle& o : world.obstacles)
@@ -49,10 +64,14 @@ std::vector<std::shared_ptr<const Mesh>> meshes_of(const WorldModel& world) {
 
 struct Caster::Impl {
   explicit Impl(const WorldModel& world)
-      : grid(elements_of(world)), finishes(finishes_of(world)), meshes(meshes_of(world)) {}
+      : grid(elements_of(world)),
+        finishes(finishes_of(world)),
+        meshes(meshes_of(world)),
+        heights(heights_of(world)) {}
   detail::Grid grid;
   std::vector<Finish> finishes;  // By the numbers of the grid's elements; empty: all are plain.
   detail::MeshSections meshes;
+  std::set<double> heights;  // At which what stands begins and ends.
   detail::Bodies bodies;
 
   // Completes a hit among the bodies by what stands; nothing that stands is nearer than `from` [m].
@@ -103,9 +122,28 @@ double Hit::incidence() const {
                          std::fabs(cross(direction, surface_along)));
 }
 
+double Hit::cosine() const {
+  const Vec2 surface_along = along();
+  return std::fabs(cross(direction, surface_along)) / norm(surface_along);
+}
+
 bool Hit::steeper_than(double tangent) const {
   const Vec2 surface_along = along();
   return std::fabs(dot(direction, surface_along)) <= tangent * std::fabs(cross(direction, surface_along));
+}
+
+Colour Caster::colour_of(const Hit& hit) const {
+  if (hit.element >= kBodies) return impl_->bodies.colour_of(hit.element - kBodies);
+  if (hit.finish == Finish::black) return kBlack;
+  return hit.finish == Finish::glass ? kGlass : kPlainColour;
+}
+
+std::vector<double> Caster::heights() const {
+  std::vector<double> all(impl_->heights.begin(), impl_->heights.end());
+  impl_->bodies.add_heights(all);
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
 }
 
 Hit Caster::cast(const Ray& ray) const {

@@ -44,7 +44,8 @@ Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, 
   for (const Walker& walker : world.walkers) {
     WalkerTrack track(walker, run_seed);
     const Pose2 begin = standing(track.at({}).position);
-    const std::size_t number = add(walker.name, Circle{{}, walker.radius}, walker.height, begin);
+    const std::size_t number =
+        add(walker.name, Circle{{}, walker.radius}, walker.height, begin, walker.colour);
     movers_[number].walk = Walk{std::move(track), walker.stops, walker.speed};
     movers_[number].walk->yields = walker.yields;
     movers_[number].walk->legs = walker.legs;
@@ -53,10 +54,11 @@ Movers::Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, 
   }
 }
 
-std::size_t Movers::add(const std::string& name, Shape shape, double height, const Pose2& X_WO) {
+std::size_t Movers::add(const std::string& name, Shape shape, double height, const Pose2& X_WO,
+                        Colour colour) {
   const std::size_t number = physics_.add_mover(shape, height, X_WO);
-  Mover mover{name, std::move(shape), height, X_WO};
-  mover.body = caster_.add_body({mover.placed(), 0.0, height});
+  Mover mover{name, std::move(shape), height, X_WO, colour};
+  mover.body = caster_.add_body({mover.placed(), 0.0, height, colour});
   movers_.push_back(std::move(mover));
   return number;
 }
@@ -183,7 +185,7 @@ std::array<Circle, 2> Movers::Mover::legs() const {
 std::vector<Body> Movers::Mover::figure() const {
   const double crotch = kCrotch * height;
   const auto both = legs();
-  return {{both[0], 0.0, crotch}, {both[1], 0.0, crotch}, {placed(), crotch, height}};
+  return {{both[0], 0.0, crotch, colour}, {both[1], 0.0, crotch, colour}, {placed(), crotch, height, colour}};
 }
 
 std::optional<double> Movers::walking_speed(std::size_t number) const {

@@ -26,7 +26,8 @@ class Movers {
   Movers(const WorldModel& world, std::uint64_t run_seed, Caster& caster, Physics& physics);
 
   // Adds an obstacle; `shape` is in its own frame, whose pose is `X_WO`. @return  its number.
-  std::size_t add(const std::string& name, Shape shape, double height, const Pose2& X_WO);
+  std::size_t add(const std::string& name, Shape shape, double height, const Pose2& X_WO,
+                  Colour colour = kPlainColour);
   void move(std::size_t number, const Pose2& X_WO);
   void remove(std::size_t number);
 
@@ -76,6 +77,7 @@ class Movers {
     Shape shape;
     double height = 0.0;
     Pose2 pose{};
+    Colour colour = kPlainColour;
     std::size_t body = 0;  // Its number in the caster.
     bool present = true;
     std::optional<Walk> walk{};

@@ -7,9 +7,13 @@
 #include <utility>
 
 #include "orca/geometry/arc.hpp"
-#include "orca/sim/sections.hpp"
 
 namespace orca::sim::detail {
+namespace {
+
+TickSpan still(TimePoint at, const Pose2& X_WB) { return {at, at, X_WB, X_WB, X_WB, X_WB}; }
+
+}  // namespace
 
 Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
     : name(std::move(birth.name)),
@@ -17,20 +21,14 @@ Robot::Robot(Birth birth, RobotModel robot_model, const ErrorLevels& errors)
       drive(model.drive, errors, birth.tick),
       pose(birth.X_WB),
       body(birth.X_WB),
+      sensors(model, name, errors, birth.seed, birth.time),
+      carriers{still(birth.time, birth.X_WB), still(birth.time, birth.X_WB)},
       tick_(birth.tick),
       slip_(birth.seed, name, "wheels"),
       wheels_(model.drive, WheelErrors::drawn(model.drive.kind, errors, slip_)),
-      on_body_{birth.time, birth.time, birth.X_WB, birth.X_WB, birth.X_WB, birth.X_WB},
-      on_turret_(on_body_),
       odometry_due_(model.odometer ? birth.time + model.odometer->period : kForever) {
   if (model.turret) turret_.emplace(*model.turret);
   if (model.gripper) gripper.emplace(*model.gripper);
-  const auto stream = [&](const std::string& device) { return RandomStream(birth.seed, name, device); };
-  for (const SonarRing& s : model.sonars) sonars.emplace_back(s, errors, stream(s.name), birth.time);
-  for (const LaserScanner& s : model.lasers)
-    lasers.emplace_back(s, sections_of(model, s.sees, s.height), errors, stream(s.name), birth.time);
-  for (const InfraredRing& s : model.infrareds) infrareds.emplace_back(s, errors, stream(s.name), birth.time);
-  for (const BumperRing& s : model.bumpers) bumpers.emplace_back(s, birth.time);
 }
 
 Travel2 Robot::set_off(const Floor& floor) {
@@ -45,8 +43,8 @@ Footing Robot::footing(const Floor& floor) const {
   if (floor.sills.empty()) return footing;
   const std::vector<Vec2> places = wheels_.places();
   for (std::size_t k = 0; k < places.size(); ++k)
-    footing.lost[k] =
-        floor.way_lost({on_body_.X_from * places[k], on_body_.X_to * places[k]}, model.drive.wheel_diameter);
+    footing.lost[k] = floor.way_lost({carriers.body.X_from * places[k], carriers.body.X_to * places[k]},
+                                     model.drive.wheel_diameter);
   return footing;
 }
 
@@ -72,9 +70,9 @@ void Robot::put(const Pose2& X_WB, TimePoint now) {
   pose = {X_WB.x, X_WB.y, steers() ? wrapped(X_WB.yaw + steer_) : X_WB.yaw};
   velocity = {};
   drive.held_to({});
-  on_body_ = {now, now, body, body, pose, pose};
-  on_turret_ = on_body_;
-  if (turret_) on_turret_.X_from = on_turret_.X_to = turret_pose(X_WB);
+  carriers.body = {now, now, body, body, pose, pose};
+  carriers.turret = carriers.body;
+  if (turret_) carriers.turret.X_from = carriers.turret.X_to = turret_pose(X_WB);
   if (trail_) trail_->add({now, pose});
 }
 
@@ -87,13 +85,13 @@ void Robot::reckon(const Travel2& rolled, TimePoint now) {
 }
 
 void Robot::carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now) {
-  on_body_ = {now - tick_, now, body, X_WB, pose, X_WR};
+  carriers.body = {now - tick_, now, body, X_WB, pose, X_WR};
   if (turret_) {
     const Pose2 before = turret_pose(body);
     const double turn = wrapped(X_WR.yaw - X_WB.yaw - (pose.yaw - body.yaw));
     turret_->step(wrapped(X_WR.yaw - X_WB.yaw) + drive.turret_angle(), turn / to_seconds(tick_),
                   to_seconds(tick_));
-    on_turret_ = {now - tick_, now, before, turret_pose(X_WB), pose, X_WR};
+    carriers.turret = {now - tick_, now, before, turret_pose(X_WB), pose, X_WR};
   }
   pose = X_WR;
   body = X_WB;
@@ -109,36 +107,15 @@ Pose2 Robot::turret_pose(const Pose2& X_WB) const {
 std::optional<TurretReading> Robot::turret() const {
   if (!turret_) return std::nullopt;
   const double steering = steers() ? driving_.turn_rate : 0.0;
-  return TurretReading{on_body_.to, wrapped(turret_->angle() - wrapped(pose.yaw - body.yaw)),
+  return TurretReading{carriers.body.to, wrapped(turret_->angle() - wrapped(pose.yaw - body.yaw)),
                        turret_->rate() - steering};
-}
-
-void Robot::fire(const Caster& caster, std::size_t own_body) {
-  for (std::size_t k = 0; k < sonars.size(); ++k)
-    sonars[k].fire(caster, own_body, span(model.sonars[k].on_turret));
-}
-
-void Robot::send(SonarAir& air) {
-  for (SonarModel& s : sonars) s.send(air);
-}
-
-void Robot::sense(const Caster& caster, const SonarAir& air, std::size_t own_body) {
-  for (SonarModel& s : sonars) s.listen(caster, air);
-  for (std::size_t k = 0; k < lasers.size(); ++k)
-    lasers[k].run(caster, own_body, span(model.lasers[k].on_turret));
-  for (std::size_t k = 0; k < infrareds.size(); ++k)
-    infrareds[k].run(caster, own_body, span(model.infrareds[k].on_turret));
-}
-
-void Robot::feel(std::span<const Touch> touches) {
-  for (BumperModel& s : bumpers) s.run(touches, on_body_.to, on_body_.in_robot(on_body_.to));
 }
 
 RobotSnapshot Robot::drawn() const {
   RobotSnapshot drawn{name, pose, placed(model.footprint, body), {}};
   if (!trail_) return drawn;
   drawn.trajectory = trail_->samples();
-  if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({on_body_.to, pose});
+  if (!(drawn.trajectory.back().pose == pose)) drawn.trajectory.push_back({carriers.body.to, pose});
   return drawn;
 }
 

@@ -20,10 +20,7 @@
 #include "orca/geometry/twist2.hpp"
 #include "orca/sim/floor.hpp"
 #include "orca/sim/snapshot.hpp"
-#include "sensors/bumper_model.hpp"
-#include "sensors/infrared_model.hpp"
-#include "sensors/laser_model.hpp"
-#include "sensors/sonar_model.hpp"
+#include "robot_sensors.hpp"
 
 namespace orca::sim::detail {
 
@@ -71,18 +68,9 @@ class Robot {
   void moved(const Pose2& X_WB, TimePoint now, bool blocked);
   // Puts the body at `X_WB` at the time `now`, at rest. Wheels, odometry and turret notice nothing.
   void put(const Pose2& X_WB, TimePoint now);
-  // Lets the sonars fire. @pre  moved() was called for all robots.
-  void fire(const Caster& caster, std::size_t own_body);
-  // Puts the chirps that the sonars have fired into the air.
-  void send(SonarAir& air);
-  // Lets the sensors measure, in the world as it is now. @pre  send() was called for all robots.
-  void sense(const Caster& caster, const SonarAir& air, std::size_t own_body);
-  // Lets the bumpers feel what touches the robot now.
-  void feel(std::span<const Touch> touches);
-
   [[nodiscard]] double speed() const { return portable::hypot(driving_.forward, driving_.left); }  // [m/s]
   [[nodiscard]] std::optional<TurretReading> turret() const;
-  void keep_trail() { trail_.emplace(RobotSnapshot::Sample{on_body_.to, pose}); }
+  void keep_trail() { trail_.emplace(RobotSnapshot::Sample{carriers.body.to, pose}); }
   [[nodiscard]] RobotSnapshot drawn() const;
   void add_to(Fnv1a& hash) const;
 
@@ -93,10 +81,8 @@ class Robot {
   Twist2 velocity;  // True velocity in the last tick, in the robot's frame.
   Pose2 pose;       // Pose of the robot's frame: x is forward.
   Pose2 body;       // Equals `pose` except on a synchro base, whose body does not turn with its wheels.
-  std::vector<SonarModel> sonars;
-  std::vector<LaserModel> lasers;
-  std::vector<InfraredModel> infrareds;
-  std::vector<BumperModel> bumpers;
+  RobotSensors sensors;
+  Carriers carriers;                        // Of the sensors.
   std::optional<OdometryReading> odometry;  // Set in the tick in which it is due.
 
  private:
@@ -105,7 +91,6 @@ class Robot {
   void reckon(const Travel2& rolled, TimePoint now);
   void carry(const Pose2& X_WB, const Pose2& X_WR, TimePoint now);
   [[nodiscard]] Pose2 turret_pose(const Pose2& X_WB) const;
-  [[nodiscard]] const TickSpan& span(bool on_turret) const { return on_turret ? on_turret_ : on_body_; }
 
   Duration tick_;
   RandomStream slip_;
@@ -114,8 +99,6 @@ class Robot {
   double steer_ = 0.0;  // [rad] Angle of the wheels relative to the body.
   std::optional<TurretModel> turret_;
   OdometryModel odometry_model_;
-  TickSpan on_body_;  // The last tick, for sensors on the body.
-  TickSpan on_turret_;
   TimePoint odometry_due_;
   std::optional<Trail> trail_;  // Only if somebody draws it.
 };

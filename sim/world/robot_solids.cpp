@@ -28,10 +28,10 @@ RobotSolids::RobotSolids(const RobotModel& robot, const std::set<double>& eyes) 
     if (!is_upright(part)) {
       add_slices(part, eyes);
     } else if (bottom < top) {
-      for (Shape& plan : sections_at({part}, bottom)) add({std::move(plan), bottom, top});
+      for (Shape& plan : sections_at({part}, bottom)) add({std::move(plan), bottom, top, kCasing});
     }
   }
-  if (solids_.empty()) add({robot.footprint, robot.bottom, robot.top});
+  if (solids_.empty()) add({robot.footprint, robot.bottom, robot.top, kCasing});
 }
 
 // Each slice reaches half way to the heights of its neighbours.
@@ -43,7 +43,7 @@ void RobotSolids::add_slices(const Part& part, const std::set<double>& eyes) {
   for (auto it = heights.begin(); it != heights.end(); ++it) {
     const auto next = std::next(it);
     const double to = next == heights.end() ? top : 0.5 * (*it + *next);
-    for (Shape& plan : sections_at({part}, *it)) add({std::move(plan), from, to});
+    for (Shape& plan : sections_at({part}, *it)) add({std::move(plan), from, to, kCasing});
     from = to;
   }
 }
@@ -58,7 +58,8 @@ void RobotSolids::add(Body solid) {
 std::vector<Body> RobotSolids::at(const Pose2& X_WB) const {
   std::vector<Body> there;
   there.reserve(solids_.size());
-  for (const Body& solid : solids_) there.push_back({placed(solid.shape, X_WB), solid.bottom, solid.top});
+  for (const Body& solid : solids_)
+    there.push_back({placed(solid.shape, X_WB), solid.bottom, solid.top, solid.colour});
   return there;
 }
 

@@ -65,6 +65,7 @@ bool has(const RobotModel& model, const Outage& outage) {
     case SensorKind::laser: return holds(model.lasers, outage.device);
     case SensorKind::infrared: return holds(model.infrareds, outage.device);
     case SensorKind::bumper: return holds(model.bumpers, outage.device);
+    case SensorKind::camera: return holds(model.cameras, outage.device);
     case SensorKind::odometry: return model.odometer && outage.device.empty();
   }
   return false;

@@ -204,11 +204,13 @@ void World::Impl::move() {
 
 void World::Impl::sense() {
   air.settle(now - kTick);
-  team.for_all(robots.size(), [this](std::size_t i) { robots[i].fire(caster, bodies[i]); });
-  for (detail::Robot& robot : robots) robot.send(air);
+  team.for_all(robots.size(),
+               [this](std::size_t i) { robots[i].sensors.fire(caster, bodies[i], robots[i].carriers); });
+  for (detail::Robot& robot : robots) robot.sensors.send(air);
   team.for_all(robots.size(), [this](std::size_t i) {
-    robots[i].sense(caster, air, bodies[i]);
-    if (!robots[i].bumpers.empty()) robots[i].feel(physics.touches(i));
+    detail::RobotSensors& sensors = robots[i].sensors;
+    sensors.sense(caster, air, bodies[i], robots[i].carriers);
+    if (!sensors.bumpers.empty()) sensors.feel(physics.touches(i), robots[i].carriers.body);
   });
 }
 
@@ -342,22 +344,22 @@ const std::vector<std::string>& World::happened() const { return impl_->notes; }
 const std::optional<SonarScan>& World::sonar(RobotId robot, std::size_t ring) const {
   const auto& body = impl_->robot(robot);
   return impl_->unless_out(robot, SensorKind::sonar, body.model.sonars.at(ring).name,
-                           body.sonars.at(ring).completed());
+                           body.sensors.sonars.at(ring).completed());
 }
 const std::optional<LaserScan>& World::laser(RobotId robot, std::size_t laser) const {
   const auto& body = impl_->robot(robot);
   return impl_->unless_out(robot, SensorKind::laser, body.model.lasers.at(laser).name,
-                           body.lasers.at(laser).completed());
+                           body.sensors.lasers.at(laser).completed());
 }
 const std::optional<InfraredScan>& World::infrared(RobotId robot, std::size_t ring) const {
   const auto& body = impl_->robot(robot);
   return impl_->unless_out(robot, SensorKind::infrared, body.model.infrareds.at(ring).name,
-                           body.infrareds.at(ring).completed());
+                           body.sensors.infrareds.at(ring).completed());
 }
 const std::optional<BumperReading>& World::bumper(RobotId robot, std::size_t ring) const {
   const auto& body = impl_->robot(robot);
   return impl_->unless_out(robot, SensorKind::bumper, body.model.bumpers.at(ring).name,
-                           body.bumpers.at(ring).completed());
+                           body.sensors.bumpers.at(ring).completed());
 }
 const std::optional<OdometryReading>& World::odometry(RobotId robot) const {
   return impl_->unless_out(robot, SensorKind::odometry, "odometry", impl_->robot(robot).odometry);
@@ -396,6 +398,12 @@ std::vector<Standing> standing_in(const World& world) {
   for (const Item& item : impl.model.items)
     all.push_back({item.name, Circle{{}, item.radius}, impl.items.pose(item.name).value_or(item.pose)});
   return all;
+}
+
+const std::optional<CameraShot>& picture_in(const World& world, RobotId robot, std::size_t camera) {
+  const detail::Robot& body = world.impl_->robot(robot);
+  return world.impl_->unless_out(robot, SensorKind::camera, body.model.cameras.at(camera).name,
+                                 body.sensors.cameras.at(camera).completed());
 }
 
 std::optional<BatteryReading> battery_in(const World& world, RobotId robot) {

@@ -20,6 +20,7 @@ void read_sonar_ring(const xml::Attributes& e, Devices& model);
 void read_laser(const xml::Attributes& e, Devices& model);
 void read_infrared_ring(const xml::Attributes& e, Devices& model);
 void read_bumper_ring(const xml::Attributes& e, Devices& model);
+void read_camera(const xml::Attributes& e, Devices& model);
 void read_odometry(const xml::Attributes& e, Devices& model);
 
 // Reports a name that another device of the robot has, because noise is keyed by it. Returns true if it is

@@ -29,6 +29,7 @@ constexpr std::array kPartKinds{
     PartKind{&kLaserRule, false, read_laser},
     PartKind{&kInfraredRingRule, false, read_infrared_ring},
     PartKind{&kBumperRingRule, false, read_bumper_ring},
+    PartKind{&kCameraRule, false, read_camera},
     PartKind{&kOdometryRule, true, read_odometry},
 };
 
@@ -65,6 +66,7 @@ const char* owner_of(const std::string& name, const Devices& model) {
   if (holds(model.lasers, name)) return "laser";
   if (holds(model.infrareds, name)) return "infrared ring";
   if (holds(model.bumpers, name)) return "bumper ring";
+  if (holds(model.cameras, name)) return "camera";
   return nullptr;
 }
 

@@ -97,6 +97,16 @@ constexpr std::array kLaser{required("name", kName),
                             optional("vendor", kText),
                             optional("model", kText),
                             optional("port", kText)};
+constexpr ValueRule kPixels = whole(1, 4096);
+constexpr std::array kCamera{required("name", kName),
+                             required("link", kText),
+                             required("width", kPixels),
+                             required("height", kPixels),
+                             required("field_of_view", positive("rad")),
+                             required("period", kPeriod),
+                             optional("vendor", kText),
+                             optional("model", kText),
+                             optional("port", kText)};
 constexpr std::array kInfraredRing{required("name", kName),
                                    required("link", kText),
                                    required("count", kDevices),
@@ -145,14 +155,15 @@ constexpr ElementRule kSonarRingRule{
 constexpr ElementRule kLaserRule{.name = "laser", .attributes = kLaser, .children = kInRangeSensor};
 constexpr ElementRule kInfraredRingRule{
     .name = "infrared_ring", .attributes = kInfraredRing, .children = kInRangeSensor};
+constexpr ElementRule kCameraRule{.name = "camera", .attributes = kCamera};
 constexpr ElementRule kBumperRingRule{.name = "bumper_ring", .attributes = kBumperRing};
 constexpr ElementRule kOdometryRule{.name = "odometry", .attributes = kOdometry, .children = kInOdometry};
 
 namespace {
 
-constexpr std::array kInOrca{&kDriveRule,        &kTurretRule,     &kGripperRule,
-                             &kBatteryRule,      &kSonarRingRule,  &kLaserRule,
-                             &kInfraredRingRule, &kBumperRingRule, &kOdometryRule};
+constexpr std::array kInOrca{&kDriveRule,     &kTurretRule,  &kGripperRule,      &kBatteryRule,
+                             &kSonarRingRule, &kLaserRule,   &kInfraredRingRule, &kBumperRingRule,
+                             &kCameraRule,    &kOdometryRule};
 
 }  // namespace
 
@@ -167,8 +178,8 @@ constexpr ElementRule kRobotRule{.name = "robot", .children = kInRobot};
 
 constexpr std::array kRobotElements{&kRobotRule,        &kOrcaRule,       &kDriveRule,     &kTurretRule,
                                     &kGripperRule,      &kBatteryRule,    &kSonarRingRule, &kLaserRule,
-                                    &kInfraredRingRule, &kBumperRingRule, &kOdometryRule,  &kWheelErrorsRule,
-                                    &kRangeErrorsRule};
+                                    &kInfraredRingRule, &kBumperRingRule, &kCameraRule,    &kOdometryRule,
+                                    &kWheelErrorsRule,  &kRangeErrorsRule};
 
 }  // namespace
 

@@ -31,12 +31,12 @@ PATTERNS = "src/patterns"
 GRAPH, PLUGIN, HOST = "src/runtime/graph", "src/runtime/plugin", "src/runtime/host"
 SUPERVISOR = "src/runtime/supervisor"
 BATCH = "src/runtime/batch"
-SIM_MODEL = ("robot_file", "geometry", "xml", "base")
+SIM_MODEL = ("robot_file", "geometry", "image", "xml", "base")
 SIM_RAYS = ("sim_model", *SIM_MODEL)
 SIM_SENSORS = ("sim_rays", *SIM_RAYS)
 SIM_MOTION = ("sim_sensors", *SIM_SENSORS)
 SIM_WORLD = ("sim_motion", *SIM_MOTION)
-SIM_FILES = ("sim_generators", "sim_world", "image", *SIM_WORLD)
+SIM_FILES = ("sim_generators", "sim_world", *SIM_WORLD)
 
 LAYERS = (
     Layer("base", ("src/base",), ("orca/base/",), libraries=("fmt",)),
@@ -108,7 +108,7 @@ LAYERS = (
           ("navigation", "geometry_objects", "geometry", *COMPONENT)),
     Layer("goals", ("src/components/goals",), ("orca/goals/",), ("geometry_objects", "geometry", *COMPONENT)),
     Layer("planning", ("src/components/planning",), ("orca/planning/",), ("navigation", "xml", "geometry_objects", "geometry", *COMPONENT)),
-    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "navigation", "tracking", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
+    Layer("components", ("src/components",), (), ("avoidance", "collision", "goals", "planning", "hw_player", "image", "navigation", "tracking", "robot_file", "geometry_objects", *DEVICE), ("eigen", "fmt"),
           siblings=False),
     Layer("map_server", ("src/components/map_server",), (), ("maps", "sim_files", *SIM_FILES, *COMPONENT)),  # draws worlds
     Layer("task_tree", ("src/components/task_tree",), (), ("goals", "geometry_objects", "geometry", "text", "xml", *COMPONENT)),

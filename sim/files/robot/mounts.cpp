@@ -71,6 +71,16 @@ void mount(std::vector<Sensor>& sensors, const UrdfBody& body, const UrdfJoint* 
   }
 }
 
+void mount(std::vector<Camera>& cameras, const UrdfBody& body, const UrdfJoint* turret) {
+  for (Camera& camera : cameras) {
+    const auto link = body.links.find(camera.link);
+    if (link == body.links.end()) continue;
+    camera.center = flat(link->second);
+    camera.link_height = link->second.z;
+    camera.on_turret = is_on(turret, camera.link);
+  }
+}
+
 // A laser that hangs upside down measures in the other sense.
 void turn_over(std::vector<LaserScanner>& lasers, const UrdfBody& body) {
   for (LaserScanner& laser : lasers) {
@@ -142,6 +152,7 @@ void mount_devices(RobotModel& model, const UrdfBody& body, const xml::Element& 
   for (const xml::Element& e : orca.children())
     if (e.name() == "laser") check_sight(model, body, turns, {e, kRobotFile, reporter});
   mount(model.infrareds, body, turns);
+  mount(model.cameras, body, turns);
   const xml::Element* gripper = only_child(orca, "gripper");
   if (gripper != nullptr && model.gripper)
     mount_gripper(model, body, turns, {*gripper, kRobotFile, reporter});

@@ -54,6 +54,14 @@ Box swept(Vec2 from, Vec2 to, double radius) {
   return {{middle.x, middle.y, portable::atan2(way.y, way.x)}, {0.5 * norm(way), radius}};
 }
 
+void read_colour(const xml::Attributes& element, Walker& walker) {
+  if (!element.has("colour")) return;
+  if (const Result<Colour> colour = parse_colour(element.text("colour").value_or("")))
+    walker.colour = *colour;
+  else
+    element.error_at("colour", world_codes::kBadWalker, colour.error().message);
+}
+
 }  // namespace
 
 Walker read_walker(const xml::Attributes& element) {
@@ -71,6 +79,7 @@ Walker read_walker(const xml::Attributes& element) {
   set(walker.stops, element.number_or("stops", walker.stops));
   set(walker.yields, element.number_or("yields", walker.yields));
   set(walker.legs, element.number_or("legs", walker.legs));
+  read_colour(element, walker);
   if (walker.legs > kWidestLegs * walker.radius)
     element.error_at(
         "legs", world_codes::kBadWalker,

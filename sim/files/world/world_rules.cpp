@@ -84,7 +84,8 @@ constexpr std::array kWalker{required("name", kName),
                              optional("seed", kSeed),
                              optional("stops", kLengthOrZero),
                              optional("yields", not_negative("", 1.0)),
-                             optional("legs", kLengthOrZero)};
+                             optional("legs", kLengthOrZero),
+                             optional("colour", kText)};
 
 constexpr std::array kItem{required("name", kName), required("x", kCoordinate), required("y", kCoordinate),
                            required("radius", positive("m", 2.0)), required("height", positive("m", 2.0))};

@@ -14,10 +14,10 @@
 namespace orca::sim {
 
 /// A kind of sensors of a robot.
-enum class SensorKind { sonar, laser, infrared, bumper, odometry };
+enum class SensorKind { sonar, laser, infrared, bumper, odometry, camera };
 /// Their names, in the same order.
-inline constexpr std::array<std::string_view, 5> kSensorKinds{"sonar", "laser", "infrared", "bumper",
-                                                              "odometry"};
+inline constexpr std::array<std::string_view, 6> kSensorKinds{"sonar",  "laser",    "infrared",
+                                                              "bumper", "odometry", "camera"};
 
 /// An obstacle that stands in the world for a part of the time.
 struct Visitor {

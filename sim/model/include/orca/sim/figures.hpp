@@ -5,8 +5,13 @@
 #include <limits>
 
 #include "orca/geometry/vec2.hpp"
+#include "orca/image/colour.hpp"
 
 namespace orca::sim {
+
+inline constexpr Colour kPlainColour{196, 192, 184};  ///< Of walls and furniture.
+inline constexpr Colour kClothes{72, 78, 96};         ///< Of people.
+inline constexpr Colour kCasing{150, 152, 156};       ///< Of robots.
 
 /// A directed edge; where it bounds something solid, the solid lies to its left.
 struct Segment {

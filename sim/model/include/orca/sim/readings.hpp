@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "orca/base/time.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/geometry/twist2.hpp"
+#include "orca/sim/figures.hpp"
 
 namespace orca::sim {
 
@@ -44,6 +46,18 @@ struct InfraredScan {
   TimePoint stamp;
   std::vector<double> ranges;  ///< [m] One range per sensor; max_range of the ring if nothing is near.
   Pose2 X_RB;                  ///< Pose of frame B in R at the stamp, see above.
+};
+
+/// A picture of a camera, as runs of one colour down its columns.
+struct CameraShot {
+  struct Run {
+    std::uint32_t end = 0;           ///< Row at which it ends.
+    std::optional<Colour> colour{};  ///< Nothing: the background, floor and ceiling.
+  };
+  TimePoint stamp{};
+  std::vector<Run> runs{};  ///< From the upper row of each column to its lower one, column by column.
+  std::vector<std::size_t> starts{};  ///< Number of the first run of each column.
+  Pose2 X_RB{};                       ///< Pose of frame B in R at the stamp, see above.
 };
 
 /// The segments of a bumper that were pressed since its last reading.

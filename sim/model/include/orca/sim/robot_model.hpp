@@ -13,6 +13,7 @@ namespace orca::sim {
 
 using robot_file::Battery;
 using robot_file::BumperRing;
+using robot_file::Camera;
 using robot_file::DeviceLabel;
 using robot_file::Drive;
 using robot_file::DriveKind;

@@ -41,11 +41,13 @@ struct Walker {
   /// [m] Diameter of its legs; 0: it has none. Then sensors see the cylinder at all heights; otherwise below half of its height two
   /// legs within the cylinder, which swing as it walks. Robots touch the cylinder all the same.
   double legs = 0.0;
+  Colour colour = kClothes;  ///< What cameras see of it.
   static constexpr double kHip =
       0.4;  ///< Distance of each leg from the middle, to its side, as a share of the radius.
 };
 
-/// What a surface does to the light of a laser. Sonars, infrared sensors and bumpers do not tell them apart.
+/// What a surface does to the light of a laser. Cameras see it, too: a black one is black, glass is pale. Sonars, infrared sensors and
+/// bumpers do not tell them apart.
 enum class Finish : std::uint8_t {
   plain,  ///< It scatters half of the light.
   black,  ///< It scatters 2.4 % of it.

@@ -42,6 +42,8 @@ struct Hit {
   [[nodiscard]] bool found() const { return surface.index() != 0; }
   /// Returns the angle between ray and surface normal, 0 (head on) to pi/2 (grazing) [rad]. @pre  found()
   [[nodiscard]] double incidence() const;
+  /// Returns the cosine of incidence(), for less. @pre  found()
+  [[nodiscard]] double cosine() const;
   /// Returns true if the tangent of incidence() is at most `tangent`. @pre  found()
   [[nodiscard]] bool steeper_than(double tangent) const;
 
@@ -54,6 +56,7 @@ struct Body {
   Shape shape;          ///< Shape in the world frame, at the present pose.
   double bottom = 0.0;  ///< [m] Lowest point above the floor: a sensor at exactly this height sees the body.
   double top = 0.0;     ///< [m] Highest point above the floor: a sensor at exactly this height does not.
+  Colour colour = kPlainColour;  ///< What cameras see; of several solids that of the first counts.
 };
 
 /// A ray caster for a world and the bodies in it: exact, in closed form, on a uniform grid.
@@ -63,7 +66,7 @@ struct Body {
 /// solid are closed, so an edge parallel to the ray may be left to its neighbours. (Bullet's own ray test is
 /// off by more than 1 cm for some 4 % of rays on boxes and is not used.)
 ///
-/// Thread contract: cast() and survey() from many threads; the others need exclusive access.
+/// Thread contract: const functions from many threads; the others need exclusive access.
 class Caster {
  public:
   explicit Caster(const WorldModel& world);
@@ -97,6 +100,13 @@ class Caster {
   /// @param half_angle  [rad] angle between the axis and the rims, at most a right angle.
   /// @param view        receives the result; what it held is lost.
   void survey(const Ray& axis, double half_angle, detail::Panorama& view) const;
+
+  /// Returns the colour of what a ray met. @pre  hit.found(), of a ray since the last change.
+  [[nodiscard]] Colour colour_of(const Hit& hit) const;
+
+  /// Returns the heights [m] between which everything is upright, in ascending order: rays at two heights between neighbouring ones meet
+  /// the same. Meshes, which are not upright, are cut every 0.1 m.
+  [[nodiscard]] std::vector<double> heights() const;
 
   class View;
 

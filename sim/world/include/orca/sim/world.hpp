@@ -188,6 +188,7 @@ class World {
   friend std::vector<Person> people_in(const World& world);
   friend std::vector<std::string> robots_in(const World& world);
   friend std::vector<Standing> standing_in(const World& world);
+  friend const std::optional<CameraShot>& picture_in(const World& world, RobotId robot, std::size_t camera);
   friend std::optional<BatteryReading> battery_in(const World& world, RobotId robot);
   friend Status set_charge(World& world, RobotId robot, double charge);
   friend Status set_silent(World& world, const Outage& which, bool silent);
@@ -216,6 +217,10 @@ Status set_silent(World& world, const Outage& which, bool silent);
 
 /// Returns what is silent of a robot: "laser", or "laser rear" for one of several.
 [[nodiscard]] std::vector<std::string> silent_in(const World& world, RobotId robot);
+
+/// Returns the picture that the robot's camera number `camera` took in the last tick, if it did.
+[[nodiscard]] const std::optional<CameraShot>& picture_in(const World& world, RobotId robot,
+                                                          std::size_t camera = 0);
 
 /// Returns the present state of a robot's battery; nothing if it has none. An empty one drives the base no more.
 [[nodiscard]] std::optional<BatteryReading> battery_in(const World& world, RobotId robot);

@@ -63,6 +63,23 @@ struct LaserScanner {
   [[nodiscard]] bool ignores(double angle) const;
 };
 
+/// A pinhole camera that looks level, along the x axis of its link.
+struct Camera {
+  std::string name;
+  std::size_t width = 0;       ///< Pixels in a row.
+  std::size_t height = 0;      ///< Number of rows.
+  double field_of_view = 0.0;  ///< [rad] Angle between the outer edges of the outer columns, less than pi.
+  Duration period{0};          ///< Time from one picture to the next.
+  std::string link;            ///< The URDF link at which it is mounted.
+  Pose2 center;                ///< Pose of that link in the base frame.
+  double link_height = 0.0;    ///< [m] Height of that link above the floor.
+  bool on_turret = false;      ///< Whether that link turns with the turret.
+  DeviceLabel label{};
+
+  /// Returns the distance of the picture from the pinhole [pixels].
+  [[nodiscard]] double focal_length() const;
+};
+
 /// A ring of short-range infrared sensors, all of which measure at once. Number k looks along
 /// first_angle + k * pitch from the ring's centre and sits `radius` from it in that direction.
 struct InfraredRing {
@@ -239,6 +256,7 @@ struct Devices {
   std::vector<SonarRing> sonars;
   std::vector<LaserScanner> lasers;
   std::vector<InfraredRing> infrareds;
+  std::vector<Camera> cameras{};
   std::vector<BumperRing> bumpers;
   std::optional<Odometer> odometer;
 };

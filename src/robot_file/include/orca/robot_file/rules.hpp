@@ -17,6 +17,7 @@ extern const xml::ElementRule kSonarRingRule;
 extern const xml::ElementRule kLaserRule;
 extern const xml::ElementRule kInfraredRingRule;
 extern const xml::ElementRule kBumperRingRule;
+extern const xml::ElementRule kCameraRule;
 extern const xml::ElementRule kOdometryRule;
 extern const xml::ElementRule kWheelErrorsRule;
 extern const xml::ElementRule kRangeErrorsRule;
