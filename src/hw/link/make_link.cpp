@@ -13,6 +13,7 @@
 
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
+#include "orca/hw/link/device_files.hpp"
 #include "orca/hw/link/listen_link.hpp"
 #include "orca/hw/link/memory_link.hpp"
 #include "orca/hw/link/pty_link.hpp"

@@ -15,6 +15,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/files/open_output.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/hw/link/device_files.hpp"
 #include "serial_trouble.hpp"
 
 namespace orca::hw::link {

@@ -15,13 +15,6 @@ namespace orca::hw::link {
 [[nodiscard]] Error explain_refusal(const std::string& path, int reason, const SerialPlaces& places,
                                     const std::string& name);
 
-/// Says that another program has the device, and which.
-/// @pre  the caller has closed its own descriptor of it.
-[[nodiscard]] Error explain_holder(const std::string& path, const std::string& name);
-
-/// Says that this user may not open the device, and who may.
-[[nodiscard]] Error explain_permission(const std::string& path, const std::string& name);
-
 /// The names that the system gives to serial adapters: by their make and number in by-id, by the socket they are in in
 /// by-path. The names in by-id stay with an adapter, whatever /dev/ttyUSB number it gets when it is plugged in again.
 ///
@@ -43,8 +36,5 @@ class SerialPlaces {
  private:
   const std::string folder_;
 };
-
-/// Returns the path without links; empty: it leads to nothing.
-[[nodiscard]] std::string resolved(const std::string& path);
 
 }  // namespace orca::hw::link
