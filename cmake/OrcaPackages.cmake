@@ -50,8 +50,9 @@ browser, and commands the system."
   DEPENDS "${same}" node-dagre-layout libjs-dygraphs)
 orca_package(drivers science "component framework for mobile robots: drivers of devices"
   DETAILS "Drivers for Pioneers and PeopleBots, Nomad Scout and XR4000, Create 2, SICK
-LMS, RPLIDAR and Player servers, and udev rules for their serial adapters.
-Users of serial ports must be in the group dialout."
+LMS, RPLIDAR, cameras of Linux and Player servers, and udev rules for their
+serial adapters. Users of serial ports must be in the group dialout, users of
+cameras in the group video."
   DEPENDS "${same}")
 orca_package(simulator science "component framework for mobile robots: simulator and comparisons"
   DETAILS "Simulated robots and emulated devices, worlds, and simbatch, which compares

@@ -79,6 +79,7 @@ void HardwareLoop::open() {
   opened_ = last_heard_ = host_.now();
   record_.opened();
   life_.handle(HardwareEvent::begun);
+  if (works()) record_.answered();
 }
 
 void HardwareLoop::attend() {
