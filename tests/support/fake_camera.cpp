@@ -49,7 +49,7 @@ class FakeVideo final : public hw::camera::VideoCalls {
 };
 
 FakeCamera::FakeCamera(FakeCameraSettings settings, std::function<TimePoint()> now)
-    : settings_(std::move(settings)), now_(std::move(now)), memory_(memfd_create("pictures", MFD_CLOEXEC)) {}
+    : settings_(std::move(settings)), now_(std::move(now)) {}
 
 std::unique_ptr<hw::camera::VideoCalls> FakeCamera::calls() { return std::make_unique<FakeVideo>(*this); }
 
@@ -207,6 +207,7 @@ int FakeCamera::make_buffers(v4l2_requestbuffers& request) {
     if (buffer.mappings != 0) return EBUSY;
   if (request.count > 0 && format_.sizeimage == 0) complain("buffers before a format");
   request.count = std::min(request.count, settings_.most_buffers);
+  if (!memory_) memory_ = Descriptor(memfd_create("pictures", MFD_CLOEXEC));
   length_ = (format_.sizeimage + kPage - 1) / kPage * kPage;
   buffers_.assign(request.count, {});
   if (ftruncate(memory_.number(), static_cast<off_t>(length_ * request.count)) != 0) return ENOMEM;

@@ -11,6 +11,8 @@
 #include "device_on_desk.hpp"
 #include "orca/emulators/p2os_firmware.hpp"
 #include "orca/emulators/rplidar_firmware.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/text/object_xml.hpp"
 #include "ports.hpp"
 #include "summary.hpp"
 #include "temp_folder.hpp"
@@ -189,4 +191,32 @@ TEST_CASE("the ports of a machine are its adapters, each once, by its lasting na
         std::vector<std::string>{(dev / "serial/by-id/usb-Prolific-if00").string(),
                                  (dev / "ttyACM0").string(), (dev / "ttyUSB0").string()});
   CHECK(orca::hwprobe::serial_ports((dev / "none").string()).empty());
+}
+
+TEST_CASE("hwprobe asks only drivers of cameras at a camera, and only others elsewhere",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const Run camera = probe({folder.file("video7"), "--limit", "1"});
+  CHECK(camera.exit_code() == 1);
+  CHECK_THAT(camera.out,
+             Contains("orca.hw.Camera: there is no " + folder.file("video7")) && !Contains("orca.hw.P2os"));
+  const Run file = probe({folder.write("video8", "text"), "--limit", "1"});
+  CHECK_THAT(file.out, Contains("video8 is no camera"));
+  const Run serial = probe({"tcp:127.0.0.1:1", "--limit", "1"});
+  CHECK_THAT(serial.out, !Contains("orca.hw.Camera"));
+}
+
+TEST_CASE("what hwprobe says of a picture is short", "[system][hardware]") {
+  orca::idl::Image image;
+  image.width(640);
+  image.height(480);
+  image.data().resize(std::size_t{640} * 480 * 3);
+  image.data()[7] = 9;
+  const std::vector<std::string> lines =
+      orca::hwprobe::summary(orca::to_xml(orca::make_object<orca::idl::Image>(image).seal()));
+  std::size_t length = 0;
+  for (const std::string& line : lines) length += line.size();
+  CHECK(length < 500);
+  REQUIRE_FALSE(lines.empty());
+  CHECK_THAT(lines[0], Contains("width 640") && Contains("height 480"));
 }

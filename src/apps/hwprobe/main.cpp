@@ -14,6 +14,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/hw/link/device_files.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
@@ -25,8 +26,9 @@ namespace orca::hwprobe {
 namespace {
 
 constexpr std::string_view kDetails =
-    "  hwprobe                            all serial ports of this machine\n"
+    "  hwprobe                            all serial ports and cameras of this machine\n"
     "  hwprobe /dev/ttyUSB0               one port\n"
+    "  hwprobe /dev/video0                a camera\n"
     "  hwprobe tcp:192.168.0.20:8101      a device behind a network\n"
     "  hwprobe --driver orca.hw.P2os      only one kind of device\n"
     "  hwprobe /dev/ttyUSB0 --watch       and its data anew each second, until Ctrl-C: push the robot by\n"
@@ -120,13 +122,16 @@ void show_device(const std::string& type, const std::string& port, const Finding
   show("    in a graph: <hardware name=\"...\" type=\"" + type + "\">" + params + "</hardware>");
 }
 
-// Returns the drivers to be tried at a port. Those of devices in the network are asked at other ports only by name.
+// Returns the drivers to be tried at a port. Those of cameras, and of devices in the network, are asked at other ports only by name, and no
+// other drivers at cameras.
 std::vector<std::string> types_for(const std::string& port, const std::vector<DriverType>& known,
                                    const Options& options) {
   if (!options.types.empty()) return options.types;
   std::vector<std::string> types;
+  const Place place = place_of(port);
   for (const DriverType& driver : known)
-    if (!driver.in_network || is_in_network(port)) types.push_back(driver.name);
+    if (driver.place == place || (driver.place == Place::serial && place == Place::network))
+      types.push_back(driver.name);
   return types;
 }
 
@@ -134,7 +139,8 @@ std::vector<std::string> types_for(const std::string& port, const std::vector<Dr
 bool probe(host::PluginCatalogue& catalogue, const std::vector<std::string>& types, const Look& look,
            const std::string& port) {
   show(port);
-  if (const Status opened = try_port(port); !opened.ok()) {
+  const Status opened = place_of(port) == Place::camera ? ok() : try_port(port);  // a driver opens it
+  if (!opened.ok()) {
     show("  " + opened.error().text());
     return false;
   }
@@ -169,15 +175,22 @@ Status check_types(const std::vector<std::string>& wanted, const std::vector<Dri
   return ok();
 }
 
+std::vector<std::string> ports_of_machine() {
+  std::vector<std::string> ports = serial_ports();
+  for (const std::string& camera : hw::link::cameras()) ports.push_back(camera);
+  return ports;
+}
+
 ExitCode run(Options options, const host::StopSignal& stop) {
   host::PluginCatalogue catalogue(plugin::PluginIndex(plugin_folders(options)));
   const std::vector<DriverType> known = drivers(catalogue);
   if (const Status checked = check_types(options.types, known); !checked.ok()) return refuse(checked.error());
-  if (options.ports.empty()) options.ports = serial_ports();
+  if (options.ports.empty()) options.ports = ports_of_machine();
   if (options.ports.empty()) {
     show(
-        "this machine has no serial port: is the adapter plugged in? \"dmesg | tail\" shows what became of "
-        "it");
+        "this machine has no serial port and no camera: is the adapter plugged in? \"dmesg | tail\" shows "
+        "what "
+        "became of it");
     return ExitCode::some_silent;
   }
   Look look{.limit = from_seconds(options.limit), .is_stopped = [&stop] { return stop.requested(); }};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "orca/base/executive.hpp"
+#include "orca/hw/link/device_files.hpp"
 #include "orca/hw/link/make_link.hpp"
 #include "orca/text/object_xml.hpp"
 #include "probe_host.hpp"
@@ -25,8 +26,8 @@ constexpr Duration kSettling = 1s;  // in which a device that measures piece by 
 class LatestData {
  public:
   explicit LatestData(hw::HardwareContainer& driver) : driver_(driver) {
-    texts_.resize(driver.sensors().size());
-    for (std::size_t i = 0; i < texts_.size(); ++i)
+    latest_.resize(driver.sensors().size());
+    for (std::size_t i = 0; i < latest_.size(); ++i)
       driver.sensors()[i]->set_sink(this,
                                     [this, i](ObjectLoan reading) { return note(i, std::move(reading)); });
   }
@@ -38,17 +39,17 @@ class LatestData {
 
   [[nodiscard]] bool is_complete() const {
     const std::lock_guard lock(mutex_);
-    return std::ranges::none_of(texts_, &std::string::empty);
+    return std::ranges::all_of(latest_, [](const ObjectRef& object) { return bool(object); });
   }
   void tell(Finding& finding) const {
     const std::lock_guard lock(mutex_);
     finding.data.clear();
     finding.silent.clear();
-    for (std::size_t i = 0; i < texts_.size(); ++i) {
-      if (texts_[i].empty())
-        finding.silent.push_back(driver_.sensors()[i]->port_stem());
+    for (std::size_t i = 0; i < latest_.size(); ++i) {
+      if (latest_[i])
+        finding.data.push_back(to_xml(latest_[i]));
       else
-        finding.data.push_back(texts_[i]);
+        finding.silent.push_back(driver_.sensors()[i]->port_stem());
     }
   }
 
@@ -56,13 +57,13 @@ class LatestData {
   ObjectRef note(std::size_t sensor, ObjectLoan reading) {
     ObjectRef object = std::move(reading).seal();
     const std::lock_guard lock(mutex_);
-    texts_[sensor] = to_xml(object);
+    latest_[sensor] = object;
     return object;
   }
 
   hw::HardwareContainer& driver_;
   mutable std::mutex mutex_;
-  std::vector<std::string> texts_;
+  std::vector<ObjectRef> latest_;
 };
 
 // A look at one driver.
@@ -149,12 +150,15 @@ std::vector<DriverType> drivers(host::PluginCatalogue& catalogue) {
     const auto port = std::ranges::find(contract->params, "device", &ParamContract::name);
     if (port == contract->params.end()) continue;
     const auto* const usual = std::get_if<std::string>(&port->default_value);
-    found.push_back({type, usual != nullptr && is_in_network(*usual)});
+    found.push_back({type, usual != nullptr ? place_of(*usual) : Place::serial});
   }
   return found;
 }
 
-bool is_in_network(std::string_view port) { return port.starts_with("tcp:"); }
+Place place_of(std::string_view port) {
+  if (port.starts_with("tcp:")) return Place::network;
+  return hw::link::is_camera(std::string(port)) ? Place::camera : Place::serial;
+}
 
 Result<Finding> try_driver(host::PluginCatalogue& catalogue, const std::string& type, const std::string& port,
                            const Look& look) {

@@ -38,17 +38,20 @@ struct Look {
       show{};  ///< If set: called each second with the latest data, until is_stopped().
 };
 
+/// Where devices are found.
+enum class Place { serial, network, camera };
+
 /// A hardware type that drives a device at a port: one with a parameter "device".
 struct DriverType {
   std::string name;
-  bool in_network =
-      false;  ///< Whether its device is usually found in the network, by what that parameter is unless given.
+  Place place =
+      Place::serial;  ///< Where its device is usually found, by what that parameter is unless given.
 };
 
 [[nodiscard]] std::vector<DriverType> drivers(host::PluginCatalogue& catalogue);
 
-/// Returns whether a port leads into the network.
-[[nodiscard]] bool is_in_network(std::string_view port);
+/// Returns where a port leads.
+[[nodiscard]] Place place_of(std::string_view port);
 
 /// Lets a driver look for its device at a port and, if that answers, waits for data of all sensors. Motors get no power. A device that
 /// calls for other parameters is looked at once more with them.
@@ -57,7 +60,7 @@ struct DriverType {
 [[nodiscard]] Result<Finding> try_driver(host::PluginCatalogue& catalogue, const std::string& type,
                                          const std::string& port, const Look& look);
 
-/// Opens a port and closes it again.
+/// Opens a port that is no camera and closes it again.
 /// @errors  why it cannot be opened, with what to do.
 [[nodiscard]] Status try_port(const std::string& port);
 
