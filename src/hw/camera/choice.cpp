@@ -120,26 +120,23 @@ std::string name_of_format(std::uint32_t number) {
 Result<Mode> choose_mode(VideoCalls& calls, int descriptor, const Wish& wish, bool& is_busy) {
   const std::vector<std::uint32_t> formats = formats_of(calls, descriptor);
   const Known* best = nullptr;
-  const Known* last = nullptr;
   Mode chosen;
   int refusal = 0;
   for (const std::uint32_t number : formats) {
     const Known* const format = known(number);
-    Mode mode;
     if (format == nullptr) continue;
+    Mode mode;
     const int reason = set_mode(calls, descriptor, *format, wish, mode);
-    is_busy = reason == EBUSY;
-    if (is_busy) return fail(Code::unavailable, "another program uses it");
     if (reason != 0) refusal = reason;
-    if (reason != 0) continue;
-    last = format;
-    if (best != nullptr && badness(mode, wish, *format) >= badness(chosen, wish, *best)) continue;
+    if (reason != 0 || (best != nullptr && badness(mode, wish, *format) >= badness(chosen, wish, *best)))
+      continue;
     best = format;
     chosen = mode;
   }
-  if (best == nullptr && refusal == 0) return cannot_be_read(formats);
-  if (best != nullptr && best != last) refusal = set_mode(calls, descriptor, *best, wish, chosen);
-  if (best != nullptr && (best == last || refusal == 0)) return chosen;
+  if (best != nullptr)
+    refusal = set_mode(calls, descriptor, *best, wish, chosen);  // others were tried after it
+  is_busy = refusal == EBUSY;
+  if (refusal == 0) return best != nullptr ? Result<Mode>(chosen) : cannot_be_read(formats);
   return fail(refusal == ENODEV ? Code::not_found : Code::unavailable,
               std::string("the camera takes no format: ") + std::strerror(refusal));
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/time.hpp"
@@ -172,7 +173,8 @@ void CameraDriver::fill(idl::Image& image, TimePoint stamp) const {
   image.width(static_cast<std::uint32_t>(mode_.layout.width));
   image.height(static_cast<std::uint32_t>(mode_.layout.height));
   image.step(static_cast<std::uint32_t>(mode_.layout.width * static_cast<std::size_t>(channels())));
-  image.focal_length(*field_of_view_ > 0.0 ? 0.5 * width / std::tan(0.5 * *field_of_view_) : 0.0);
+  const double half = 0.5 * *field_of_view_;
+  image.focal_length(half > 0.0 ? 0.5 * width * portable::cos(half) / portable::sin(half) : 0.0);
   image.pose().position(make_point(*x_, *y_, *z_));
   image.pose().rotation().roll(*roll_);
   image.pose().rotation().pitch(*pitch_);
