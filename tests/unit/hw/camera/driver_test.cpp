@@ -313,6 +313,19 @@ PATIENT_CASE("a camera none of whose pictures is whole has failed, with what is 
   CHECK(running.driver.statistics().frames() == 0);
 }
 
+PATIENT_CASE("a camera works on as long as some of its pictures are whole", "[camera][driver]") {
+  RunningCamera running(executive, small_camera(), small());
+  running.start();
+  for (int second = 0; second < 5; ++second) {
+    pass(running, 1s, Bytes(5));
+    CHECK(running.shows(small_picture(1)));
+    CHECK(running.driver.state() == HardwareState::active);
+  }
+  CHECK(running.driver.statistics().frames() == 5);
+  CHECK(running.driver.statistics().resynchronisations() == 5);
+  CHECK(running.times_said("a picture is spoiled") == 1);
+}
+
 PATIENT_CASE("a camera that is not there at first is a fault for good, with what to do", "[camera][driver]") {
   Settings settings = small_camera();
   settings.is_plugged_in = false;
