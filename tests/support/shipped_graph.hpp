@@ -35,7 +35,8 @@ class ShippedGraph {
 [[nodiscard]] std::vector<std::string> shipped_graphs();
 
 /// Returns the arguments without which a shipped graph does not run. scout_hospital gets a hall with a pillar, because
-/// the floor plan of the hospital is not in the repository, and replay a recording that is made here.
+/// the floor plan of the hospital is not in the repository, and replay a recording that is made here. The camera of camera has fewer
+/// pixels.
 /// @param folder  for files that the arguments name; to be kept until the end of the run.
 [[nodiscard]] Words needed_arguments(const std::string& graph, const TempFolder& folder);
 

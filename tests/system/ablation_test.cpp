@@ -145,6 +145,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "pioneer_localize",
                                        "pioneer_people",
                                        "pioneer_follow",
+                                       "camera",  // follow_test
                                        "scout_wall",
                                        "pioneer_tasks",
                                        "pioneer_fetch_task",

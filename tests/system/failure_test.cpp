@@ -43,6 +43,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_one_core", "", {"goto", "avoid"}},
     {"pioneer_people", "", {"goto", "avoid"}},
     {"pioneer_follow", "", {"follow", "avoid"}},
+    {"camera", "", {"follow", "avoid"}},
     {"scout_wall", "", {"follow", "avoid"}},
     {"courier_depot", "", {"goto", "avoid"}},
     {"pioneer2dx_sick", "", {"goto", "avoid"}},

@@ -6,13 +6,18 @@
 #include <string>
 
 #include "deployer.hpp"
+#include "shipped_graph.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 
 namespace {
 
-Run follow(const Words& more) {
-  return run_deployer(Words{source_file("graphs/pioneer_follow.xml")} + virtual_clock() + more, Seconds(60));
+Run follow(const Words& more, const std::string& graph = "pioneer_follow") {
+  const TempFolder folder;
+  return run_deployer(Words{source_file("graphs/" + graph + ".xml")} + virtual_clock() +
+                          needed_arguments(graph, folder) + more,
+                      Seconds(60));
 }
 
 // Returns how far the robot was driven [m], by the account of its gate.
@@ -41,4 +46,29 @@ TEST_CASE("a robot that is too slow for its guide says that it has lost him", "[
   INFO(run.err);
   CHECK(run.says("follow: alarm PERSON_LOST: it does not see any more whom it follows"));
   CHECK(run.contacts().empty());
+}
+
+TEST_CASE("a robot follows a guide by the colour that its camera sees", "[system][follow][camera]") {
+  const Run run = follow({"--until", "80 s"}, "camera");
+  INFO(run.err);
+  CHECK(run.says("follows somebody"));
+  CHECK_FALSE(run.says("PERSON_LOST"));
+  CHECK(way_of(run) > 0.85 * 0.5 * 80.0);
+  CHECK(run.contacts().empty());
+}
+
+TEST_CASE("without its camera, or with the eye on another colour, the robot stays where it is",
+          "[system][follow][camera]") {
+  for (const Words& more : {Words{"--fail", "vest=silent@0s"}, Words{"--set", "colour=#00a040"}}) {
+    const Run run = follow(more + Words{"--until", "15 s"}, "camera");
+    INFO(run.err);
+    CHECK_FALSE(run.says("follows somebody"));
+    CHECK(way_of(run) == 0.0);
+  }
+}
+
+TEST_CASE("a colour that is none is refused with what to write", "[system][follow][camera]") {
+  const Run run = follow({"--set", "colour=orange", "--check"}, "camera");
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("\"orange\" is no colour; write # and two hexadecimal digits"));
 }

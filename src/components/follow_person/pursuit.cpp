@@ -37,7 +37,9 @@ double limited(double rate) { return std::clamp(rate, -kTurnRate, kTurnRate); }
 Step Pursuit::step(const Pose2& robot, std::span<const Person> people, double time, const Manner& manner) {
   if (const Person* const person = find(robot, people, time, manner)) {
     if (went_on_) trail_.pop_back();
-    if (!target_) trail_.clear();
+    // The way of somebody who comes into sight again near by does not matter: the robot sees him from where it is.
+    const bool is_near = norm(person->place - robot.position()) < kTakes;
+    if (!target_ || (went_on_ && is_near)) trail_.clear();
     went_on_ = false;
     target_ = Target{*person, time};
     extend(person->place);
