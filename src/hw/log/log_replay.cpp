@@ -13,8 +13,8 @@
 #include "orca/hardware.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/object_type.hpp"
+#include "orca/idl/time_shift.hpp"
 #include "orca/recording/objects/recorded_run.hpp"
-#include "time_shift.hpp"
 
 namespace {
 
@@ -178,7 +178,7 @@ class LogReplay final : public HardwareContainer {
   void publish(const Reading& reading) {
     if (state() != HardwareState::active) return;  // nobody wants it, and nobody did then
     ObjectLoan object = copy_value(reading.object);
-    log_replay::shift_times(object, shift_);
+    shift_times(object, shift_);
     reading.sensor->publish(std::move(object));
   }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "time_shift.hpp"
+#include "orca/idl/time_shift.hpp"
 
+#include <cstdint>
 #include <variant>
 
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/idl/value.hpp"
 
-namespace orca::hw::log_replay {
+namespace orca {
 namespace {
 
 class Shifter final : public FieldVisitor {
@@ -19,7 +20,7 @@ class Shifter final : public FieldVisitor {
  private:
   void shift(const Value& value) {
     if (auto* const* const time = std::get_if<idl::TimeValue*>(&value.of)) {
-      if ((*time)->ns() != 0) (*time)->ns((*time)->ns() + by_.count());
+      if ((*time)->ns() != 0) (*time)->ns(sum((*time)->ns(), by_.count()));
     } else if (const auto* const part = std::get_if<StructValue>(&value.of)) {
       part->fields(part->object, *this);
     } else if (const auto* const list = std::get_if<ListValue>(&value.of)) {
@@ -29,6 +30,11 @@ class Shifter final : public FieldVisitor {
         shift(element);
       }
     }
+  }
+
+  // Wraps around: what comes from a network may hold any number.
+  static std::int64_t sum(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
   }
 
   static bool may_have_times(const Value& value) {
@@ -46,4 +52,4 @@ void shift_times(ObjectLoan& object, Duration by) {
   object.type().fields(object.get(), shifter);
 }
 
-}  // namespace orca::hw::log_replay
+}  // namespace orca
