@@ -72,6 +72,8 @@ void load(const std::string& file, const Options& options, Loaded& loaded) {
   graph::LoadOptions wanted{options.profiles, options.settings, options.strict, judges};
   wanted.of_run = options.action == Action::diff;
   wanted.changes = &loaded.changes;
+  wanted.name = options.name;
+  wanted.domain = options.domain;
   wanted.any_link = !judges || options.run.executive.clock == ClockKind::virtual_time;
   if (judges) {
     for (const host::PlannedFailure& planned : options.run.planned_failures)

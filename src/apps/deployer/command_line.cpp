@@ -22,7 +22,7 @@ constexpr std::string_view kNotes =
     "line);\n"
     "        with several robots the first three end with the name of the robot\n";
 
-std::vector<OptionSpec> running_options() {
+std::vector<OptionSpec> choosing_options() {
   return {
       {"--profile", "NAME", "select a profile of the graph (default: the graph's default_profile)", true,
        "What to run"},
@@ -46,12 +46,28 @@ std::vector<OptionSpec> running_options() {
        "with --clock virtual or --in-process: at this time of the run go over to another graph, as with "
        "orcactl apply, e.g. other.xml@20s",
        true},
+  };
+}
+
+std::vector<OptionSpec> running_options() {
+  return {
       {"--clock", "steady|virtual",
        "steady: real time (default); virtual: simulated time, bit-identical for the same seed", false,
        "How to run it"},
       {"--executor", "thread|fiber|baton", "thread is the default of --clock steady, fiber that of virtual"},
       {"--machine", "NAME",
        "the machine of the graph that this is; start the deployer on each of them, in any order"},
+      {"--name", "NAME",
+       "name of the system, in place of the graph's: with names of their own several systems of one graph "
+       "run side by side"},
+      {"--domain",
+       "N",
+       "DDS domain, from 0 to 232, in place of the graph's: systems of different domains see nothing of each "
+       "other",
+       false,
+       {},
+       0,
+       232},
       {"--in-process", "",
        "everything in this process, for a debugger, instead of host processes below it; the virtual clock "
        "always does so"},
@@ -157,7 +173,7 @@ const apps::Program& program() {
                   "1 failed while running, output not written, or --diff found a difference",
                   "2 graph or arguments wrong, nothing started", "3 could not start, all taken down again"},
         .notes = kNotes};
-    for (const auto& group : {running_options(), writing_options(), other_options()})
+    for (const auto& group : {choosing_options(), running_options(), writing_options(), other_options()})
       program.options.insert(program.options.end(), group.begin(), group.end());
     return program;
   }();

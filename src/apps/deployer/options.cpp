@@ -201,6 +201,8 @@ class Reader {
     options_.settings = call_.all("--set");
     options_.plugin_folders = call_.folders("--plugins");
     options_.machine = call_.text("--machine").value_or("");
+    options_.name = call_.text("--name").value_or("");
+    if (const auto domain = call_.count("--domain")) options_.domain = static_cast<std::uint32_t>(*domain);
     options_.run.until = call_.duration("--until");
     options_.run.seed = call_.count("--seed");
     options_.laps_file = call_.text("--measure-laps").value_or("");

@@ -37,6 +37,8 @@ struct Options {
   int steering_socket = -1;                 ///< To a program that steps the run; -1: there is none.
   std::string laps_file;                    ///< Where the time of laps is written; empty: nowhere.
   std::string machine;                      ///< The one of the graph that this is; empty: not given.
+  std::string name;                         ///< Of the system; empty: the graph's.
+  std::optional<std::uint32_t> domain;      ///< Of DDS; nothing: the graph's.
   std::optional<bool> progress;             ///< Show how a run is going; nothing: if stderr is a terminal.
   std::vector<std::string> plugin_folders;  ///< Searched after Orca's own.
   std::vector<std::string> profiles;

@@ -103,6 +103,8 @@ Result<supervisor::CheckedSystem> read_system(const Options& options, const supe
   };
   graph::LoadOptions wishes{options.profiles, options.settings, options.strict};
   wishes.of_run = true;
+  wishes.name = options.name;
+  wishes.domain = options.domain;
   std::optional<graph::Graph> graph =
       graph::load_text(*text, source.file, wishes, catalogue, diagnostics, read);
   if (!graph) return fail(Code::invalid_argument, without_last_newline(diagnostics.text()));

@@ -425,8 +425,7 @@ const apps::Program& program() {
             "  orcactl ps                            what runs, and how it is\n"
             "  orcactl echo base.OdometryPush        the objects that pass a port\n"
             "  orcactl estop                         stop all motors now\n",
-        .options = {{"--system", "NAME", "which system, if several run: the name of its graph", false,
-                     "Options"},
+        .options = {{"--system", "NAME", "which system, if several run: its name", false, "Options"},
                     {"--of", "USER", "a system of another user, who has allowed it: see deployer --allow"},
                     {"--json", "",
                      "for programs: JSON on stdout; one object per line where the output goes on"},
@@ -437,7 +436,7 @@ const apps::Program& program() {
             "\nIt talks to the deployer that runs a graph, through a Unix socket of the same user:\n"
             "$XDG_RUNTIME_DIR/orca/GRAPH.sock, or /tmp/orca-UID/GRAPH.sock where there is no such folder. A "
             "system\n"
-            "has the name of its graph.\n"};
+            "has the name of its graph, or that of deployer --name.\n"};
     for (const auto& group :
          {showing_commands(), port_commands(), file_commands(), history_commands(), operating_commands(),
           pacing_commands(), exchanging_commands(), shell_commands()})

@@ -10,6 +10,7 @@
 #include "orca/xml/document.hpp"
 #include "ports.hpp"
 #include "reading/assembly.hpp"
+#include "reading/codes.hpp"
 #include "reading/command_line.hpp"
 #include "reading/merging/parameter_settings.hpp"
 #include "reading/merging/profiles.hpp"
@@ -28,9 +29,13 @@ std::vector<std::string> read_ends(const Node& graph, const Model& model, Report
 }
 
 // Reads the <graph> element's own attributes, except its ends, which are names of components.
-Graph read_root(const Node& root, Report& report) {
+Graph read_root(const Node& root, const LoadOptions& options, Report& report) {
   Graph graph;
-  graph.name = root.value("name");
+  graph.name = options.name.empty() ? root.value("name") : options.name;
+  if (const auto fault = options.name.empty() ? std::nullopt : name_fault(options.name))
+    report.error(codes::kBadName, command_line(), shown_option("--name", options.name) + ": " + *fault);
+  const auto domain = read_attribute<std::int64_t>(root, "domain", report);
+  graph.domain = options.domain.value_or(static_cast<std::uint32_t>(domain.value_or(0)));
   graph.default_profile = root.value("default_profile");
   graph.supervision = read_supervision(root, report);
   graph.records_always = read_attribute<std::string>(root, "record", report) == "always";
@@ -77,7 +82,7 @@ void take_parts(Model&& model, Graph& graph) {
 
 Graph check(Assembly assembly, const LoadOptions& options, Catalogue& catalogue, Report& report) {
   const Node& root = assembly.graph;
-  Graph graph = read_root(root, report);
+  Graph graph = read_root(root, options, report);
   graph.plugin_dirs = assembly.plugin_folders;
   catalogue.add_folders(graph.plugin_dirs);
   Parts parts = merge_profiles(assembly, options.profiles, report);

@@ -42,6 +42,7 @@ constexpr ValueRule bytes(double min, double max) {
   return {.form = ValueRule::Form::number, .unit = "B", .min = min, .max = max};
 }
 
+constexpr int kMostDomain = 232;  // beyond, the ports of DDS are no ports of UDP
 constexpr std::array kGraph{
     AttributeRule{"name", true, "Name of the system."},
     AttributeRule{"version", false, "Version of the graph format; the only one is 1."},
@@ -62,6 +63,10 @@ constexpr std::array kGraph{
     AttributeRule{"adoption_wait", false,
                   "Longest time that they go on without one and wait for another; no limit if not given.",
                   seconds(0.1)},
+    AttributeRule{"domain", false,
+                  "DDS domain in which its processes and machines meet; 0 if not given. Systems of different "
+                  "domains see nothing of each other.",
+                  integer(0, kMostDomain)},
     AttributeRule{"machine_wait", false,
                   "Longest time that a machine waits for the others at the start; 60 s if not given.",
                   seconds(0.1)},

@@ -60,6 +60,7 @@ Attributes attributes_of(const Graph& graph) {
   add(result, "ends", joined(graph.ends, " "));
   add(result, "default_profile", graph.default_profile);
   add(result, "plugins", joined(graph.plugin_dirs, ";"));
+  if (graph.domain != 0) add(result, "domain", std::to_string(graph.domain));
   add(result, graph.supervision);
   if (graph.records_always) add(result, "record", "always");
   if (graph.record_space != Graph{}.record_space)

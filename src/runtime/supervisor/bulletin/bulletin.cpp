@@ -30,7 +30,6 @@ namespace rtps = eprosima::fastdds::rtps;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-constexpr int kDomain = 0;
 constexpr int kDepth = 64;             // states that wait to be taken
 constexpr int kOthersOnAMachine = 20;  // participants that a known address is asked for
 const eprosima::fastrtps::Duration_t kLease{10, 0};
@@ -82,7 +81,7 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
   Status open(const MeetingPlace& place) {
     const Result<dds::DomainParticipantQos> qos = participant_qos(place);
     if (!qos) return qos.error();
-    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(kDomain, *qos);
+    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(place.domain, *qos);
     if (participant_ == nullptr || !open_topic(place.topic))
       return fail(Code::unavailable, "the network code cannot be started");
     return ok();

@@ -57,7 +57,7 @@ Result<std::unique_ptr<Bulletin>> open_bulletin(const Meet& meet, Channel& chann
   };
   Error error;
   std::unique_ptr<Bulletin> bulletin(
-      opener->open({meet.topic, meet.address, meet.interface, meet.others}, hear, error));
+      opener->open({meet.topic, meet.address, meet.interface, meet.others, meet.domain}, hear, error));
   if (bulletin == nullptr) return error;
   return bulletin;
 }

@@ -22,6 +22,7 @@ constexpr auto kListen = 700ms;
 Meet meet(const graph::Graph& graph, const std::string& here) {
   Meet meet;
   meet.topic = "orca/" + graph.name + "/machines";
+  meet.domain = graph.domain;
   for (const graph::MachineNode& node : graph.machines) {
     if (node.name == here) {
       meet.address = node.address;

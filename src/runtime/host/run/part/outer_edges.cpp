@@ -202,6 +202,7 @@ Result<DdsOptions> OuterEdges::dds_options() const {
     else
       options.others.push_back(std::move(address).value());
   }
+  options.domain = whole_.domain;
   return options;
 }
 

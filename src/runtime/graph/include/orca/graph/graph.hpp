@@ -152,6 +152,7 @@ struct Graph {
   std::vector<std::string> ends;         ///< The run ends when these components are done, or one has failed.
   std::vector<std::string> plugin_dirs;  ///< Absolute; searched after Orca's own.
   std::string default_profile;           ///< Empty: none.
+  std::uint32_t domain = 0;              ///< DDS domain in which its processes and machines meet.
   Supervision supervision;
   bool records_always = false;               ///< A recording of the system is always made.
   std::uint64_t record_space = 500'000'000;  ///< Most room for it on the disk [byte].

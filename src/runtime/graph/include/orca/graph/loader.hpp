@@ -35,6 +35,10 @@ struct LoadOptions {
   bool of_run = false;
   /// Gets the changes that the graph names, also if the graph or the time of a change is wrong; null: nobody wants them.
   std::vector<PlannedChange>* changes = nullptr;
+  /// Name of the system, in place of the one that the graph has; empty: that. With it a graph can run twice at a time.
+  std::string name{};
+  /// DDS domain, in place of the one that the graph says; nothing: that.
+  std::optional<std::uint32_t> domain{};
 };
 
 /// A function that returns the text of an included file. The path starts at the current folder.

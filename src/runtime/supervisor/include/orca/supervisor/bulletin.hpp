@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -33,6 +34,7 @@ struct MeetingPlace {
   std::string address;              ///< Of this machine; empty: any.
   std::string interface {};         ///< Network interface of this machine; empty: any.
   std::vector<std::string> others;  ///< Addresses of other machines, which are asked besides a multicast.
+  std::uint32_t domain = 0;         ///< Of DDS, the same on all machines.
 };
 
 /// Takes what anybody has said, this process too.
