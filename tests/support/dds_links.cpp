@@ -58,7 +58,8 @@ class DdsLinks::Helped final : public LinkEnd {
   Strand& strand_;
 };
 
-DdsLinks::DdsLinks(Executive& executive, Help help) : executive_(executive), end_(executive.make_event()) {
+DdsLinks::DdsLinks(Executive& executive, Help help, Duration servers_ahead)
+    : executive_(executive), servers_ahead_(servers_ahead), end_(executive.make_event()) {
   if (help == Help::task) task_ = executive_.spawn({"helper", 0}, [this] { work(); });
 }
 
@@ -94,8 +95,9 @@ void DdsLinks::make_end(DdsBackend& backend, Endpoint& port, const DdsPeer& peer
 
 void DdsLinks::join(Endpoint& server, Endpoint& client, const QueuePolicy& policy, Duration base_period) {
   make_end(*servers_, server, {client.path(), "clients", {}, ++edges_}, policy, Duration{0});
-  make_end(*clients_, client, {server.path(), "servers", server.contract().type.name, edges_}, policy,
-           base_period);
+  DdsPeer peer{server.path(), "servers", server.contract().type.name, edges_};
+  if (servers_ahead_ != Duration{0}) peer.clock_ahead = [ahead = servers_ahead_] { return ahead; };
+  make_end(*clients_, client, peer, policy, base_period);
   const auto limit = std::chrono::steady_clock::now() + 10s;
   while (!servers_->reaches("clients") || !clients_->reaches("servers")) {
     if (std::chrono::steady_clock::now() > limit) throw std::runtime_error("DDS joins nobody");

@@ -30,7 +30,8 @@ class DdsLinks final : public Links {
  public:
   /// Whether a task takes in for strands that have none of their own.
   enum class Help { task, none };
-  explicit DdsLinks(Executive& executive, Help help = Help::task);
+  /// @param servers_ahead  by how much the clients are to think that the clock of the servers is ahead [s].
+  explicit DdsLinks(Executive& executive, Help help = Help::task, Duration servers_ahead = Duration{0});
   ~DdsLinks() override;
 
  private:
@@ -47,6 +48,7 @@ class DdsLinks final : public Links {
   void work();
 
   Executive& executive_;
+  const Duration servers_ahead_;
   const std::string run_ = fresh_run();
   const std::unique_ptr<DdsBackend> servers_ = make_dds("servers", run_);
   const std::unique_ptr<DdsBackend> clients_ = make_dds("clients", run_);

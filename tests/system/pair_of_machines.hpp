@@ -50,8 +50,13 @@ class Pair {
   void start(int machine) { start(machine, settings_); }
   /// @param options  words of the command line beside the settings.
   void start(int machine, const Words& settings, const Words& options = {}) {
-    programs_[machine] = std::make_unique<Subprocess>(
-        network_.on(machine, deployer(on_machine(graph_, kMachines[machine], settings) + options)));
+    programs_[machine] = std::make_unique<Subprocess>(network_.on(
+        machine, clocks_[machine] + deployer(on_machine(graph_, kMachines[machine], settings) + options)));
+  }
+  /// Sets the time of day of a machine, for deployers that are started from now on.
+  void set_clock(int machine, int ahead) {
+    clocks_[machine] = {"/usr/bin/env", "LD_PRELOAD=" ORCA_SET_CLOCK,
+                        "ORCA_TEST_CLOCK_AHEAD=" + std::to_string(ahead)};
   }
   void start_both() {
     for (const int machine : {0, 1}) start(machine);
@@ -103,6 +108,7 @@ class Pair {
   const std::string graph_;
   const Words settings_;
   const TwoMachines network_;
+  Words clocks_[2];  // what precedes the command of a deployer
   std::unique_ptr<Subprocess> programs_[2];
   std::vector<std::unique_ptr<Subprocess>> killed_;  // end what they have started
 };

@@ -32,20 +32,15 @@ constexpr std::string_view kLatencyDetails =
     "may lack their Push or Send: --from base.odometry.";
 
 constexpr std::string_view kRecordDetails =
-    "With --ring it goes on for ever, in a folder: the oldest files go when there is no more room, and half "
-    "of the "
-    "room is for objects of at most 1 KiB, which so reach back much further. "
-    "It ends with the system, or at Ctrl-C. Without PORT it records all ports through which objects leave "
-    "their "
-    "component, the log and the alarms; the graph and the files that it names are in the recording as well. "
-    "It is a "
-    "process of its own: a slow disk costs no component anything. What a port sends faster than it can be "
-    "written, "
-    "beyond 64 MiB, is left out, and counted by port. Whoever kills it loses the last quarter of a second. "
-    "Objects "
-    "are written as they travel, and scans, odometry, poses, paths, grids, images and batteries once more as "
-    "ROS 2 "
-    "knows them, so Foxglove, PlotJuggler and readers of rosbag2 show them. A file is never overwritten.";
+    "With --ring it goes on for ever, in a folder: the oldest files go when there is no more room, and "
+    "half of the room is for objects of at most 1 KiB, which so reach back much further. It ends with "
+    "the system, or at Ctrl-C. Without PORT it records all ports through which objects leave their "
+    "component, the log and the alarms; the graph and the files that it names are in the recording as "
+    "well. It is a process of its own: a slow disk costs no component anything. What a port sends "
+    "faster than it can be written, beyond 64 MiB, is left out, and counted by port. Whoever kills it "
+    "loses the last quarter of a second. Objects are written as they travel, and scans, odometry, "
+    "poses, paths, grids, images and batteries once more as ROS 2 knows them, so Foxglove, PlotJuggler "
+    "and readers of rosbag2 show them. A file is never overwritten.";
 
 constexpr std::string_view kBagDetails =
     "info FILE: how long it is, and what is in it, with what was lost. check FILE: reads all of it, with "
@@ -123,6 +118,13 @@ std::vector<Command> showing_commands() {
        .text = "the graph, with files, arguments and profiles merged",
        .details = "What it prints is a graph file. With --running it says what runs now, so that apply can "
                   "come back to it later."},
+      {.name = "machines",
+       .watches = true,
+       .text = "the machines of the system: how they are, and how their clocks differ from this one's",
+       .details =
+           "clock_ahead_ms is what was measured with the shortest round trip of the last minute; the "
+           "truth is at most error_ms away. A clock that certainly differs by more than 20 ms raises the "
+           "alarm CLOCKS_DIFFER, and the instants in what comes from there are corrected."},
       {.name = "ports", .text = "the ports of all components, and what they are connected to"},
       {.name = "plugins",
        .text = "the plugin files, and who uses them",
@@ -387,12 +389,10 @@ constexpr std::string_view kNewDetails =
 
 constexpr std::string_view kImportDetails =
     "FILE configures a component of the thesis (9.5, Appendix A). The graph has its hardware and the "
-    "component, in SI units; "
-    "as a comment, the ports that connections may name, and what belongs into the robot's file. What has no "
-    "equivalent in "
-    "Orca is said on stderr, all at once, each with its line. Lengths are taken as mm, angles of sonars as "
-    "tenths of a degree. "
-    "orcactl import base.xml > base_graph.xml && deployer base_graph.xml --check";
+    "component, in SI units; as a comment, the ports that connections may name, and what belongs into "
+    "the robot's file. What has no equivalent in Orca is said on stderr, all at once, each with its "
+    "line. Lengths are taken as mm, angles of sonars as tenths of a degree. orcactl import base.xml > "
+    "base_graph.xml && deployer base_graph.xml --check";
 
 // For shells and people.
 std::vector<Command> shell_commands() {

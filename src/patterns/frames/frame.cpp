@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include "orca/idl/time_shift.hpp"
+
 namespace orca::frames {
 namespace {
 
@@ -71,8 +73,8 @@ void Frame::append_to(std::vector<std::byte>& bytes) const {
   write(std::span(bytes).subspan(start));
 }
 
-FrameReader::FrameReader(std::span<const std::byte> frame)
-    : rest_(frame), kind_(read_kind()), number_(read_plain<std::uint64_t>()) {}
+FrameReader::FrameReader(std::span<const std::byte> frame, Duration clock_ahead)
+    : rest_(frame), clock_ahead_(clock_ahead), kind_(read_kind()), number_(read_plain<std::uint64_t>()) {}
 
 FrameKind FrameReader::read_kind() {
   const auto kind = read_plain<std::uint64_t>();
@@ -114,6 +116,7 @@ Result<ObjectRef> FrameReader::read_object(const ObjectType& wanted) {
   if (type == nullptr) return fail(Code::data_loss, no_subtype(wanted, hash));
   ObjectLoan loan = make_object(*type);
   if (Status read = type->deserialize(std::exchange(rest_, {}), loan.get()); !read.ok()) return read.error();
+  shift_times(loan, -clock_ahead_);
   return std::move(loan).seal();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/base/time.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::frames {
@@ -84,7 +85,8 @@ class Frame {
 /// A view; it must not outlive the bytes.
 class FrameReader {
  public:
-  explicit FrameReader(std::span<const std::byte> frame);
+  /// @param clock_ahead  by how much the sender's clock is ahead of this one [s]: the instants in its objects are set back by that.
+  explicit FrameReader(std::span<const std::byte> frame, Duration clock_ahead = Duration{0});
 
   [[nodiscard]] FrameKind kind() const { return kind_; }
   [[nodiscard]] std::uint64_t number() const { return number_; }
@@ -105,6 +107,7 @@ class FrameReader {
   FrameKind read_kind();
 
   std::span<const std::byte> rest_;
+  Duration clock_ahead_;
   bool cut_short_ = false;
   FrameKind kind_;
   std::uint64_t number_;

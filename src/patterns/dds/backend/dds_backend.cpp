@@ -92,8 +92,12 @@ class FastBackend final : public DdsBackend {
                  Duration base_period) override {
     const Result<Line*> line = line_to(peer.process);
     if (!line) return line.error();
-    const EndPlace place{**line, outbox_, edge_number(port, peer), port.home().strand,
-                         port.path() + " to " + peer.path};
+    const EndPlace place{**line,
+                         outbox_,
+                         edge_number(port, peer),
+                         port.home().strand,
+                         port.path() + " to " + peer.path,
+                         peer.clock_ahead};
     if (auto* server = dynamic_cast<PushServerEndpoint*>(&port)) return serve(*server, place, policy);
     if (auto* client = dynamic_cast<PushClientEndpoint*>(&port))
       return subscribe(*client, place, peer, policy, base_period);

@@ -135,7 +135,7 @@ void DdsEnd::handle(const News& news) {
 
 Status DdsEnd::handle_frame(std::span<const std::byte> bytes) {
   traffic_.frames_received.fetch_add(1, std::memory_order_relaxed);
-  FrameReader frame(bytes);
+  FrameReader frame(bytes, place_.clock_ahead ? place_.clock_ahead() : Duration{0});
   if (Status handled = handlers_.receive(frame); !handled.ok()) return handled;
   return frame.status();
 }

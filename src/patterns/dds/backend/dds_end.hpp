@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +20,11 @@ namespace orca::dds {
 /// The place of an end: its edge, the line to the process at the other end, and its port.
 struct EndPlace {
   Line& line;
-  Outbox& outbox;      ///< The line's.
-  std::uint64_t edge;  ///< The same number at both ends.
-  Strand& strand;      ///< The port's; outlives the end.
-  std::string name;    ///< For people: "a.out to b.in".
+  Outbox& outbox;                           ///< The line's.
+  std::uint64_t edge;                       ///< The same number at both ends.
+  Strand& strand;                           ///< The port's; outlives the end.
+  std::string name;                         ///< For people: "a.out to b.in".
+  std::function<Duration()> clock_ahead{};  ///< As in DdsPeer.
 };
 
 /// One end of an edge through DDS. Frames go as parcels of a line, and wait here until the strand of the port takes them

@@ -23,6 +23,7 @@ idl::AlarmSeverity severity_of(AlarmKind kind) {
     case idl::PROCESS_ENDED:
     case idl::STALLED:
     case idl::SWAP_UNDONE:
+    case idl::CLOCKS_DIFFER:
     case idl::FOREIGN_THREAD:
     case idl::DESCRIPTORS: return idl::ALARM_WARNING;
     default: return idl::ALARM_NOTICE;  // it was restored, or harms nobody yet

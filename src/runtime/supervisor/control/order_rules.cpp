@@ -32,6 +32,7 @@ Rule rule_for(const Ask& ask) {
       {"ps", kLook},
       {"graph", kLook},
       {"file", kLook},
+      {"machines", kLook},
       {"ports", kLook},
       {"plugins", kLook},
       {"names", kLook},

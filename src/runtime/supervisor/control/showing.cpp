@@ -66,6 +66,11 @@ std::string alarms_of(const graph::ComponentNode& node, const std::vector<host::
 
 }  // namespace
 
+void Showing::machines(Reply& reply) const {
+  if (machines_) return machines_(reply);
+  reply.note("the whole system runs on this machine, with one clock");
+}
+
 void Showing::components(Reply& reply, const std::map<std::string, double>& lines_per_s) const {
   const host::Reports reports = ledger_.reports();
   for (const graph::ComponentNode& node : graph_.components) {

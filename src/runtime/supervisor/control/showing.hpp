@@ -36,6 +36,12 @@ class Showing {
         exchanging_(exchanging),
         edges_in_use_(std::move(edges_in_use)) {}
 
+  /// Learns that there are other machines.
+  /// @param machines  answers what is known of all.
+  void join(std::function<void(Reply&)> machines) { machines_ = std::move(machines); }
+
+  /// A line for each machine: how it is, and how its clock differs.
+  void machines(Reply& reply) const;
   /// A line for each component: where it runs, how it is, and what it uses up.
   /// @param lines_per_s  that each writes to the log.
   void components(Reply& reply, const std::map<std::string, double>& lines_per_s) const;
@@ -60,6 +66,7 @@ class Showing {
   const Ledger& ledger_;
   const Exchanging& exchanging_;
   const std::function<std::vector<const graph::Edge*>()> edges_in_use_;
+  std::function<void(Reply&)> machines_;  // empty: there is this one only
 };
 
 }  // namespace orca::supervisor

@@ -177,7 +177,13 @@ class Life {
                               {},
                               wishes.outputs,
                               wishes.run,
-                              states_of(setup)};
+                              states_of(setup),
+                              {}};
+    if (whole_->machines.size() > 1)
+      options.clock_ahead = [this](std::size_t machine) {
+        const bool has_word = machine < RunPage::kMostMachines;
+        return Duration(has_word ? page_->clock_ahead(machine).load(std::memory_order_relaxed) : 0);
+      };
     if (graph::processes_of(*whole_).size() > 1)
       options.doorbell = [this](const std::string& component) { return &doorbells_->of(component); };
     part_.emplace(*whole_, process, host::PartPlace{catalogue_, *executive_, *reports_}, options);

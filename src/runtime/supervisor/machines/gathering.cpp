@@ -172,6 +172,15 @@ std::vector<std::string> Gathering::missing() const {
   return names;
 }
 
+std::vector<Gathering::Standing> Gathering::standings() const {
+  std::vector<Standing> all;
+  for (const Peer& peer : peers_) {
+    all.push_back({.machine = peer.node.name, .phase = {}, .lost = peer.lost, .heard_at = peer.heard_at});
+    if (peer.said) all.back().phase = peer.said->phase();
+  }
+  return all;
+}
+
 bool Gathering::have_all_reached(idl::MachinePhase phase) const {
   return std::ranges::all_of(peers_,
                              [&](const Peer& peer) { return peer.said && peer.said->phase() >= phase; });

@@ -45,6 +45,14 @@ class Gathering {
     std::string machine{};  ///< Of the last two kinds.
   };
 
+  /// Another machine, for people.
+  struct Standing {
+    std::string machine;
+    std::optional<idl::MachinePhase> phase;  ///< Nothing: it was never heard.
+    bool lost = false;
+    Moment heard_at{};
+  };
+
   /// @param graph  with all machines.
   /// @param here   name of this machine in the graph.
   /// @param run    number of this run, larger than those of earlier runs on this machine.
@@ -67,6 +75,8 @@ class Gathering {
   [[nodiscard]] idl::MachineState state() const;
   /// Returns the machines that are not there, by name, in the order of the graph.
   [[nodiscard]] std::vector<std::string> missing() const;
+  /// Returns the other machines, in the order of the graph.
+  [[nodiscard]] std::vector<Standing> standings() const;
   /// Notes that all components of this machine before this one are configured, and returns whether this one may be: all
   /// hardware is open, and what comes before it on other machines is configured. Ask again until it may.
   [[nodiscard]] bool may_configure(const std::string& component);

@@ -37,6 +37,17 @@ Meet meet(const graph::Graph& graph, const std::string& here) {
 // The number of a run: by the clock, so that a later one is larger.
 std::uint64_t new_run() { return static_cast<std::uint64_t>(steady_now().time_since_epoch().count()); }
 
+std::string state_text(const Gathering::Standing& standing) {
+  if (!standing.phase) return "not heard yet";
+  if (standing.lost) return "lost";
+  switch (*standing.phase) {
+    case idl::MACHINE_GATHERING: return "waits for others";
+    case idl::MACHINE_WORKING: return "works";
+    case idl::MACHINE_ENDED: return "has ended";
+    default: return "comes up";
+  }
+}
+
 idl::MachineEnd end_of(RunOutcome outcome) {
   switch (outcome) {
     case RunOutcome::finished: return idl::MACHINE_FINISHED;
@@ -59,15 +70,39 @@ RunOutcome outcome_of(idl::MachineEnd end) {
   }
 }
 
-Neighbours::Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger)
-    : gathering_(graph, here, new_run()),
+Neighbours::Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger,
+                       const RunPage& page)
+    : here_(here),
+      run_(new_run()),
+      gathering_(graph, here, run_),
+      clocks_(here, run_),
       motors_(here, gathering_.missing()),
       messenger_(std::move(start), meet(graph, here),
                  [this](const idl::MachineState& state) { hear(state); }),
-      ledger_(ledger) {}
+      ledger_(ledger),
+      page_(page) {
+  for (const graph::MachineNode& node : graph.machines) places_.emplace(node.name, places_.size());
+}
 
 void Neighbours::hear(const idl::MachineState& state) {
-  if (gathering_.hear(state, Moment::clock::now())) motors_.hear(state, !has_gathered_);
+  const TimePoint now = steady_now();
+  if (!gathering_.hear(state, to_steady(now))) return;
+  motors_.hear(state, !has_gathered_);
+  clocks_.hear(state, now);
+  tell_clocks();
+}
+
+// Reports clocks that differ, and lets the host processes correct what comes from there.
+void Neighbours::tell_clocks() {
+  for (const Clocks::News& news : clocks_.take_news()) {
+    if (news.differs)
+      ledger_.raise(idl::CLOCKS_DIFFER, "", news.text, news.machine);
+    else
+      ledger_.settle(idl::CLOCKS_DIFFER, news.machine, news.text);
+  }
+  for (const auto& [machine, place] : places_)
+    if (place < RunPage::kMostMachines)
+      page_.clock_ahead(place).store(clocks_.correction(machine).count(), std::memory_order_relaxed);
 }
 
 void Neighbours::turn(Moment now) {
@@ -102,6 +137,7 @@ void Neighbours::publish(Moment now) {
   said_ = state;
   say_at_ = now + (state.phase() == idl::MACHINE_ENDED ? kRepeatEnd : kRepeat);
   state.seq(++seq_);
+  clocks_.fill(state, steady_now());
   messenger_.say(state, now);
 }
 
@@ -121,6 +157,23 @@ std::string Neighbours::awaited() const {
   const std::vector<std::string> missing = gathering_.missing();
   if (missing.empty()) return "";
   return (missing.size() == 1 ? "machine " : "machines ") + listed(missing);
+}
+
+void Neighbours::show(Reply& reply) const {
+  const TimePoint now = steady_now();
+  reply.add(Record{{"machine", here_}, {"state", "this machine"}});
+  for (const Gathering::Standing& standing : gathering_.standings()) {
+    Record line{{"machine", standing.machine}, {"state", state_text(standing)}};
+    if (standing.phase) line.emplace_back("heard_s", to_seconds(to_steady(now) - standing.heard_at), 1);
+    if (const auto offset = clocks_.offset(standing.machine, now)) {
+      constexpr double kMs = 1e3;
+      line.emplace_back("clock_ahead_ms", kMs * to_seconds(offset->ahead), 3);
+      line.emplace_back("error_ms", kMs * to_seconds(offset->error), 3);
+      line.emplace_back("round_trip_ms", kMs * to_seconds(offset->round_trip), 3);
+      line.emplace_back("corrected", clocks_.correction(standing.machine) != Duration{0});
+    }
+    reply.add(std::move(line));
+  }
 }
 
 void Neighbours::conclude(RunOutcome outcome, const std::string& why, Moment now) {

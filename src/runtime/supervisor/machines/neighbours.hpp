@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "machines/clocks.hpp"
 #include "machines/gathering.hpp"
 #include "machines/messenger.hpp"
 #include "machines/motors_accord.hpp"
 #include "members/ledger.hpp"
+#include "members/reply.hpp"
 #include "orca/graph/graph.hpp"
 #include "orca/host/run_result.hpp"
+#include "orca/supervisor/run_page.hpp"
 
 namespace orca::supervisor {
 
@@ -23,7 +28,9 @@ class Neighbours {
   /// @param here    name of this machine in the graph.
   /// @param start   of a host process.
   /// @param ledger  takes the alarms.
-  Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger);
+  /// @param page    gets the corrections of the other machines' clocks; outlives the object.
+  Neighbours(const graph::Graph& graph, const std::string& here, HostStart start, Ledger& ledger,
+             const RunPage& page);
 
   /// Hears the others, notices their loss, and tells them what has changed here.
   void turn(Moment now);
@@ -44,19 +51,27 @@ class Neighbours {
   [[nodiscard]] Gathering& gathering() { return gathering_; }
   /// Returns what all machines know of the system's emergency stop.
   [[nodiscard]] MotorsAccord& motors() { return motors_; }
+  /// A line for each machine, this one first: how it is, and how its clock differs.
+  void show(Reply& reply) const;
   /// Returns the process that speaks with the others, to be polled.
   [[nodiscard]] Member& member() { return messenger_.member(); }
 
  private:
   void tell_news();
+  void tell_clocks();
   void hear(const idl::MachineState& state);
   [[nodiscard]] bool listens(Moment now) const;
   void publish(Moment now);
 
+  const std::string here_;
+  const std::uint64_t run_;
+  std::map<std::string, std::size_t> places_;  // of machines in the graph
   Gathering gathering_;
+  Clocks clocks_;
   MotorsAccord motors_;
   Messenger messenger_;
   Ledger& ledger_;
+  const RunPage& page_;
   bool has_gathered_ = false;
   std::string told_;  // whom the start waits for
   idl::MachineState said_;

@@ -16,15 +16,18 @@
 namespace orca::supervisor {
 namespace {
 
-// First come lines that every process writes: the head, a doorbell for each process, a doorbell for each component. Then comes a
+// First come lines that every process can write: the head, a doorbell for each process, a doorbell for each component. Then comes a
 // page of the processor's for each process, which begins with its heartbeat: only whole pages can be protected.
 constexpr std::size_t kLine = 64;  // [bytes] of a cache line
 
 struct alignas(kLine) PageHead {
-  std::atomic<std::uint64_t> missions;
+  alignas(kLine) std::atomic<std::uint64_t> missions;
+  alignas(kLine) std::atomic<std::int64_t> clocks[RunPage::kMostMachines];  // rarely written
 };
+constexpr std::size_t kHeadLines = sizeof(PageHead) / kLine;
 
-static_assert(sizeof(PageHead) == kLine && std::atomic<std::uint64_t>::is_always_lock_free,
+static_assert(std::atomic<std::int64_t>::is_always_lock_free &&
+                  std::atomic<std::uint64_t>::is_always_lock_free,
               "processes cannot share locks");
 
 std::size_t page_size() {
@@ -35,7 +38,7 @@ std::size_t page_size() {
 std::size_t whole_pages(std::size_t size) { return (size + page_size() - 1) / page_size() * page_size(); }
 
 std::size_t size_of(std::size_t processes, std::size_t components) {
-  return whole_pages(kLine * (1 + processes + components)) + processes * page_size();
+  return whole_pages(kLine * (kHeadLines + processes + components)) + processes * page_size();
 }
 
 PageHead& head_of(const SharedMemory& memory) { return *reinterpret_cast<PageHead*>(memory.bytes().data()); }
@@ -75,7 +78,8 @@ Result<RunPage> RunPage::map(Descriptor file, std::size_t processes, std::size_t
   if (size < size_of(processes, components) || size % page_size() != 0)  // the size that nobody can change
     return fail(Code::data_loss, "the run page is for another graph, or of another version of the deployer");
   const std::size_t lines = (size - processes * page_size()) / kLine;
-  return RunPage(opened_again(file.number(), O_RDONLY), std::move(*memory), processes, lines - 1 - processes);
+  return RunPage(opened_again(file.number(), O_RDONLY), std::move(*memory), processes,
+                 lines - kHeadLines - processes);
 }
 
 Status RunPage::belong_to(std::size_t process) {
@@ -92,16 +96,20 @@ Status RunPage::belong_to(std::size_t process) {
 
 std::atomic<std::uint64_t>& RunPage::missions() const { return head_of(memory_).missions; }
 
+std::atomic<std::int64_t>& RunPage::clock_ahead(std::size_t machine) const {
+  return head_of(memory_).clocks[checked(machine, kMostMachines)];
+}
+
 std::atomic<std::uint32_t>& RunPage::heartbeat(std::size_t process) const {
   return word(memory_.bytes().size() - (processes_ - checked(process, processes_)) * page_size());
 }
 
 DoorbellWord& RunPage::doorbell(std::size_t component) const {
-  return word(kLine * (1 + processes_ + checked(component, components_)));
+  return word(kLine * (kHeadLines + processes_ + checked(component, components_)));
 }
 
 DoorbellWord& RunPage::process_doorbell(std::size_t process) const {
-  return word(kLine * (1 + checked(process, processes_)));
+  return word(kLine * (kHeadLines + checked(process, processes_)));
 }
 
 std::atomic<std::uint32_t>& RunPage::word(std::size_t place) const {

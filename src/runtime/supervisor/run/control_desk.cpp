@@ -154,6 +154,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask&, const ReplyPtr& r) {
          r->add(Record{{"file", d.graph_file_}});
        }},
+      {"machines", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.machines(*r); }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"objects", [](ControlDesk&, const Ask&, const ReplyPtr& r) { Showing::objects(*r); }},

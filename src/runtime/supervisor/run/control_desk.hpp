@@ -57,7 +57,11 @@ class ControlDesk {
 
   /// Agrees with other machines on what stops the motors of all.
   /// @param accord  outlives the object.
-  void join(MotorsAccord& accord) { hold_.join(accord); }
+  /// @param show    answers what is known of the machines.
+  void join(MotorsAccord& accord, std::function<void(Reply&)> show) {
+    hold_.join(accord);
+    showing_.join(std::move(show));
+  }
   /// Goes on with what other machines have said. To be called whenever one was heard.
   void hear_machines(Moment now) { hold_.turn(now); }
   /// Stops all motors of the system, and holds them until an operator releases them, those of processes that come up later,
@@ -106,7 +110,7 @@ class ControlDesk {
   std::optional<CodeWatch> watch_;
   std::string graph_file_;                // the main one
   std::vector<std::string> graph_files_;  // that are watched, the main one first
-  const Showing showing_;
+  Showing showing_;
   MotorHold motors_;
   SystemHold hold_{motors_};
   LogBook log_{[this] { return TimePoint(ledger_.look().time); }};

@@ -71,8 +71,8 @@ class SupervisedRun {
     control_.note_file(options.graph_file);
     if (options.watches) control_.watch(options.graph_files);
     if (graph.machines.size() < 2) return;
-    neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_);
-    control_.join(neighbours_->motors());
+    neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_, run_.page);
+    control_.join(neighbours_->motors(), [this](Reply& reply) { neighbours_->show(reply); });
     poll_all();
     conclusion_.on_end(
         [this](RunOutcome outcome, const std::string& why) { neighbours_->conclude(outcome, why, now()); });

@@ -95,6 +95,38 @@ TEST_CASE("a bare DDS program reads what a port publishes", "[patterns][dds]") {
   });
 }
 
+TEST_CASE(
+    "instants of a publisher whose clock is ahead are set back for a subscriber, and not for a bare program",
+    "[patterns][dds]") {
+  run_on_each(steady_executives(), [](Executive& executive) {
+    constexpr Duration kAhead = 1h;
+    DdsLinks links(executive, DdsLinks::Help::task, kAhead);
+    Publisher<idl::MotionCommand> publisher(executive);
+    Subscriber<idl::MotionCommand> subscriber(executive);
+    REQUIRE(links.connect(publisher.endpoint("out"), subscriber.endpoint("in")).ok());
+    BareReader<idl::MotionCommandPubSubType> bare;
+    subscriber.in.subscribe();
+    REQUIRE(eventually(executive, [&] { return publisher.out.subscriber_count() == 1; }));
+    const TimePoint begun = executive.now();
+    const auto made = [](const idl::MotionCommand& command) {
+      return to_time_point(command.creation_time());
+    };
+    idl::MotionCommand read;
+    std::size_t heard = 0;
+    const bool came = eventually(executive, [&] {
+      publisher.out.push(head(0.25, 0.5));
+      if (const auto command = subscriber.in.get_update()) {
+        ++heard;
+        CHECK(made(*command) >= begun - kAhead);
+        CHECK(made(*command) <= executive.now() - kAhead);
+      }
+      return bare.take(read) && heard > 20;  // by then objects come by the topic alone
+    });
+    REQUIRE(came);
+    CHECK(made(read) >= begun);
+  });
+}
+
 TEST_CASE("a bare DDS program reads a subtype as what its topic says", "[patterns][dds]") {
   run_on_each(steady_executives(), [](Executive& executive) {
     DdsLinks links(executive);

@@ -8,6 +8,7 @@
 
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
+#include "orca/idl/sensing.hpp"
 
 using namespace orca;
 using namespace orca::frames;
@@ -45,6 +46,22 @@ TEST_CASE("a frame reads as it was written, its object too", "[patterns][frames]
   CHECK(command->direction() == 0.5);
   CHECK(command->speed() == 2.0);
   CHECK(frame.status().ok());
+}
+
+TEST_CASE("instants of a sender whose clock is ahead are set back", "[patterns][frames]") {
+  Frame written(FrameKind::object, 7);
+  auto odometry = make_object<idl::Odometry>();
+  odometry->creation_time().ns(9'000'000'000);
+  odometry->stamp().ns(8'000'000'000);
+  written.add(ObjectRef(std::move(odometry).seal()));
+  const auto bytes = bytes_of(written);
+  for (const Duration ahead : {0s, 3s, -2s}) {
+    FrameReader frame(bytes, ahead);
+    const auto object = frame.read_object(object_type<idl::Odometry>());
+    REQUIRE(object.has_value());
+    CHECK(to_time_point(object_cast<idl::Odometry>(*object)->stamp()) == TimePoint(8s - ahead));
+    CHECK(to_time_point(object->header().creation_time()) == TimePoint(9s - ahead));
+  }
 }
 
 TEST_CASE("an object in a frame keeps its type, if that is or extends the type that is wanted",

@@ -38,8 +38,8 @@ struct Written {
 }  // namespace
 
 TEST_CASE("what only looks is no order, and may be asked by whoever may look", "[supervisor][audit]") {
-  for (const char* const command : {"ps", "graph", "file", "ports", "plugins", "names", "counters", "alarms",
-                                    "missions", "log", "get", "pace", "sources"}) {
+  for (const char* const command : {"ps", "graph", "file", "machines", "ports", "plugins", "names",
+                                    "counters", "alarms", "missions", "log", "get", "pace", "sources"}) {
     CAPTURE(command);
     CHECK_FALSE(is_order(ask(command)));
     CHECK(access_for(ask(command)) == Access::observe);

@@ -55,6 +55,22 @@ TEST_CASE("All who map a run page see the same words", "[supervisor][run_page]")
   CHECK(std::set(there.begin(), there.end()).size() == 7);
 }
 
+TEST_CASE("All who map a run page see by how much clocks are ahead", "[supervisor][run_page]") {
+  const auto made = RunPage::create(2, 3);
+  REQUIRE(made.has_value());
+  const auto mapped = RunPage::map(made->descriptor(), 2, 3);
+  REQUIRE(mapped.has_value());
+  for (const std::size_t machine : {std::size_t{0}, RunPage::kMostMachines - 1}) {
+    CHECK(mapped->clock_ahead(machine) == 0);
+    made->clock_ahead(machine) = -7 - static_cast<std::int64_t>(machine);
+  }
+  CHECK(mapped->clock_ahead(0) == -7);
+  CHECK(mapped->clock_ahead(RunPage::kMostMachines - 1) == -69);
+  CHECK(mapped->missions() == 0);
+  CHECK(mapped->process_doorbell(0) == 0);
+  CHECK_THROWS_AS(mapped->clock_ahead(RunPage::kMostMachines), std::out_of_range);
+}
+
 TEST_CASE("Words of a run page share no cache line", "[supervisor][run_page]") {
   const auto page = RunPage::create(2, 2);
   REQUIRE(page);

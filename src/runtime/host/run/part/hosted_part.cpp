@@ -55,7 +55,7 @@ class HostedPart::Inside {
         outputs_(options.outputs),
         files_(place.executive),
         ports_(place.executive, options.missions),
-        outer_(whole_, process, options.doorbell, options.run),
+        outer_(whole_, process, options.doorbell, options.run, options.clock_ahead),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options, place.listener), [this] { return orders_.is_to_end(); }),
         swaps_(

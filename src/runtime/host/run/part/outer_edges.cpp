@@ -57,8 +57,13 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
 
 }  // namespace
 
-OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run)
-    : whole_(whole), process_(std::move(process)), doorbell_(std::move(doorbell)), run_(std::move(run)) {
+OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
+                       ClockAhead clock_ahead)
+    : whole_(whole),
+      process_(std::move(process)),
+      doorbell_(std::move(doorbell)),
+      run_(std::move(run)),
+      clock_ahead_(std::move(clock_ahead)) {
   for (const graph::ComponentNode& node : whole.components) learn(node);
 }
 
@@ -173,8 +178,23 @@ Status OuterEdges::connect_dds(const graph::Edge& edge, Endpoint& port) {
   }
   reached_[edge.name()] = process_of(there);
   const PortContract& server = servers_[edge.name()];
-  return dds_->connect(port, {there.text(), process_of(there), server.type.name}, policy_of(edge),
-                       server.period);
+  return dds_->connect(port,
+                       {there.text(), process_of(there), server.type.name, 0, clock_of(process_of(there))},
+                       policy_of(edge), server.period);
+}
+
+// Returns how to ask by how much the clock of a process is ahead; nothing if it has the clock of this one.
+std::function<Duration()> OuterEdges::clock_of(const std::string& process) const {
+  const auto machine_of = [this](const std::string& name) {
+    const auto node = std::ranges::find(whole_.processes, name, &graph::ProcessNode::name);
+    return node == whole_.processes.end() ? "" : node->machine;
+  };
+  const std::string machine = machine_of(process);
+  const auto node = std::ranges::find(whole_.machines, machine, &graph::MachineNode::name);
+  if (!clock_ahead_ || machine == machine_of(process_) || node == whole_.machines.end()) return {};
+  return [this, index = static_cast<std::size_t>(node - whole_.machines.begin())] {
+    return clock_ahead_(index);
+  };
 }
 
 // With several machines all processes use the network between them, as those of one machine must meet, too.
@@ -182,6 +202,7 @@ Result<DdsOptions> OuterEdges::dds_options() const {
   DdsOptions options;
   options.graph = whole_.name;
   options.run = run_;
+  options.domain = whole_.domain;
   options.process = process_;
   if (whole_.machines.size() < 2) {
     const Result<std::string> loopback = own_address("", options.address, Duration{0});
@@ -202,7 +223,6 @@ Result<DdsOptions> OuterEdges::dds_options() const {
     else
       options.others.push_back(std::move(address).value());
   }
-  options.domain = whole_.domain;
   return options;
 }
 

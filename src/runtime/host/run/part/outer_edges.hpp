@@ -28,10 +28,14 @@ class OuterEdges {
   /// Returns the word that wakes a component of the graph.
   using Doorbell = std::function<DoorbellWord*(const std::string& component)>;
 
+  /// Returns by how much the clock of a machine of the graph is ahead, as in PartOptions.
+  using ClockAhead = std::function<Duration(std::size_t machine)>;
+
   /// @param whole    the graph of all processes; outlives the object.
   /// @param process  the one that this process is.
   /// @param run      the name of the run.
-  OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run);
+  OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
+             ClockAhead clock_ahead);
 
   /// Asks the plugins what this process must know of the components at the other ends.
   /// @param memory  of each edge through shared memory.
@@ -74,12 +78,14 @@ class OuterEdges {
   void connect_memory(const graph::Edge& edge, RingSegment segment, Endpoint& port);
   Status connect_dds(const graph::Edge& edge, Endpoint& port);
   [[nodiscard]] Result<DdsOptions> dds_options() const;
+  [[nodiscard]] std::function<Duration()> clock_of(const std::string& process) const;
   Status learn(const graph::Edge& edge, PluginCatalogue& catalogue);
 
   const graph::Graph& whole_;
   const std::string process_;
   const Doorbell doorbell_;
   const std::string run_;
+  const ClockAhead clock_ahead_;
   std::vector<graph::Edge> edges_;               // to other processes, until connect()
   std::map<std::string, Descriptor> memory_;     // until connect()
   std::map<std::string, PortContract> servers_;  // of Push

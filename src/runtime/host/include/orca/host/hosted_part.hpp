@@ -66,6 +66,9 @@ struct PartOptions {
   RunOutputs outputs{};  ///< Of this process.
   std::string run{};     ///< The same in all processes of a run, and in no other run.
   KeptStates states{};   ///< With what components begin.
+  /// Returns by how much the clock of a machine, counted as in the graph, is ahead of this one's at present [s], as far as the
+  /// instants in what it sends are to be corrected; none: there is one clock. Any thread.
+  std::function<Duration(std::size_t machine)> clock_ahead{};
 };
 
 /// What a part needs of its surroundings. All of it outlives the part.

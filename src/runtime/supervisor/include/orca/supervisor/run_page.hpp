@@ -13,17 +13,19 @@
 
 namespace orca::supervisor {
 
-/// The memory that all host processes of a machine share with their supervisor: a count of missions, a heartbeat for each
-/// process, and doorbells. Processes are counted in the order of the graph, components as the supervisor says: some may come
-/// later. Each word has a cache line of its own.
+/// The memory that all host processes of a machine share with their supervisor: a count of missions, how other machines' clocks differ,
+/// a heartbeat for each process, and doorbells. Processes and machines are counted in the order of the graph, components as the
+/// supervisor says: some may come later. Each word that is written often has a cache line of its own.
 ///
-/// A host process can write its own heartbeat, the doorbells and the count, and only read the heartbeats of others
+/// A host process can write its own heartbeat, the doorbells, the clocks and the count, and only read the heartbeats of others
 /// (belong_to()). By mistake it may write anything into them, so a reader must cope with every value of every word. No size and
 /// no place is read from what is written there.
 ///
 /// Thread contract: any thread.
 class RunPage {
  public:
+  static constexpr std::size_t kMostMachines = 63;  ///< Clocks of further ones have no word.
+
   /// Makes the page of a machine, with all words 0.
   /// @param components  those that there may ever be. Some more may find room.
   /// @errors  as MemoryFile::create().
@@ -41,6 +43,10 @@ class RunPage {
 
   /// Returns the number of missions that have begun. Adding to it begins one.
   [[nodiscard]] std::atomic<std::uint64_t>& missions() const;
+  /// Returns by how much the clock of a machine is ahead of this one's [ns], as far as the instants in what it sends are to be
+  /// corrected. The supervisor writes it.
+  /// @pre  machine < kMostMachines
+  [[nodiscard]] std::atomic<std::int64_t>& clock_ahead(std::size_t machine) const;
   /// Returns the word to which a process adds while it is well; 0: it has not begun.
   /// @pre  process < processes()
   [[nodiscard]] std::atomic<std::uint32_t>& heartbeat(std::size_t process) const;

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ struct DdsPeer {
   std::string type;     ///< IDL name of the type that a Push server declares; otherwise not needed.
   std::uint64_t edge =
       0;  ///< Tells edges between the same ports apart, if there is more than one in the life of both.
+  /// Returns by how much the peer's clock is ahead of this process's at present [s], as far as the instants in its objects are to be
+  /// corrected; none: they have one clock. Any thread.
+  std::function<Duration()> clock_ahead{};
 };
 
 /// This process's part in DDS: all ends of its edges.
