@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <thread>
 
 #include "deployer.hpp"
 #include "pair_of_machines.hpp"
@@ -108,4 +109,29 @@ TEST_CASE("a robot reaches its goal although the clocks of its machines differ, 
   INFO("base:\n" << base.err << "\nbrain:\n" << brain.err);
   CHECK(base.exit_code() == 0);
   CHECK(brain.arrivals().size() == 1);
+}
+
+TEST_CASE(
+    "what comes from a machine whose clock differs is corrected on, while the deployers are killed and "
+    "replaced",
+    "[system][machines][tool]") {
+  if (is_skipped() || kSanitized) return;
+  const TempFolder folder;
+  Pair pair({"interface=orca0", kNear, "on_supervisor_loss=continue"}, with_fuser_on_base(folder));
+  pair.set_clock(1, -3);  // without the correction all commands are too old for the fuser
+  pair.start_both();
+  pair.says(0, "alarm CLOCKS_DIFFER", 0, Seconds(10));
+  machines(pair, 0);
+  std::this_thread::sleep_for(Seconds(2));
+  for (const int machine : {0, 1}) {
+    pair.replace(machine);
+    pair.says(machine, "is adopted", 0, Seconds(10));
+    pair.says(machine, "alarm CLOCKS_DIFFER", 0, Seconds(10));
+  }
+  const Run base = pair.finish(0, Seconds(60));
+  const Run brain = pair.finish(1, Seconds(5));
+  INFO("base:\n" << base.err << "\nbrain:\n" << brain.err);
+  CHECK(base.exit_code() == 0);
+  CHECK(brain.arrivals().size() == 1);
+  CHECK_FALSE(base.says("stops the robot"));
 }

@@ -89,11 +89,12 @@ void Neighbours::hear(const idl::MachineState& state) {
   if (!gathering_.hear(state, to_steady(now))) return;
   motors_.hear(state, !has_gathered_);
   clocks_.hear(state, now);
-  tell_clocks();
+  tell_clocks(now);
 }
 
-// Reports clocks that differ, and lets the host processes correct what comes from there.
-void Neighbours::tell_clocks() {
+// Reports clocks that differ, and lets the host processes correct what comes from there. Until a clock is measured, those that an
+// earlier supervisor has left go on as it told them.
+void Neighbours::tell_clocks(TimePoint now) {
   for (const Clocks::News& news : clocks_.take_news()) {
     if (news.differs)
       ledger_.raise(idl::CLOCKS_DIFFER, "", news.text, news.machine);
@@ -101,7 +102,7 @@ void Neighbours::tell_clocks() {
       ledger_.settle(idl::CLOCKS_DIFFER, news.machine, news.text);
   }
   for (const auto& [machine, place] : places_)
-    if (place < RunPage::kMostMachines)
+    if (place < RunPage::kMostMachines && clocks_.offset(machine, now))
       page_.clock_ahead(place).store(clocks_.correction(machine).count(), std::memory_order_relaxed);
 }
 

@@ -58,7 +58,7 @@ class Neighbours {
 
  private:
   void tell_news();
-  void tell_clocks();
+  void tell_clocks(TimePoint now);
   void hear(const idl::MachineState& state);
   [[nodiscard]] bool listens(Moment now) const;
   void publish(Moment now);
