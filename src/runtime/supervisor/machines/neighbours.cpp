@@ -48,6 +48,30 @@ std::string state_text(const Gathering::Standing& standing) {
   }
 }
 
+// Returns a number of a table; nothing: it is not known.
+Cell number(const std::string& name, const std::optional<Duration>& time, double factor, int digits) {
+  if (time) return {name, factor * to_seconds(*time), digits};
+  Cell unknown(name, "");
+  unknown.kind = Cell::Kind::number;
+  return unknown;
+}
+
+// Returns the line of a machine for people. All have the same cells.
+Record line_of(const std::string& machine, const std::string& state, const std::optional<Duration>& silence,
+               const std::optional<Clocks::Offset>& clock, bool is_corrected) {
+  constexpr double kMs = 1e3;
+  const auto time = [&clock](Duration Clocks::Offset::*part) {
+    return clock ? std::optional((*clock).*part) : std::nullopt;
+  };
+  return {{"machine", machine},
+          {"state", state},
+          number("heard_s", silence, 1.0, 1),
+          number("clock_ahead_ms", time(&Clocks::Offset::ahead), kMs, 3),
+          number("error_ms", time(&Clocks::Offset::error), kMs, 3),
+          number("round_trip_ms", time(&Clocks::Offset::round_trip), kMs, 3),
+          {"corrected", is_corrected}};
+}
+
 idl::MachineEnd end_of(RunOutcome outcome) {
   switch (outcome) {
     case RunOutcome::finished: return idl::MACHINE_FINISHED;
@@ -162,18 +186,12 @@ std::string Neighbours::awaited() const {
 
 void Neighbours::show(Reply& reply) const {
   const TimePoint now = steady_now();
-  reply.add(Record{{"machine", here_}, {"state", "this machine"}});
+  reply.add(line_of(here_, "this machine", std::nullopt, Clocks::Offset{}, false));
   for (const Gathering::Standing& standing : gathering_.standings()) {
-    Record line{{"machine", standing.machine}, {"state", state_text(standing)}};
-    if (standing.phase) line.emplace_back("heard_s", to_seconds(to_steady(now) - standing.heard_at), 1);
-    if (const auto offset = clocks_.offset(standing.machine, now)) {
-      constexpr double kMs = 1e3;
-      line.emplace_back("clock_ahead_ms", kMs * to_seconds(offset->ahead), 3);
-      line.emplace_back("error_ms", kMs * to_seconds(offset->error), 3);
-      line.emplace_back("round_trip_ms", kMs * to_seconds(offset->round_trip), 3);
-      line.emplace_back("corrected", clocks_.correction(standing.machine) != Duration{0});
-    }
-    reply.add(std::move(line));
+    std::optional<Duration> silence;
+    if (standing.phase) silence = to_steady(now) - standing.heard_at;
+    reply.add(line_of(standing.machine, state_text(standing), silence, clocks_.offset(standing.machine, now),
+                      clocks_.correction(standing.machine) != Duration{0}));
   }
 }
 
