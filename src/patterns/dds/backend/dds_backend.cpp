@@ -160,7 +160,8 @@ class FastBackend final : public DdsBackend {
     if (length > bytes.size()) return;
     bytes = bytes.first(length);
     while (const auto message = take_message(bytes))
-      if (Line* const line = find_line(message->from)) line->receive(*message, sample.origin);
+      if (Line* const line = find_line(message->from))
+        if (participant_->may_speak_for(sample.origin, line->peer())) line->receive(*message, sample.origin);
   }
 
   Line* find_line(std::uint64_t process) {
@@ -170,6 +171,7 @@ class FastBackend final : public DdsBackend {
   }
 
   void tick() {
+    participant_->look_after_keys();
     const MutexLock lock(mutex_);
     for (const auto& [process, line] : lines_) line->tick();
   }

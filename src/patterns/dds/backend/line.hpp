@@ -98,6 +98,8 @@ class Line {
   /// Returns whether the participant is the present peer's.
   [[nodiscard]] bool is_peer(const Origin& origin) const;
   [[nodiscard]] bool is_joined() const;
+  /// Returns the name of the other process.
+  [[nodiscard]] const std::string& peer() const { return peer_name_; }
 
  private:
   struct Sending {

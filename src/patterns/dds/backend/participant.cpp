@@ -18,6 +18,7 @@
 #include <set>
 #include <utility>
 
+#include "dds/security/gate.hpp"
 #include "orca/base/mutex.hpp"
 #include "participant_qos.hpp"
 #include "raw_type.hpp"
@@ -164,8 +165,10 @@ Error refused(const std::string& what) { return fail(Code::unavailable, "Fast DD
 
 class FastParticipant final : public Participant {
  public:
-  explicit FastParticipant(fd::DomainParticipant* participant)
-      : participant_(participant),
+  /// @param gate  null: it is not secured.
+  FastParticipant(fd::DomainParticipant* participant, std::shared_ptr<Gate> gate)
+      : gate_(std::move(gate)),
+        participant_(participant),
         publisher_(participant->create_publisher(fd::PUBLISHER_QOS_DEFAULT)),
         subscriber_(participant->create_subscriber(fd::SUBSCRIBER_QOS_DEFAULT)) {}
   ~FastParticipant() override {
@@ -175,11 +178,18 @@ class FastParticipant final : public Participant {
 
   [[nodiscard]] bool is_complete() const { return publisher_ != nullptr && subscriber_ != nullptr; }
 
+  void look_after_keys() override {
+    if (gate_ != nullptr) gate_->look();
+  }
+  [[nodiscard]] bool may_speak_for(const Origin& speaker, const std::string& process) const override {
+    return gate_ == nullptr || gate_->is(speaker, process);
+  }
+
   Result<std::shared_ptr<TopicWriter>> make_writer(const TopicOptions& options) override {
     const TopicPtr topic = this->topic(options);
     if (topic == nullptr) return refused("topic " + options.name);
     auto writer = std::make_shared<Writer>(*publisher_, topic, options);
-    if (!writer->is_there()) return refused("writer for " + options.name);
+    if (!writer->is_there()) return refused_endpoint("writer", options);
     return std::shared_ptr<TopicWriter>(std::move(writer));
   }
 
@@ -187,11 +197,20 @@ class FastParticipant final : public Participant {
     const TopicPtr topic = this->topic(options);
     if (topic == nullptr) return refused("topic " + options.name);
     auto reader = std::make_unique<Reader>(*subscriber_, topic, options, std::move(received));
-    if (!reader->is_there()) return refused("reader for " + options.name);
+    if (!reader->is_there()) return refused_endpoint("reader", options);
     return std::unique_ptr<TopicReader>(std::move(reader));
   }
 
  private:
+  [[nodiscard]] Error refused_endpoint(const std::string& what, const TopicOptions& options) const {
+    Error error = refused(what + " for " + options.name);
+    if (gate_ != nullptr)
+      error.message +=
+          "; the permissions of this process may be those of another graph: orcactl keys GRAPH --renew makes "
+          "them anew";
+    return error;
+  }
+
   TopicPtr topic(const TopicOptions& options) {
     const MutexLock lock(mutex_);
     std::weak_ptr<SharedTopic>& known = topics_[options.name];
@@ -207,6 +226,7 @@ class FastParticipant final : public Participant {
     return topic;
   }
 
+  const std::shared_ptr<Gate> gate_;
   fd::DomainParticipant* const participant_;
   fd::Publisher* const publisher_;
   fd::Subscriber* const subscriber_;
@@ -219,12 +239,21 @@ class FastParticipant final : public Participant {
 
 Result<std::unique_ptr<Participant>> Participant::open(const DdsOptions& options) {
   prepare_library();
+  fd::DomainParticipantQos qos = participant_qos(options);
+  std::shared_ptr<Gate> gate;
+  if (!options.keys.empty()) {
+    Result<std::shared_ptr<Gate>> opened = Gate::open(options.keys, options.process);
+    if (!opened) return opened.error();
+    gate = std::move(opened).value();
+    secure(qos, gate);
+  }
   fd::DomainParticipant* const made = fd::DomainParticipantFactory::get_instance()->create_participant(
-      options.domain, participant_qos(options));
+      options.domain, qos, gate.get(), fd::StatusMask::none());
   if (made == nullptr)
     return fail(Code::unavailable,
-                "Fast DDS does not start; is " + options.address + " an address of this machine?");
-  auto participant = std::make_unique<FastParticipant>(made);
+                "Fast DDS does not start; is " + options.address + " an address of this machine" +
+                    (gate == nullptr ? "?" : ", and do its keys fit? The log has its reason"));
+  auto participant = std::make_unique<FastParticipant>(made, std::move(gate));
   if (!participant->is_complete()) return refused("publisher or subscriber");
   return std::unique_ptr<Participant>(std::move(participant));
 }

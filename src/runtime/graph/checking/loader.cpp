@@ -41,6 +41,7 @@ Graph read_root(const Node& root, const LoadOptions& options, Report& report) {
   graph.records_always = read_attribute<std::string>(root, "record", report) == "always";
   if (const auto bytes = read_attribute<double>(root, "record_space", report))
     graph.record_space = static_cast<std::uint64_t>(std::llround(*bytes));
+  graph.secured = read_attribute<std::string>(root, "security", report) == "on";
   return graph;
 }
 
@@ -89,6 +90,7 @@ Graph check(Assembly assembly, const LoadOptions& options, Catalogue& catalogue,
   set_parameters(assembly, parts, report);
   assembly.graph.children.clear();  // the parts are copies
   Model model = check_parts(assembly, parts, catalogue, report);
+  check_security(graph, model, report);
   model.any_link = options.any_link;
   graph.ends = read_ends(root, model, report);
   for (const std::string& name : options.failing)

@@ -252,6 +252,18 @@ void check_topics(const Model& model, const Catalogue& catalogue, Report& report
   }
 }
 
+void check_security(const Graph& graph, const Model& model, Report& report) {
+  if (!graph.secured) return;
+  for (const CheckedComponent& component : model.components)
+    for (const auto& [name, setting] : component.value.ports)
+      if (!setting.topic.empty())
+        report.error(
+            codes::kSecured, component.value.position,
+            in_quotes(component.value.name + "." + name) + " speaks to ROS 2 on topic " + setting.topic +
+                ", which is plain, and the graph says security=\"on\"; remove the topic or security: a "
+                "graph cannot have both");
+}
+
 std::string ports_of(const Contract& contract) {
   std::vector<std::string> in;
   std::vector<std::string> out;

@@ -15,6 +15,9 @@ void read_ports(const Node& node, CheckedComponent& component, const Catalogue& 
 // Reports topics that have one message at one port and another one at another: they would never meet.
 void check_topics(const Model& model, const Catalogue& catalogue, Report& report);
 
+// Reports ports with a topic of ROS 2 in a graph that asks for security: what they say is plain.
+void check_security(const Graph& graph, const Model& model, Report& report);
+
 // Returns the ports of a contract for people: "in: laser, sonar; out: motion".
 std::string ports_of(const Contract& contract);
 

@@ -78,5 +78,6 @@ inline constexpr const char* kGroup = "G073";
 inline constexpr const char* kChange = "G074";
 inline constexpr const char* kRight = "G075";
 inline constexpr const char* kTopic = "G076";
+inline constexpr const char* kSecured = "G077";
 
 }  // namespace orca::graph::codes

@@ -19,6 +19,7 @@ constexpr std::array<std::string_view, 2> kStay{"cold", "warm"};
 constexpr std::array<std::string_view, 2> kRestore{"last", "none"};
 constexpr std::array<std::string_view, 3> kStrategy{"one_for_one", "rest_for_one", "one_for_all"};
 constexpr std::array<std::string_view, 1> kRecord{"always"};
+constexpr std::array<std::string_view, 2> kSecurity{"on", "off"};
 constexpr std::array<std::string_view, 2> kSupervisorLoss{"stop", "continue"};
 constexpr std::array<std::string_view, 2> kMachineLoss{"stop", "go_on"};
 constexpr std::array<std::string_view, 2> kExecutor{"thread", "fiber"};
@@ -76,6 +77,10 @@ constexpr std::array kGraph{
     AttributeRule{"record_space", false,
                   "Most room for that recording on the disk, for example 2 GB; 500 MB if not given.",
                   bytes(20e6, 1e15)},
+    AttributeRule{"security", false,
+                  "Whether processes that speak over DDS prove by keys who they are, and encrypt; off if not "
+                  "given.",
+                  one_of(kSecurity)},
     AttributeRule{
         "expanded", false,
         "Whether the profiles and settings of a command line are merged into it already, as where Orca has "

@@ -65,6 +65,7 @@ Attributes attributes_of(const Graph& graph) {
   if (graph.records_always) add(result, "record", "always");
   if (graph.record_space != Graph{}.record_space)
     add(result, "record_space", std::to_string(graph.record_space) + " B");
+  if (graph.secured) add(result, "security", "on");
   return result;
 }
 

@@ -18,7 +18,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-#include "orca/base/log.hpp"
+#include "dds/security/gate.hpp"
 #include "orca/base/network_address.hpp"
 #include "state_type.hpp"
 
@@ -41,7 +41,9 @@ const eprosima::fastrtps::rtps::InitialAnnouncementConfig kFirstAnnouncements{20
 // Writes what Fast DDS complains about to the log: what matters of it is noticed by the silence of a machine.
 class LogConsumer final : public dds::LogConsumer {
  public:
-  void Consume(const dds::Log::Entry& entry) override { log::debug("Fast DDS", entry.message); }
+  void Consume(const dds::Log::Entry& entry) override {
+    orca::dds::log_complaint(entry.context.category, entry.message);
+  }
 };
 
 Result<dds::DomainParticipantQos> participant_qos(const MeetingPlace& place) {
@@ -79,15 +81,23 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
   }
 
   Status open(const MeetingPlace& place) {
-    const Result<dds::DomainParticipantQos> qos = participant_qos(place);
+    Result<dds::DomainParticipantQos> qos = participant_qos(place);
     if (!qos) return qos.error();
-    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(place.domain, *qos);
+    if (!place.keys.empty()) {
+      Result<std::shared_ptr<orca::dds::Gate>> gate = orca::dds::Gate::open(place.keys, keys::kPeers);
+      if (!gate) return gate.error();
+      gate_ = std::move(gate).value();
+      orca::dds::secure(*qos, gate_);
+    }
+    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
+        place.domain, *qos, gate_.get(), dds::StatusMask::none());
     if (participant_ == nullptr || !open_topic(place.topic))
       return fail(Code::unavailable, "the network code cannot be started");
     return ok();
   }
 
   void say(std::span<const std::byte> state) override {
+    if (gate_ != nullptr) gate_->look();  // states are said five times a second
     StateType::Sample sample(state.begin(), state.end());
     writer_->write(&sample);
   }
@@ -131,6 +141,7 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
   }
 
   const HearState hear_;
+  std::shared_ptr<orca::dds::Gate> gate_;  // null: not secured
   dds::DomainParticipant* participant_ = nullptr;
   dds::DataWriter* writer_ = nullptr;
   dds::DataReader* reader_ = nullptr;

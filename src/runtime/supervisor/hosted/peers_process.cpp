@@ -56,8 +56,8 @@ Result<std::unique_ptr<Bulletin>> open_bulletin(const Meet& meet, Channel& chann
       (void)channel.post(encode(Report(HeardReport{{state.begin(), state.end()}})));
   };
   Error error;
-  std::unique_ptr<Bulletin> bulletin(
-      opener->open({meet.topic, meet.address, meet.interface, meet.others, meet.domain}, hear, error));
+  std::unique_ptr<Bulletin> bulletin(opener->open(
+      {meet.topic, meet.address, meet.interface, meet.others, meet.domain, meet.keys}, hear, error));
   if (bulletin == nullptr) return error;
   return bulletin;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "orca/base/files/key_folder.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
@@ -31,6 +32,8 @@ Meet meet(const graph::Graph& graph, const std::string& here) {
       meet.others.push_back(node.address);
     }
   }
+  // Without a home there is no such folder, and the process says so.
+  if (graph.secured) meet.keys = key_folder(graph.name, here).value_or("/orca/keys");
   return meet;
 }
 

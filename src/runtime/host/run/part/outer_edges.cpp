@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "orca/base/files/key_folder.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/network_address.hpp"
 #include "orca/base/text.hpp"
@@ -204,6 +205,13 @@ Result<DdsOptions> OuterEdges::dds_options() const {
   options.run = run_;
   options.domain = whole_.domain;
   options.process = process_;
+  const auto here = std::ranges::find(whole_.processes, process_, &graph::ProcessNode::name);
+  const std::string machine = here == whole_.processes.end() ? "" : here->machine;
+  if (whole_.secured) {
+    Result<std::string> keys = key_folder(whole_.name, machine);
+    if (!keys) return keys.error();
+    options.keys = std::move(keys).value();
+  }
   if (whole_.machines.size() < 2) {
     const Result<std::string> loopback = own_address("", options.address, Duration{0});
     if (loopback) return options;
@@ -211,9 +219,8 @@ Result<DdsOptions> OuterEdges::dds_options() const {
                                        loopback.error().message +
                                        "; switch it on (ip link set lo up), or leave out link=\"dds\"");
   }
-  const auto here = std::ranges::find(whole_.processes, process_, &graph::ProcessNode::name);
   for (const graph::MachineNode& node : whole_.machines) {
-    const bool is_here = node.name == here->machine;
+    const bool is_here = node.name == machine;
     if (!is_here && node.address.empty()) continue;
     Result<std::string> address =
         is_here ? own_address(node.interface, node.address, kPatience) : address_of_host(node.address);

@@ -156,6 +156,7 @@ struct Graph {
   Supervision supervision;
   bool records_always = false;               ///< A recording of the system is always made.
   std::uint64_t record_space = 500'000'000;  ///< Most room for it on the disk [byte].
+  bool secured = false;  ///< Processes that speak over the network prove who they are, and encrypt.
   std::vector<MachineNode> machines;
   std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.
   std::vector<HardwareNode> hardware;

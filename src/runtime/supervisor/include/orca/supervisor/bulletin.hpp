@@ -35,6 +35,7 @@ struct MeetingPlace {
   std::string interface {};         ///< Network interface of this machine; empty: any.
   std::vector<std::string> others;  ///< Addresses of other machines, which are asked besides a multicast.
   std::uint32_t domain = 0;         ///< Of DDS, the same on all machines.
+  std::string keys{};  ///< Folder with the keys of this machine (orca/keys/key_folder.hpp); empty: plain.
 };
 
 /// Takes what anybody has said, this process too.

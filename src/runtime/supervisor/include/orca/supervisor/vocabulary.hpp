@@ -147,6 +147,7 @@ struct Meet {
   std::string interface {};         ///< Network interface of this machine; empty: any.
   std::vector<std::string> others;  ///< Addresses of the other machines, as far as they are known.
   std::uint32_t domain = 0;         ///< Of DDS.
+  std::string keys{};               ///< Folder with the keys of this machine; empty: everything is plain.
 };
 /// Asks to say something to all other machines. The answer says that the process is well.
 struct Say {

@@ -33,6 +33,8 @@ struct DdsOptions {
   std::string address = "127.0.0.1";
   std::vector<std::string> others{};  ///< Addresses of other machines, which are asked besides a multicast.
   std::uint32_t domain = 0;
+  /// Folder with the keys of this machine's processes (orca/keys/key_folder.hpp). Empty: everything is plain.
+  std::string keys{};
   Duration liveliness{300ms};  ///< A process that gives no sign of life for this long [s] is lost.
 };
 

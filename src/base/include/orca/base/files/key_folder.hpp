@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "orca/base/result.hpp"
+
+namespace orca {
+
+/// Returns a name of a graph, machine or process as one part of a path: contexts, which '/' joins, are joined by '-' there, which
+/// no name has.
+[[nodiscard]] std::string as_file_name(std::string name);
+
+/// Returns the folder in which the keys of a secured system are made: `$XDG_CONFIG_HOME/orca/keys/SYSTEM`, or
+/// `~/.config/orca/keys/SYSTEM`.
+/// @errors  not_found if there is no home.
+/// @thread  any that may read the environment.
+[[nodiscard]] Result<std::string> keys_of_system(const std::string& system);
+
+/// Returns the name of the folder in it that belongs to a machine.
+/// @param machine  empty: the graph declares none.
+[[nodiscard]] std::string key_folder_name(const std::string& machine);
+
+/// Returns the folder in which the processes of a machine look for their keys: key_folder_name() in keys_of_system().
+/// @errors  as keys_of_system().
+[[nodiscard]] Result<std::string> key_folder(const std::string& system, const std::string& machine);
+
+}  // namespace orca

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gate.hpp"
+
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
+
+#include <cstring>
+#include <utility>
+
+#include "orca/base/log.hpp"
+
+namespace orca::dds {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kLogName = "security";
+constexpr std::size_t kHeader = 20;        // [bytes] of an RTPS packet (DDSI-RTPS 2.3, 9.4.4)
+constexpr std::size_t kPrefix = 8;         // [bytes] where the sender's GUID begins
+constexpr std::size_t kMostRefused = 200;  // lines of the log
+constexpr std::int64_t kDay = 86'400;      // [s]
+constexpr std::int64_t kAhead = 14 * kDay;
+
+std::int64_t time_now() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+keys::Mark mark_in(std::span<const std::byte> guid) {
+  keys::Mark mark{};
+  std::memcpy(mark.data(), guid.data(), mark.size());
+  return mark;
+}
+
+std::string name_of(const keys::Certificate& certificate) {
+  return certificate.process == keys::kPeers ? "the process that speaks for machine " + certificate.machine
+                                             : "process " + certificate.process;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Gate>> Gate::open(const std::string& keys, const std::string& process) {
+  Result<keys::KeyRing> ring = keys::KeyRing::open(keys, process, time_now());
+  if (!ring) return ring.error();
+  const std::shared_ptr<Gate> gate(new Gate(std::move(ring).value()));
+  gate->look();
+  return gate;
+}
+
+bool Gate::lets_in(std::span<const std::uint8_t> packet, const eprosima::fastrtps::rtps::Locator_t& sender) {
+  if (is_closed_.load(std::memory_order_relaxed)) return false;
+  if (packet.size() < kHeader) return false;
+  const keys::Mark mark = mark_in(std::as_bytes(packet.subspan(kPrefix)));
+  const MutexLock lock(mutex_);
+  const std::string fault = fault_of(mark);
+  if (!fault.empty()) refuse(eprosima::fastrtps::rtps::IPLocator::ip_to_string(sender), fault);
+  return fault.empty();
+}
+
+std::string Gate::fault_of(const keys::Mark& mark) const {
+  const auto sender = ring_.known().find(mark);
+  if (sender == ring_.known().end()) return "a program without a certificate of this system";
+  if (sender->second.revoked) return name_of(sender->second) + ", whose certificate was revoked";
+  if (sender->second.not_after < now_) return name_of(sender->second) + ", whose certificate has expired";
+  return {};
+}
+
+// Each sender once: a stranger would otherwise fill the log.
+void Gate::refuse(const std::string& sender, const std::string& why) {
+  if (refused_.size() >= kMostRefused || !refused_.insert(sender + " " + why).second) return;
+  log::warning(kLogName, "what " + why + " says over DDS is dropped, from " + sender);
+  if (refused_.size() == kMostRefused) log::warning(kLogName, "further senders are dropped without a word");
+}
+
+bool Gate::is(std::span<const std::byte> guid, const std::string& process) const {
+  const MutexLock lock(mutex_);
+  const auto known = ring_.known().find(mark_in(guid));
+  return known != ring_.known().end() && known->second.process == process;
+}
+
+void Gate::look() {
+  const MutexLock lock(mutex_);
+  const Steady::time_point now = Steady::now();
+  if (now_ != 0 && now - looked_ < 1s) return;
+  looked_ = now;
+  now_ = time_now();
+  read_list();
+  watch_end();
+}
+
+void Gate::read_list() {
+  const Result<bool> news = ring_.look();
+  if (!news)
+    log::warning(kLogName, news.error().message + "; the list of certificates stays as it was");
+  else if (*news)
+    log::info(kLogName, "there is a new list of certificates");
+}
+
+void Gate::watch_end() {
+  if (!lets_out()) return;
+  const std::int64_t left = ring_.own().not_after - now_;
+  if (const std::string fault = ring_.fault(now_); !fault.empty()) {
+    is_closed_ = true;
+    return log::error(kLogName,
+                      "this process is cut off from DDS: " + fault +
+                          "; make new keys with orcactl keys GRAPH --renew, copy this machine's folder, "
+                          "and start the process again");
+  }
+  if (left > kAhead || now_ - warned_ < kDay) return;
+  warned_ = now_;
+  log::warning(kLogName, "the certificate of this process expires in " + std::to_string(left / kDay) +
+                             " days, which cuts it off from DDS; orcactl keys GRAPH --renew makes new ones");
+}
+
+void Gate::onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* /*participant*/,
+                                       eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) {
+  using Info = eprosima::fastrtps::rtps::ParticipantAuthenticationInfo;
+  if (info.status != Info::UNAUTHORIZED_PARTICIPANT) return;
+  const MutexLock lock(mutex_);
+  const auto known = ring_.known().find(mark_in(std::as_bytes(std::span(info.guid.guidPrefix.value))));
+  refuse("DDS", "a program that cannot prove to be " +
+                    (known == ring_.known().end() ? "of this system" : name_of(known->second)));
+}
+
+}  // namespace orca::dds
