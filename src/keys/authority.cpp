@@ -70,7 +70,8 @@ class Authority {
     if (Status there = make_own_folder(folder); !there.ok()) return there;
     const Result<std::string> rules = sign(permissions(rfc_name(*pair->certificate), permit, span), pair_);
     if (!rules) return rules.error();
-    if (Status kept = write(folder, key_file(permit.process), to_pem(*pair->key)); !kept.ok()) return kept;
+    if (Status kept = write(folder, key_file_name(permit.process), to_pem(*pair->key)); !kept.ok())
+      return kept;
     if (Status kept = write(folder, certificate_file(permit.process), to_pem(*pair->certificate)); !kept.ok())
       return kept;
     if (Status kept = write(folder, permissions_file(permit.process), *rules); !kept.ok()) return kept;

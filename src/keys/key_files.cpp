@@ -40,7 +40,6 @@ Status prove(const struct stat& found, const std::string& path, const char* mode
 }  // namespace
 
 std::string certificate_file(const std::string& process) { return as_file_name(process) + ".pem"; }
-std::string key_file(const std::string& process) { return as_file_name(process) + ".key"; }
 std::string permissions_file(const std::string& process) {
   return as_file_name(process) + ".permissions.p7s";
 }

@@ -14,9 +14,8 @@ inline constexpr const char* kAuthorityFile = "authority.pem";
 inline constexpr const char* kAuthorityKeyFile = "authority.key";
 inline constexpr const char* kGovernanceFile = "governance.p7s";
 inline constexpr const char* kListFile = "certificates.p7s";
-/// Those of a process.
+/// Those of a process; that of its key is key_file_name().
 [[nodiscard]] std::string certificate_file(const std::string& process);
-[[nodiscard]] std::string key_file(const std::string& process);
 [[nodiscard]] std::string permissions_file(const std::string& process);
 
 /// Makes a folder that is the user's alone, or proves that it is.

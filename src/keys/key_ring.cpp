@@ -7,6 +7,7 @@
 
 #include "crypto.hpp"
 #include "key_files.hpp"
+#include "orca/base/files/key_folder.hpp"
 
 namespace orca::keys {
 namespace {
@@ -62,7 +63,7 @@ Result<Files> read_files(const std::string& folder, const std::string& process) 
   if (X509_verify(certificate->get(), X509_get0_pubkey(authority->get())) != 1)
     return fail(Code::failed_precondition,
                 path + " was issued by another authority than that of this folder");
-  if (Status fits = prove_key(folder + "/" + key_file(process), **certificate); !fits.ok())
+  if (Status fits = prove_key(folder + "/" + key_file_name(process), **certificate); !fits.ok())
     return fits.error();
   for (const std::string& file : {std::string(kGovernanceFile), permissions_file(process)})
     if (Status proven = prove_signed(folder + "/" + file, **authority); !proven.ok()) return proven.error();
@@ -77,7 +78,7 @@ std::vector<std::pair<std::string, std::string>> properties_of(const std::string
   return {{"dds.sec.auth.plugin", "builtin.PKI-DH"},
           {pki + "identity_ca", files + kAuthorityFile},
           {pki + "identity_certificate", files + certificate_file(process)},
-          {pki + "private_key", files + key_file(process)},
+          {pki + "private_key", files + key_file_name(process)},
           {"dds.sec.access.plugin", "builtin.Access-Permissions"},
           {access + "permissions_ca", files + kAuthorityFile},
           {access + "governance", files + kGovernanceFile},

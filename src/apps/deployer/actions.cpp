@@ -17,6 +17,7 @@
 #include "describe.hpp"
 #include "guest/guest_types.hpp"
 #include "guest/steering.hpp"
+#include "key_needs.hpp"
 #include "laps.hpp"
 #include "objects/describe_object.hpp"
 #include "orca/base/log.hpp"
@@ -253,6 +254,7 @@ ExitCode check(const Options& options) {
   if (!options.json) {
     std::fprintf(stderr, "%s: no errors; %zu components, %zu connections\n", options.file.c_str(),
                  loaded.graph->components.size(), loaded.graph->edges.size());
+    std::fputs(key_needs(*loaded.graph).c_str(), stderr);
   }
   return ExitCode::finished;
 }

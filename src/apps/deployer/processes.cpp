@@ -13,6 +13,7 @@
 
 #include "companions.hpp"
 #include "exit_code.hpp"
+#include "key_needs.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
@@ -199,6 +200,8 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   supervised.outputs.looks_on = options.progress.value_or(stderr_can_live());
   if (const Status opened = try_to_open(options.run); !opened.ok())
     return refuse(opened.error(), options.run.log_name, listener);
+  if (const Status there = check_keys(graph, machine); !there.ok())
+    return refuse(there.error(), options.run.log_name, listener);
   const std::optional<apps::ChildProgram> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
   Recorders recorders;
   if (const Status started = recorders.start(graph, machine, options.run.recordings); !started.ok())

@@ -394,9 +394,35 @@ constexpr std::string_view kImportDetails =
     "line. Lengths are taken as mm, angles of sonars as tenths of a degree. orcactl import base.xml > "
     "base_graph.xml && deployer base_graph.xml --check";
 
+constexpr const char* kKeysDetails =
+    "For a graph with security=\"on\". Makes an authority, and for each machine a folder with a key, a "
+    "certificate and permissions for "
+    "each of its processes that speaks over DDS: it may write and read the topics of its own edges. Give the "
+    "profiles and settings "
+    "with which the graph is started. The authority's private key stays in +authority; the folder of each "
+    "machine belongs in "
+    "~/.config/orca/keys/GRAPH there. --renew makes new keys by the same authority, before the others expire "
+    "or after the graph has "
+    "changed: copy all folders, then start process by process again. --revoke makes the keys of a process or "
+    "machine useless, and "
+    "new ones for it: copy all folders.\n"
+    "\n"
+    "orcactl keys graphs/two_machines.xml --set security=on --out keys --days 30";
+
 // For shells and people.
 std::vector<Command> shell_commands() {
   return {
+      {.name = "keys",
+       .arguments = {{"GRAPH.xml", Names::file}},
+       .options = {{"--out", "DIR", "the system's folder of keys; ~/.config/orca/keys/GRAPH if not given"},
+                   {"--days", "N", "until they expire; 90 if not given", false, {}, 1, 3650},
+                   {"--renew", "", "make new ones by the authority that is there"},
+                   {"--revoke", "NAME", "make those of a process or machine useless"},
+                   {"--profile", "NAME", "as for the deployer", true},
+                   {"--set", "NAME=VALUE", "as for the deployer", true},
+                   {"--plugins", "FOLDER", "as for the deployer", true}},
+       .text = "make the keys of a secured system from its graph; no system needs to run",
+       .details = kKeysDetails},
       {.name = "new",
        .arguments = {{"component|driver|experiment|object"}, {"NAME"}},
        .text = "begin a component, driver, experiment or object type of your own, in a folder NAME; no "

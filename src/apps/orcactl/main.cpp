@@ -15,6 +15,7 @@
 #include "exit_code.hpp"
 #include "going.hpp"
 #include "importing/import.hpp"
+#include "keys/keys.hpp"
 #include "map_saving.hpp"
 #include "offering.hpp"
 #include "orca/base/exhaustion.hpp"
@@ -36,7 +37,8 @@ ExitCode carry_out(const apps::Call& call) {
                                                     {"record", record},      {"bag", handle_bag},
                                                     {"map", handle_map},     {"calibrate", calibrate},
                                                     {"tasks", handle_tasks}, {"go", handle_go},
-                                                    {"new", handle_new},     {"import", import_file}};
+                                                    {"new", handle_new},     {"import", import_file},
+                                                    {"keys", handle_keys}};
   const auto way = ways.find(call.command->name);
   return way == ways.end() ? ask(call) : way->second(call);
 }

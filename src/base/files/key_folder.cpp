@@ -30,6 +30,8 @@ std::string key_folder_name(const std::string& machine) {
   return machine.empty() ? "this-machine" : as_file_name(machine);
 }
 
+std::string key_file_name(const std::string& process) { return as_file_name(process) + ".key"; }
+
 Result<std::string> key_folder(const std::string& system, const std::string& machine) {
   Result<std::string> folder = keys_of_system(system);
   if (!folder) return folder;

@@ -118,6 +118,16 @@ std::vector<ProcessNode> processes_on(const Graph& graph, const std::string& mac
 
 Graph subgraph(const Graph& graph, const std::string& process) { return reduced(graph, {process}); }
 
+bool speaks_dds(const Graph& graph, const std::string& process) {
+  const auto is_in = [&](const PortRef& port) {
+    const ComponentNode* const node = graph.find_component(port.component);
+    return node != nullptr && node->process == process;
+  };
+  return std::ranges::any_of(graph.edges, [&](const Edge& edge) {
+    return edge.link == Link::dds && (is_in(edge.from) || is_in(edge.to));
+  });
+}
+
 Graph part_on(const Graph& graph, const std::string& machine) {
   std::set<std::string> names;
   for (const ProcessNode& node : processes_on(graph, machine)) names.insert(node.name);

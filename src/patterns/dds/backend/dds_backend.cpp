@@ -14,6 +14,7 @@
 #include "frames/request_over_frames.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/base/mutex.hpp"
+#include "orca/patterns/dds/topic_names.hpp"
 #include "orca/patterns/endpoints/push_client_endpoint.hpp"
 #include "orca/patterns/endpoints/query_client_endpoint.hpp"
 #include "orca/patterns/endpoints/query_server_endpoint.hpp"
@@ -124,16 +125,14 @@ class FastBackend final : public DdsBackend {
   };
 
   [[nodiscard]] TopicOptions inbox_of(const std::string& process, std::int32_t depth) {
-    return {"orca-lines/" + options_.graph + "/" + options_.run + "/" + process, "orca::dds::Message", depth,
+    return {inbox_topic(options_.graph, options_.run, process), "orca::dds::Message", depth,
             [this] { greet(); }};
   }
 
   // Returns the topic of a Push port.
   [[nodiscard]] TopicOptions topic_of(const std::string& path, const std::string& type,
                                       std::int32_t depth) const {
-    std::string name = path;
-    name[name.rfind('.')] = '/';
-    return {"orca/" + options_.graph + "/" + name, idl_name(type), depth};
+    return {object_topic(options_.graph, path), idl_name(type), depth};
   }
 
   // DDS is called without the lock, because it calls back with locks of its own.

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "orca/base/files/key_folder.hpp"
 #include "orca/base/log.hpp"
 
 namespace orca::dds {
@@ -33,8 +34,8 @@ keys::Mark mark_in(std::span<const std::byte> guid) {
 }
 
 std::string name_of(const keys::Certificate& certificate) {
-  return certificate.process == keys::kPeers ? "the process that speaks for machine " + certificate.machine
-                                             : "process " + certificate.process;
+  return certificate.process == kPeersKeys ? "the process that speaks for machine " + certificate.machine
+                                           : "process " + certificate.process;
 }
 
 }  // namespace

@@ -57,8 +57,7 @@ struct GuardedDescriptor final : rtps::ChainingTransportDescriptor {
 
 void secure(fd::DomainParticipantQos& qos, const std::shared_ptr<Gate>& gate) {
   const keys::KeyRing keys = gate->keys();
-  for (const auto& [name, value] : keys.properties())
-    qos.properties().properties().emplace_back(name, value);
+  for (const auto& [name, value] : keys.properties()) qos.properties().properties().emplace_back(name, value);
   for (auto& transport : qos.transport().user_transports)
     transport = std::make_shared<GuardedDescriptor>(transport, gate);
 }

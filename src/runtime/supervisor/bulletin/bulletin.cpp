@@ -19,6 +19,7 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include "dds/security/gate.hpp"
+#include "orca/base/files/key_folder.hpp"
 #include "orca/base/network_address.hpp"
 #include "state_type.hpp"
 
@@ -84,7 +85,7 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
     Result<dds::DomainParticipantQos> qos = participant_qos(place);
     if (!qos) return qos.error();
     if (!place.keys.empty()) {
-      Result<std::shared_ptr<orca::dds::Gate>> gate = orca::dds::Gate::open(place.keys, keys::kPeers);
+      Result<std::shared_ptr<orca::dds::Gate>> gate = orca::dds::Gate::open(place.keys, kPeersKeys);
       if (!gate) return gate.error();
       gate_ = std::move(gate).value();
       orca::dds::secure(*qos, gate_);

@@ -10,14 +10,11 @@
 
 namespace orca::keys {
 
-/// The process that speaks with the other machines, one on each. No process of a graph has such a name.
-inline constexpr const char* kPeers = "+peers";
-
 /// A certificate that the authority of a system has issued. A plain value.
 struct Certificate {
   std::string subject;         ///< Common name: 32 hexadecimal digits, different in each certificate.
   std::string machine;         ///< Empty: the graph declares none.
-  std::string process;         ///< Name in the graph, or kPeers.
+  std::string process;         ///< Name in the graph, or kPeersKeys.
   std::int64_t not_after = 0;  ///< Its last moment [s since 1970-01-01 UTC].
   bool revoked = false;
 

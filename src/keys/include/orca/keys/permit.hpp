@@ -9,7 +9,7 @@ namespace orca::keys {
 /// What a process of a secured system may do. A plain value.
 struct Permit {
   std::string machine;           ///< Empty: the graph declares none.
-  std::string process;           ///< Name in the graph, or kPeers.
+  std::string process;           ///< Name in the graph, or kPeersKeys.
   std::set<std::string> writes;  ///< Topics of DDS; '*' stands for any text.
   std::set<std::string> reads;
 };

@@ -25,4 +25,10 @@ namespace orca {
 /// @errors  as keys_of_system().
 [[nodiscard]] Result<std::string> key_folder(const std::string& system, const std::string& machine);
 
+/// Returns the name of the file there with the private key of a process.
+[[nodiscard]] std::string key_file_name(const std::string& process);
+
+/// The process that speaks with the other machines, one on each. No process of a graph has such a name.
+inline constexpr const char* kPeersKeys = "+peers";
+
 }  // namespace orca

@@ -34,6 +34,12 @@ struct ProcessPart {
 /// Returns what runs in the process of that name, and the edges at its components.
 [[nodiscard]] ProcessPart part_of(const Graph& graph, const std::string& process);
 
+/// Returns whether a process has an edge that goes over DDS.
+[[nodiscard]] bool speaks_dds(const Graph& graph, const std::string& process);
+
+/// Returns whether the graph runs on several machines, each of which then has a process that speaks with the others.
+[[nodiscard]] inline bool has_neighbours(const Graph& graph) { return graph.machines.size() >= 2; }
+
 /// Returns the graph with only what runs in the process of that name, and the edges within it.
 [[nodiscard]] Graph subgraph(const Graph& graph, const std::string& process);
 
