@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bare_dds.hpp"
+#include "bench_keys.hpp"
 #include "benchmarks.hpp"
 #include "comparison.hpp"
 #include "dds_links.hpp"
@@ -64,6 +65,18 @@ void push_beside_bare(benchmark::State& state, Row& row, std::size_t ranges, int
   });
 }
 
+void secured_push(benchmark::State& state, Row& row, std::size_t ranges) {
+  const BenchKeys keys;
+  run_on(kThreads, [&](Executive& executive) {
+    test::DdsLinks secured(executive, test::DdsLinks::Help::none, Duration{0}, keys.folder());
+    test::DdsLinks plain(executive, test::DdsLinks::Help::none);
+    PushPair subject(executive, ranges, secured);
+    PushPair reference(executive, ranges, plain);
+    alternate(
+        state, row, 5, [&](int n) { return subject.time(n); }, [&](int n) { return reference.time(n); });
+  });
+}
+
 void query_beside_bare(benchmark::State& state, Row& row) {
   run_on(kThreads, [&](Executive& executive) {
     DdsQueryPair pair(executive);
@@ -80,6 +93,8 @@ void register_dds() {
           [](auto& state, Row& row) { push_beside_bare(state, row, kLaser, 5); });
   add_row({"push 1 MB over DDS", "bare Fast DDS, UDP loopback", ratio_at_most(1.15)}, 50,
           [](auto& state, Row& row) { push_beside_bare(state, row, kImage, 1); });
+  add_row({"push 3 KB over secured DDS", "push 3 KB over DDS", ratio_at_most(1.3)}, 1000,
+          [](auto& state, Row& row) { secured_push(state, row, kLaser); });
   add_row({"query over DDS", "two messages, bare Fast DDS", ratio_at_most(1.15)}, 1000, query_beside_bare);
 }
 

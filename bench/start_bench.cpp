@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bare_dds.hpp"
+#include "bench_keys.hpp"
 #include "benchmarks.hpp"
 #include "comparison.hpp"
 #include "dds_links.hpp"
@@ -82,11 +83,11 @@ Nanoseconds start_shm(Executive& executive) {
   });
 }
 
-Nanoseconds start_dds(Executive& executive) {
+Nanoseconds start_dds(Executive& executive, const std::string& keys = {}) {
   const Clock::time_point began = Clock::now();
   const std::string run = test::fresh_run();
-  const std::unique_ptr<DdsBackend> servers = test::make_dds("servers", run);
-  const std::unique_ptr<DdsBackend> clients = test::make_dds("clients", run);
+  const std::unique_ptr<DdsBackend> servers = test::make_dds("servers", run, keys);
+  const std::unique_ptr<DdsBackend> clients = test::make_dds("clients", run, keys);
   std::uint64_t edges = 0;
   const auto must = [](const Status& done) {
     if (!done.ok()) throw std::runtime_error(done.error().text());
@@ -110,12 +111,22 @@ void dds_starts(benchmark::State& state, Row& row) {
   });
 }
 
+void secured_starts(benchmark::State& state, Row& row) {
+  const BenchKeys keys;
+  run_on(kThreads, [&](Executive& executive) {
+    alternate(
+        state, row, 1, [&](int) { return start_dds(executive, keys.folder()); },
+        [&](int) { return start_dds(executive); });
+  });
+}
+
 }  // namespace
 
 void register_start() {
   add_row({"start of 100 edges between processes", "", median_at_most(100 * kMillisecond)}, 20, shm_starts);
   add_row({"start of 100 topics over DDS", "bare Fast DDS, UDP loopback", ratio_at_most(1.2)}, 40,
           dds_starts);
+  add_row({"start of 100 secured topics", "start of 100 topics over DDS", {}}, 20, secured_starts);
 }
 
 }  // namespace orca::bench

@@ -25,12 +25,14 @@ std::uint32_t dds_test_domain() {
   return domain;
 }
 
-std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::string& run) {
+std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::string& run,
+                                     const std::string& keys) {
   DdsOptions options;
   options.graph = "test";
   options.run = run;
   options.process = process;
   options.domain = dds_test_domain();
+  options.keys = keys;
   auto made = open_dds(ORCA_BINARY_DIR "/lib/liborca_dds.so", options);
   if (!made) throw std::runtime_error(made.error().text());
   return std::move(made).value();
@@ -58,8 +60,12 @@ class DdsLinks::Helped final : public LinkEnd {
   Strand& strand_;
 };
 
-DdsLinks::DdsLinks(Executive& executive, Help help, Duration servers_ahead)
-    : executive_(executive), servers_ahead_(servers_ahead), end_(executive.make_event()) {
+DdsLinks::DdsLinks(Executive& executive, Help help, Duration servers_ahead, const std::string& keys)
+    : executive_(executive),
+      servers_ahead_(servers_ahead),
+      servers_(make_dds("servers", run_, keys)),
+      clients_(make_dds("clients", run_, keys)),
+      end_(executive.make_event()) {
   if (help == Help::task) task_ = executive_.spawn({"helper", 0}, [this] { work(); });
 }
 

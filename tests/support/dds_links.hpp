@@ -13,8 +13,10 @@
 namespace orca::test {
 
 /// Returns a new part in DDS, for a process of that name.
-/// @param run  that no other test uses.
-std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::string& run);
+/// @param run   that no other test uses.
+/// @param keys  folder with the keys of the process; empty: everything is plain.
+std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::string& run,
+                                     const std::string& keys = {});
 /// Returns the DDS domain of this test program; the same in those that it forks afterwards.
 std::uint32_t dds_test_domain();
 /// Returns a name for a run that no other test uses.
@@ -31,7 +33,9 @@ class DdsLinks final : public Links {
   /// Whether a task takes in for strands that have none of their own.
   enum class Help { task, none };
   /// @param servers_ahead  by how much the clients are to think that the clock of the servers is ahead [s].
-  explicit DdsLinks(Executive& executive, Help help = Help::task, Duration servers_ahead = Duration{0});
+  /// @param keys           folder with keys of the processes "servers" and "clients"; empty: everything is plain.
+  explicit DdsLinks(Executive& executive, Help help = Help::task, Duration servers_ahead = Duration{0},
+                    const std::string& keys = {});
   ~DdsLinks() override;
 
  private:
@@ -50,8 +54,8 @@ class DdsLinks final : public Links {
   Executive& executive_;
   const Duration servers_ahead_;
   const std::string run_ = fresh_run();
-  const std::unique_ptr<DdsBackend> servers_ = make_dds("servers", run_);
-  const std::unique_ptr<DdsBackend> clients_ = make_dds("clients", run_);
+  const std::unique_ptr<DdsBackend> servers_;
+  const std::unique_ptr<DdsBackend> clients_;
 
   std::uint64_t edges_ = 0;  // so far
   std::mutex mutex_;

@@ -60,16 +60,17 @@ bool Gate::lets_in(std::span<const std::uint8_t> packet, const eprosima::fastrtp
 
 std::string Gate::fault_of(const keys::Mark& mark) const {
   const auto sender = ring_.known().find(mark);
-  if (sender == ring_.known().end()) return "a program without a certificate of this system";
-  if (sender->second.revoked) return name_of(sender->second) + ", whose certificate was revoked";
-  if (sender->second.not_after < now_) return name_of(sender->second) + ", whose certificate has expired";
+  if (sender == ring_.known().end()) return "it has no certificate of this system";
+  if (sender->second.revoked) return "the certificate of " + name_of(sender->second) + " was revoked";
+  if (sender->second.not_after < now_)
+    return "the certificate of " + name_of(sender->second) + " has expired";
   return {};
 }
 
 // Each sender once: a stranger would otherwise fill the log.
 void Gate::refuse(const std::string& sender, const std::string& why) {
   if (refused_.size() >= kMostRefused || !refused_.insert(sender + " " + why).second) return;
-  log::warning(kLogName, "what " + why + " says over DDS is dropped, from " + sender);
+  log::warning(kLogName, "what " + sender + " says over DDS is dropped: " + why);
   if (refused_.size() == kMostRefused) log::warning(kLogName, "further senders are dropped without a word");
 }
 
@@ -119,8 +120,8 @@ void Gate::onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant
   if (info.status != Info::UNAUTHORIZED_PARTICIPANT) return;
   const MutexLock lock(mutex_);
   const auto known = ring_.known().find(mark_in(std::as_bytes(std::span(info.guid.guidPrefix.value))));
-  refuse("DDS", "a program that cannot prove to be " +
-                    (known == ring_.known().end() ? "of this system" : name_of(known->second)));
+  refuse("a participant", "it cannot prove to be " +
+                              (known == ring_.known().end() ? "of this system" : name_of(known->second)));
 }
 
 }  // namespace orca::dds
