@@ -29,6 +29,9 @@ std::string rule(const char* what, const std::set<std::string>& topics) {
 
 }  // namespace
 
+// Whole messages are encrypted for participants (rtps), and in them what each writer and reader says, with its own key
+// (metadata), so that a participant without permission for a topic can neither read nor forge it. To encrypt the data in that once
+// more would protect nothing.
 std::string governance() {
   return std::string(R"(<?xml version="1.0" encoding="UTF-8"?>
 <dds><domain_access_rules><domain_rule>
@@ -46,7 +49,7 @@ std::string governance() {
 <enable_read_access_control>true</enable_read_access_control>
 <enable_write_access_control>true</enable_write_access_control>
 <metadata_protection_kind>ENCRYPT</metadata_protection_kind>
-<data_protection_kind>ENCRYPT</data_protection_kind>
+<data_protection_kind>NONE</data_protection_kind>
 </topic_rule></topic_access_rules>
 </domain_rule></domain_access_rules></dds>
 )";

@@ -19,6 +19,7 @@
 
 #include "hosted_system.hpp"
 #include "internet_sockets.hpp"
+#include "key_home.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -158,11 +159,11 @@ pid_t network_thread_of(pid_t process) {
 }
 
 // Throws bad packets at a process of a flow, and checks that the others live and that objects come again.
-void bombard(int rounds, int packets) {
+void bombard(int rounds, int packets, const Words& more = {}) {
   constexpr unsigned kSeed = 20041112;
   Socket discovery;
   discovery.join_discovery();
-  System system(flow("dds"));
+  System system(flow("dds") + more);
   system.when("flow ", 0, Seconds(10));
   std::vector<Packet> good;
   for (int i = 0; i < 20; ++i) good.push_back(discovery.receive());
@@ -281,6 +282,12 @@ TEST_CASE("a system does not give up because its network code is made to crash a
   CHECK(system.process("source") == source);
   CHECK(system.process("sink") == sink);
   CHECK_FALSE(stop(system).says("GAVE_UP"));
+}
+
+TEST_CASE("a million bad packets for one process with keys harm no other", "[.][slow][dds]") {
+  const KeyHome keys;
+  keys.make(flow("dds"));
+  bombard(1000, 1000, {"--set", "security=on"});
 }
 
 TEST_CASE("a million bad packets for one process of DDS harm no other", "[.][slow][dds]") {
