@@ -17,7 +17,6 @@
 #include "describe.hpp"
 #include "guest/guest_types.hpp"
 #include "guest/steering.hpp"
-#include "key_needs.hpp"
 #include "laps.hpp"
 #include "objects/describe_object.hpp"
 #include "orca/base/log.hpp"
@@ -35,6 +34,7 @@
 #include "orca/supervisor/system_facts.hpp"
 #include "processes.hpp"
 #include "progress.hpp"
+#include "secured/key_needs.hpp"
 #include "streams.hpp"
 #include "types.hpp"
 

@@ -13,7 +13,6 @@
 
 #include "companions.hpp"
 #include "exit_code.hpp"
-#include "key_needs.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/output_file.hpp"
@@ -29,6 +28,7 @@
 #include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
 #include "progress.hpp"
+#include "secured/key_needs.hpp"
 #include "streams.hpp"
 
 namespace orca::deployer {

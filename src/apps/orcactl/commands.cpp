@@ -2,6 +2,8 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "commands.hpp"
 
+#include "keys/keys.hpp"
+
 namespace orca::orcactl {
 namespace {
 
@@ -50,15 +52,10 @@ constexpr std::string_view kBagDetails =
     "whole into a new file with an index, after the recorder was killed or the disk was full. cut FILE NEW "
     "[FROM [TO]]: writes a span of time into a new file, such as cut nomad_scout noon.mcap 12:02 12:04; info "
     "and cut take the folder of --ring, too, and the name of a system whose graph says record=always. csv "
-    "FILE "
-    "[PORT...]: a "
-    "table on stdout, as deployer --record FILE.csv writes it. carmen FILE [PORT...]: odometry and scans as "
-    "a log for "
-    "programs that make maps. diff FILE OTHER [PORT...]: the first object that differs, with its field; exit "
-    "status 1 "
-    "if there is one; times count, so it is for runs in virtual time. Files of other writers can be shown, "
-    "checked "
-    "and recovered, too.";
+    "FILE [PORT...]: a table on stdout, as deployer --record FILE.csv writes it. carmen FILE [PORT...]: "
+    "odometry and scans as a log for programs that make maps. diff FILE OTHER [PORT...]: the first object "
+    "that differs, with its field; exit status 1 if there is one; times count, so it is for runs in virtual "
+    "time. Files of other writers can be shown, checked and recovered, too.";
 
 constexpr std::string_view kMapDetails =
     "Asks the part of the system that has a map, by its port OccupancyGridQuery, and writes NAME.png, a "
@@ -394,35 +391,10 @@ constexpr std::string_view kImportDetails =
     "line. Lengths are taken as mm, angles of sonars as tenths of a degree. orcactl import base.xml > "
     "base_graph.xml && deployer base_graph.xml --check";
 
-constexpr const char* kKeysDetails =
-    "For a graph with security=\"on\". Makes an authority, and for each machine a folder with a key, a "
-    "certificate and permissions for "
-    "each of its processes that speaks over DDS: it may write and read the topics of its own edges. Give the "
-    "profiles and settings "
-    "with which the graph is started. The authority's private key stays in +authority; the folder of each "
-    "machine belongs in "
-    "~/.config/orca/keys/GRAPH there. --renew makes new keys by the same authority, before the others expire "
-    "or after the graph has "
-    "changed: copy all folders, then start process by process again. --revoke makes the keys of a process or "
-    "machine useless, and "
-    "new ones for it: copy all folders.\n"
-    "\n"
-    "orcactl keys graphs/two_machines.xml --set security=on --out keys --days 30";
-
 // For shells and people.
 std::vector<Command> shell_commands() {
   return {
-      {.name = "keys",
-       .arguments = {{"GRAPH.xml", Names::file}},
-       .options = {{"--out", "DIR", "the system's folder of keys; ~/.config/orca/keys/GRAPH if not given"},
-                   {"--days", "N", "until they expire; 90 if not given", false, {}, 1, 3650},
-                   {"--renew", "", "make new ones by the authority that is there"},
-                   {"--revoke", "NAME", "make those of a process or machine useless"},
-                   {"--profile", "NAME", "as for the deployer", true},
-                   {"--set", "NAME=VALUE", "as for the deployer", true},
-                   {"--plugins", "FOLDER", "as for the deployer", true}},
-       .text = "make the keys of a secured system from its graph; no system needs to run",
-       .details = kKeysDetails},
+      keys_command(),
       {.name = "new",
        .arguments = {{"component|driver|experiment|object"}, {"NAME"}},
        .text = "begin a component, driver, experiment or object type of your own, in a folder NAME; no "

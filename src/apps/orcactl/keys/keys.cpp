@@ -28,6 +28,21 @@ using namespace std::chrono_literals;
 constexpr std::uint64_t kDays = 90;
 constexpr auto kClockDifference = 1h;  // by which the clock of another machine may be behind
 
+constexpr const char* kDetails =
+    "For a graph with security=\"on\". Makes an authority, and for each machine a folder with a key, a "
+    "certificate and permissions for "
+    "each of its processes that speaks over DDS: it may write and read the topics of its own edges. Give the "
+    "profiles and settings "
+    "with which the graph is started. The authority's private key stays in +authority; the folder of each "
+    "machine belongs in "
+    "~/.config/orca/keys/GRAPH there. --renew makes new keys by the same authority, before the others expire "
+    "or after the graph has "
+    "changed: copy all folders, then start process by process again. --revoke makes the keys of a process or "
+    "machine useless, and "
+    "new ones for it: copy all folders.\n"
+    "\n"
+    "orcactl keys graphs/two_machines.xml --set security=on --out keys --days 30";
+
 std::optional<graph::Graph> read_graph(const apps::Call& call) {
   std::vector<std::string> folders{own_plugin_folder()};
   for (const std::string& folder : call.folders("--plugins")) folders.push_back(folder);
@@ -70,6 +85,20 @@ Status revoke(const std::string& folder, const std::string& name, const std::vec
 }
 
 }  // namespace
+
+apps::Command keys_command() {
+  return {.name = "keys",
+          .arguments = {{"GRAPH.xml", apps::Names::file}},
+          .options = {{"--out", "DIR", "the system's folder of keys; ~/.config/orca/keys/GRAPH if not given"},
+                      {"--days", "N", "until they expire; 90 if not given", false, {}, 1, 3650},
+                      {"--renew", "", "make new ones by the authority that is there"},
+                      {"--revoke", "NAME", "make those of a process or machine useless"},
+                      {"--profile", "NAME", "as for the deployer", true},
+                      {"--set", "NAME=VALUE", "as for the deployer", true},
+                      {"--plugins", "FOLDER", "as for the deployer", true}},
+          .text = "make the keys of a secured system from its graph; no system needs to run",
+          .details = kDetails};
+}
 
 ExitCode handle_keys(const apps::Call& call) {
   const std::optional<graph::Graph> graph = read_graph(call);

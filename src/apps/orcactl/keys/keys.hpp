@@ -7,6 +7,9 @@
 
 namespace orca::orcactl {
 
+/// Returns what the command line of orcactl keys may hold.
+[[nodiscard]] apps::Command keys_command();
+
 /// Makes, renews or revokes the keys of a secured system, from its graph: orcactl keys.
 [[nodiscard]] ExitCode handle_keys(const apps::Call& call);
 

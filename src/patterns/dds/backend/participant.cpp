@@ -18,8 +18,8 @@
 #include <set>
 #include <utility>
 
-#include "dds/security/gate.hpp"
 #include "orca/base/mutex.hpp"
+#include "orca/dds/gate.hpp"
 #include "participant_qos.hpp"
 #include "raw_type.hpp"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "dds/security/gate.hpp"
+#include "orca/dds/gate.hpp"
 
 namespace orca::dds {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::uint32_t kSocketBuffer = 4U << 20;  // [bytes]; the system may gi
 
 fastrtps::Duration_t seconds(double time) { return fastrtps::Duration_t(static_cast<long double>(time)); }
 
-// Writes what Fast DDS complains about to the log. What matters of it comes back as an error, or as a lost peer.
+// Writes what Fast DDS complains about to the log. Errors and lost peers report by themselves what matters.
 class LogConsumer final : public fd::LogConsumer {
  public:
   void Consume(const fd::Log::Entry& entry) override { log_complaint(entry.context.category, entry.message); }

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "gate.hpp"
+#include "orca/dds/gate.hpp"
 
 namespace orca::dds {
 namespace {

@@ -3,9 +3,9 @@
 #include <set>
 #include <string>
 
-#include "gate.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/mutex.hpp"
+#include "orca/dds/gate.hpp"
 
 namespace orca::dds {
 namespace {

@@ -18,9 +18,9 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
-#include "dds/security/gate.hpp"
 #include "orca/base/files/key_folder.hpp"
 #include "orca/base/network_address.hpp"
+#include "orca/dds/gate.hpp"
 #include "state_type.hpp"
 
 namespace orca::supervisor {

@@ -88,13 +88,20 @@ class Keys {
 // What the log of this process says while the object lives.
 class HeardLog {
  public:
+  // Waits for it, since Fast DDS writes its log by a thread.
   [[nodiscard]] bool says(const std::string& text) const {
+    for (int i = 0; i < 200 && !has(text); ++i) std::this_thread::sleep_for(10ms);
     const std::lock_guard lock(mutex_);
     UNSCOPED_INFO("the log: " << lines_);
     return lines_.find(text) != std::string::npos;
   }
 
  private:
+  [[nodiscard]] bool has(const std::string& text) const {
+    const std::lock_guard lock(mutex_);
+    return lines_.find(text) != std::string::npos;
+  }
+
   mutable std::mutex mutex_;
   std::string lines_;
   const log::Listener listener_{[this](const log::Line& line) {

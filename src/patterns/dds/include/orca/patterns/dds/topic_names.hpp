@@ -12,7 +12,7 @@ namespace orca {
   return "orca/" + graph + "/" + path;
 }
 
-/// Returns the topic of DDS on which a process hears what others tell it directly.
+/// Returns the topic of DDS on which a process hears what others send to it alone.
 /// @param run  name of the run; "*" in permissions.
 [[nodiscard]] inline std::string inbox_topic(const std::string& graph, const std::string& run,
                                              const std::string& process) {
