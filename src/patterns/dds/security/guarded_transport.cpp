@@ -2,8 +2,10 @@
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
 
+#include <span>
 #include <utility>
 
+#include "introductions.hpp"
 #include "orca/dds/gate.hpp"
 
 namespace orca::dds {
@@ -31,7 +33,8 @@ class GuardedTransport final : public rtps::ChainingTransport {
 
   void receive(rtps::TransportReceiverInterface* next, const octet* bytes, std::uint32_t size,
                const Locator_t& here, const Locator_t& sender) override {
-    if (gate_->lets_in({bytes, size}, sender)) next->OnDataReceived(bytes, size, here, sender);
+    const std::span packet(bytes, size);
+    if (gate_->lets_in(packet, sender)) introductions_.pass(packet, *next, here, sender);
   }
 
  private:
@@ -41,6 +44,7 @@ class GuardedTransport final : public rtps::ChainingTransport {
   };
 
   Descriptor descriptor_;
+  Introductions introductions_;
   const std::shared_ptr<Gate> gate_;
 };
 
