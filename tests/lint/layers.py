@@ -168,7 +168,7 @@ LAYERS = (
           module=SUPERVISOR),
     Layer("supervisor_processes", (f"{SUPERVISOR}/processes",), ("orca/supervisor/",), ("supervisor_channel", "graph", "base"),
           module=SUPERVISOR),
-    Layer("supervisor_bulletin", (f"{SUPERVISOR}/bulletin",), ("orca/supervisor/bulletin.hpp",), ("dds_security", "keys", "base"), ("fastdds",),
+    Layer("supervisor_bulletin", (f"{SUPERVISOR}/bulletin",), ("orca/supervisor/bulletin.hpp",), ("dds_security", "keys", "idl", "base"), ("fastdds",),
           module=f"{SUPERVISOR}/bulletin"),
     Layer("supervisor_agreed", (f"{SUPERVISOR}/agreed",), ("orca/supervisor/system_facts.hpp",
           "orca/supervisor/supervised_options.hpp"), ("supervisor_processes", "supervisor_channel", "host", "graph",

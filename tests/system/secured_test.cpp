@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Systems with security="on": what starts, and what strangers in the network achieve.
 #include <arpa/inet.h>
+#include <dlfcn.h>
 #include <netinet/ip.h>
 #include <netinet/udp.h>
 #include <sys/socket.h>
@@ -20,8 +21,11 @@
 #include "forged_keys.hpp"
 #include "hosted_system.hpp"
 #include "key_home.hpp"
+#include "orca/idl/machines.hpp"
+#include "orca/idl/object_type.hpp"
 #include "orca/keys/authority.hpp"
 #include "orca/keys/key_ring.hpp"
+#include "orca/supervisor/bulletin.hpp"
 #include "pair_of_machines.hpp"
 
 using namespace orca;
@@ -229,6 +233,43 @@ TEST_CASE("keys are renewed and a process is revoked while the others run", "[sy
   CHECK(run_orcactl({"restart", "relay"}, Seconds(10)).exit_code() == 0);  // it has new keys
   system.flows_without(revoked_relay, mark);
   CHECK_FALSE(stop(system).says("GAVE_UP"));
+}
+
+TEST_CASE("a machine with keys speaks for itself, and for no other machine", "[system][security]") {
+  const KeyHome home;
+  home.make({kDrive}, {"--set", "security=on"});
+  void* const library = dlopen(ORCA_BINARY_DIR "/lib/liborca_bulletin.so", RTLD_NOW | RTLD_LOCAL);
+  REQUIRE(library != nullptr);
+  const auto open_one =
+      reinterpret_cast<decltype(&supervisor::orca_open_bulletin)>(dlsym(library, "orca_open_bulletin"));
+  const auto opened = [&](const std::string& machine, const supervisor::HearState& hear) {
+    Error error;
+    std::unique_ptr<supervisor::Bulletin> made(open_one(
+        {"orca/two_machines/machines", "127.0.0.1", "", {}, home.of_system("two_machines") + "/" + machine},
+        hear, error));
+    INFO(error.message);
+    REQUIRE(made != nullptr);
+    return made;
+  };
+  const auto state_of = [](const std::string& machine) {
+    idl::MachineState state;
+    state.origin(machine);
+    std::vector<std::byte> bytes;
+    object_type<idl::MachineState>().serialize(&state, bytes);
+    return bytes;
+  };
+  std::atomic<int> of_base{0};
+  std::atomic<int> of_brain{0};
+  const auto brain = opened("brain", [&](std::span<const std::byte> bytes) {
+    idl::MachineState state;
+    if (!object_type<idl::MachineState>().deserialize(bytes, &state).ok()) return;
+    ++(state.origin() == "base" ? of_base : of_brain);
+  });
+  const auto base = opened("base", [](std::span<const std::byte>) {});
+  const auto forged = state_of("brain");
+  const auto own = state_of("base");
+  REQUIRE(comes_true([&] { return base->say(forged), base->say(own), of_base > 10; }, Seconds(10)));
+  CHECK(of_brain == 0);
 }
 
 TEST_CASE("a robot whose commands come with keys from another machine drives, until that one is revoked",

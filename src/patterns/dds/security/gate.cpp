@@ -74,10 +74,10 @@ void Gate::refuse(const std::string& sender, const std::string& why) {
   if (refused_.size() == kMostRefused) log::warning(kLogName, "further senders are dropped without a word");
 }
 
-bool Gate::is(std::span<const std::byte> guid, const std::string& process) const {
+std::optional<keys::Certificate> Gate::certificate_of(std::span<const std::byte> guid) const {
   const MutexLock lock(mutex_);
   const auto known = ring_.known().find(mark_in(guid));
-  return known != ring_.known().end() && known->second.process == process;
+  return known == ring_.known().end() ? std::nullopt : std::optional(known->second);
 }
 
 void Gate::look() {

@@ -2,6 +2,7 @@
 #include "orca/supervisor/bulletin.hpp"
 
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -21,6 +22,8 @@
 #include "orca/base/files/key_folder.hpp"
 #include "orca/base/network_address.hpp"
 #include "orca/dds/gate.hpp"
+#include "orca/idl/machines.hpp"
+#include "orca/idl/object_type.hpp"
 #include "state_type.hpp"
 
 namespace orca::supervisor {
@@ -138,7 +141,18 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
     StateType::Sample sample;
     dds::SampleInfo info;
     while (reader->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK)
-      if (info.valid_data) hear_(sample);
+      if (info.valid_data && may_say(info, sample)) hear_(sample);
+  }
+
+  // In a secured system a machine speaks for itself only.
+  [[nodiscard]] bool may_say(const dds::SampleInfo& info, const StateType::Sample& sample) const {
+    if (gate_ == nullptr) return true;
+    const auto& writer = info.sample_identity.writer_guid().guidPrefix.value;
+    const auto certificate = gate_->certificate_of(std::as_bytes(std::span(writer)));
+    idl::MachineState state;
+    return certificate && certificate->process == kPeersKeys &&
+           object_type<idl::MachineState>().deserialize(sample, &state).ok() &&
+           state.origin() == certificate->machine;
   }
 
   const HearState hear_;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -41,9 +42,9 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
   /// Returns whether this process may speak.
   [[nodiscard]] bool lets_out() const { return !is_closed_.load(std::memory_order_relaxed); }
 
-  /// Returns whether a participant is that of a process.
+  /// Returns the certificate of a participant; nothing if the authority's list has none for it.
   /// @param guid  its GUID, or the beginning of it; at least 6 bytes.
-  [[nodiscard]] bool is(std::span<const std::byte> guid, const std::string& process) const;
+  [[nodiscard]] std::optional<keys::Certificate> certificate_of(std::span<const std::byte> guid) const;
 
   /// Reads the authority's list again if it has changed, and looks at the clock. To be called often; does so once a second.
   void look();
