@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "bulk_pools.hpp"
+
 namespace orca::bench {
 namespace {
 
@@ -17,40 +19,72 @@ MemoryFile make_file() { return RingSegment::create("bench").value(); }
 
 }  // namespace
 
-// A scan of one range orders so many scans to be made ready.
-struct ProcessPushPair::Both : test::Peer {
+void ScanLoad::order(Object& scan, const Order& order) {
+  scan.ranges().assign({static_cast<double>(order.count), static_cast<double>(order.size)});
+}
+
+std::optional<Order> ScanLoad::ordered(const Object& scan) {
+  if (scan.ranges().size() != 2) return std::nullopt;
+  return Order{static_cast<int>(scan.ranges()[0]), static_cast<std::size_t>(scan.ranges()[1])};
+}
+
+void ImageLoad::order(Object& image, const Order& order) {
+  image.width(static_cast<std::uint32_t>(order.count));
+  image.height(static_cast<std::uint32_t>(order.size));
+}
+
+std::optional<Order> ImageLoad::ordered(const Object& image) {
+  if (image.width() == 0) return std::nullopt;
+  return Order{static_cast<int>(image.width()), image.height()};
+}
+
+template <class Load>
+struct ProcessPushPair<Load>::Both : test::Peer {
+  using Object = typename Load::Object;
+
   Both(Executive& executive, const std::string& name) : Peer(executive, name) {}
 
-  void make_ready(int count, std::size_t ranges) {
-    ready = make_scans(count, ranges);
+  void make_ready(const Order& order) {
+    ready.clear();
+    for (int i = 0; i < order.count; ++i) {
+      ready.push_back(make_object<Object>());
+      Load::fill(*ready.back(), order.size);
+    }
+    // Filling large objects has driven the headers of the first ones out of the caches.
+    for (auto& object : ready) object->origin() = "publisher";
     next = 0;
   }
   void push_next() { out.push(std::move(ready[next++])); }
-  void order(double count) {
-    auto scan = out.loan();
-    scan->ranges().assign(1, count);
-    out.push(std::move(scan));
+  void order(const Order& order) {
+    auto object = out.loan();
+    Load::order(*object, order);
+    out.push(std::move(object));
   }
 
-  PushServer<Scan> out{*this, "out"};
-  PushProxy<Scan> in{*this, "in"};
-  std::vector<Loan<Scan>> ready;
+  PushServer<Object> out{*this, "out"};
+  PushProxy<Object> in{*this, "in"};
+  std::vector<Loan<Object>> ready;
   std::size_t next = 0;
 };
 
-ProcessPushPair::ProcessPushPair(Executive& executive, std::size_t ranges)
-    : ranges_(ranges),
-      there_(make_file()),
+template <class Load>
+ProcessPushPair<Load>::ProcessPushPair(Executive& executive)
+    : there_(make_file()),
       back_(make_file()),
+      pool_there_(test::make_pool()),
       other_([this](Executive& there) { echo(there); }),
       one_(std::make_unique<Both>(executive, "publisher")) {
+  test::provide(test::own_pool());
+  test::note_peer("subscriber", pool_there_);
   connect(*one_, false);
   one_->strand().wait_for(kForever, [this] { return one_->out.subscriber_count() == 1; });
 }
 
-ProcessPushPair::~ProcessPushPair() = default;
+template <class Load>
+ProcessPushPair<Load>::~ProcessPushPair() = default;
 
-void ProcessPushPair::connect(Both& peer, bool is_child) {
+template <class Load>
+void ProcessPushPair<Load>::connect(Both& peer, bool is_child) {
   DoorbellWord& own = is_child ? page_->child : page_->parent;
   DoorbellWord& others = is_child ? page_->parent : page_->child;
   const QueuePolicy policy{.depth = 2};
@@ -62,23 +96,28 @@ void ProcessPushPair::connect(Both& peer, bool is_child) {
   peer.in.subscribe();
 }
 
-void ProcessPushPair::echo(Executive& executive) {
+template <class Load>
+void ProcessPushPair<Load>::echo(Executive& executive) {
+  test::provide(pool_there_);
+  test::note_peer("publisher", test::own_pool());
   Both other(executive, "subscriber");
   connect(other, true);
   for (;;) {
-    const ObjectPtr<Scan> got = other.in.get_update_wait();
-    if (got->ranges().size() == 1) {
-      other.make_ready(static_cast<int>(got->ranges()[0]), ranges_);
-      other.order(0.0);
+    const auto got = other.in.get_update_wait();
+    if (const std::optional<Order> order = Load::ordered(*got)) {
+      other.make_ready(*order);
+      other.order({1, 0});
     } else {
       other.push_next();
     }
   }
 }
 
-Nanoseconds ProcessPushPair::time(int round_trips) {
-  one_->make_ready(round_trips + kWarmUp, ranges_);
-  one_->order(round_trips + kWarmUp);
+template <class Load>
+Nanoseconds ProcessPushPair<Load>::time(int round_trips, std::size_t size) {
+  const Order order{round_trips + kWarmUp, size};
+  one_->make_ready(order);
+  one_->order(order);
   (void)one_->in.get_update_wait();
   const auto run = [this](int count) {
     for (int i = 0; i < count; ++i) {
@@ -89,6 +128,9 @@ Nanoseconds ProcessPushPair::time(int round_trips) {
   run(kWarmUp);
   return time_per_operation(2 * round_trips, [&] { run(round_trips); });
 }
+
+template class ProcessPushPair<ScanLoad>;
+template class ProcessPushPair<ImageLoad>;
 
 struct ProcessQueryPair::Asker : test::Peer {
   explicit Asker(Executive& executive) : Peer(executive, "asker") {}

@@ -13,18 +13,29 @@ constexpr std::size_t kMessage = 128;  // [bytes] about a question with its head
 
 void push_beside_ring(benchmark::State& state, Row& row, std::size_t ranges, int round_trips) {
   run_on(kThreads, [&](Executive& executive) {
-    ProcessPushPair pair(executive, ranges);
+    ProcessPushPair<ScanLoad> pair(executive);
     BareProcessPair bare(ranges * sizeof(double));
     alternate(
-        state, row, round_trips, [&](int n) { return pair.time(n); }, [&](int n) { return bare.time(n); });
+        state, row, round_trips, [&](int n) { return pair.time(n, ranges); },
+        [&](int n) { return bare.time(n); });
   });
 }
 
 void push_beside_copy(benchmark::State& state, Row& row) {
   run_on(kThreads, [&](Executive& executive) {
-    ProcessPushPair pair(executive, kImage);
+    ProcessPushPair<ScanLoad> pair(executive);
     alternate(
-        state, row, 1, [&](int n) { return pair.time(n); }, copy_image);
+        state, row, 1, [&](int n) { return pair.time(n, kImage); }, copy_image);
+  });
+}
+
+// An image of 1 MB beside one of 16 bytes, on the same edge.
+void push_large_beside_small(benchmark::State& state, Row& row) {
+  run_on(kThreads, [&](Executive& executive) {
+    ProcessPushPair<ImageLoad> pair(executive);
+    alternate(
+        state, row, 5, [&](int n) { return pair.time(n, kImage * sizeof(double)); },
+        [&](int n) { return pair.time(n, 16); });
   });
 }
 
@@ -43,6 +54,8 @@ void register_shm() {
   add_row({"push 3 KB between processes", "ring + futex between processes", ratio_at_most(1.6)}, 2000,
           [](auto& state, Row& row) { push_beside_ring(state, row, kLaser, 5); });
   add_row({"push 1 MB between processes", "memcpy of 1 MB", ratio_at_most(2.5)}, 200, push_beside_copy);
+  add_row({"push an image of 1 MB between processes", "one of 16 bytes, same edge", ratio_at_most(1.3)}, 2000,
+          push_large_beside_small);
   add_row({"query between processes", "two messages, ring + futex", ratio_at_most(1.6)}, 2000,
           query_beside_ring);
 }

@@ -14,29 +14,23 @@ function(orca_generate_idl name)
     message(FATAL_ERROR "orca_generate_idl(${name} ...): write orca_generate_idl(${name} FILES one.idl two.idl)")
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  find_program(ORCA_FASTDDSGEN fastddsgen)
-  if(NOT ORCA_FASTDDSGEN)
-    message(FATAL_ERROR "orca_generate_idl(${name} ...): there is no fastddsgen, which makes the C++ classes; install the package fastddsgen")
-  endif()
   list(TRANSFORM arg_FILES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]" OUTPUT_VARIABLE files)
   set(include ${CMAKE_CURRENT_BINARY_DIR}/idl/${name}/include)
   set(made ${include}/${name}/generated)
-  set(classes)
   set(headers)
   foreach(file ${files})
     cmake_path(GET file STEM stem)
-    list(APPEND classes ${made}/${stem}.cxx)
     list(APPEND headers ${include}/${name}/${stem}.hpp ${made}/${stem}.h ${made}/${stem}.types.hpp ${made}/${stem}.reflection.hpp)
   endforeach()
   file(GLOB inputs CONFIGURE_DEPENDS ${ORCA_IDL_TOOLS}/*.py ${ORCA_IDL_FILES}/*.idl)
   add_custom_command(
-    OUTPUT ${classes} ${headers} ${made}/object_types.cpp ${made}/object_layouts.cpp ${made}/${name}.types
-    COMMAND ${Python3_EXECUTABLE} -B ${ORCA_IDL_TOOLS}/generate.py --fastddsgen ${ORCA_FASTDDSGEN} --out ${include} --library ${name}
+    OUTPUT ${headers} ${made}/object_types.cpp ${made}/object_layouts.cpp ${made}/${name}.types
+    COMMAND ${Python3_EXECUTABLE} -B ${ORCA_IDL_TOOLS}/generate.py --out ${include} --library ${name}
             --orca ${ORCA_IDL_FILES} ${files}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${ORCA_PLUGIN_DIR}
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${made}/${name}.types ${ORCA_PLUGIN_DIR}/${name}.types
     DEPENDS ${files} ${inputs} COMMENT "C++ from the IDL files of ${name}" VERBATIM)
-  orca_add_object_library(${name} ${made} ${include} ${classes} ${made}/object_types.cpp)
+  orca_add_object_library(${name} ${made} ${include} ${headers} ${made}/object_types.cpp)
 endfunction()
 
 # The library, from what was generated. Nobody here could mend what a compiler warns of in generated code.

@@ -58,6 +58,30 @@ std::size_t CdrReader::read_count(std::size_t element_size) {
   return count;
 }
 
+bool CdrReader::read_reference(BulkReference& reference) {
+  const std::size_t start = (at_ + sizeof kBulkMark - 1) / sizeof kBulkMark * sizeof kBulkMark;
+  std::uint32_t mark = 0;
+  if (source_ == nullptr || start > payload_.size() || payload_.size() - start < sizeof mark) return false;
+  std::memcpy(&mark, payload_.data() + start, sizeof mark);
+  if (mark != kBulkMark) return false;
+  at_ = start + sizeof mark;
+  for (std::uint64_t* const number : {&reference.loan, &reference.offset, &reference.size}) read(*number);
+  return true;
+}
+
+BulkBlock* CdrReader::borrow(const BulkReference& reference, std::size_t element_size) {
+  if (failed()) return nullptr;
+  if (reference.size % element_size != 0) {
+    problem_ = "a reference to " + std::to_string(reference.size) + " bytes, for elements of " +
+               std::to_string(element_size);
+    return nullptr;
+  }
+  const Result<BulkBlock*> block = source_->borrow(reference);
+  if (block) return *block;
+  problem_ = block.error().message;
+  return nullptr;
+}
+
 void CdrReader::note_field(std::string_view name) {
   path_ = path_.empty() ? std::string(name) : std::string(name) + "." + path_;
 }

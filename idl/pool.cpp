@@ -92,6 +92,7 @@ void Pool::take_back() {
 // the list, and all at once. So it does not matter whether the first slot has left the list and come back
 // since it was read.
 void Pool::recycle(Slot* slot) noexcept {
+  if (type_.bulk != nullptr) type_.bulk->let_go(slot->object);
   slot->next_free = returned_.load(std::memory_order_relaxed);
   while (!returned_.compare_exchange_weak(slot->next_free, slot, std::memory_order_release,
                                           std::memory_order_relaxed)) {

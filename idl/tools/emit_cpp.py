@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Writes the C++ that describes IDL types: field visitors, and the table of object types."""
+"""Writes the C++ of IDL types: their classes, field visitors, and the table of object types."""
 
 import re
 from pathlib import Path
 
-from idl_model import Enum, IdlFile, Struct, layout_hash
+from idl_model import Enum, Field, IdlFile, Primitive, Struct, layout_hash
 
 HEAD = "// SPDX-License-Identifier: LGPL-3.0-or-later\n// Written by idl/tools/generate.py from the IDL files.\n"
 
@@ -36,9 +36,60 @@ def struct_reflection(struct: Struct) -> str:
         f"template <>\nstruct Reflection<{struct.cpp}> {{\n"
         f"  static constexpr std::string_view name = {quoted(struct.name)};\n"
         f"  static constexpr std::size_t min_wire_size = {struct.wire_size};\n"
+        f"  static constexpr bool has_bulk = {str(struct.has_bulk).lower()};\n"
         f"  template <class Object, class Visitor>\n"
         f"  static void fields(Object& object, Visitor& visitor) {{\n{body}\n  }}\n}};\n"
     )
+
+
+NUMBERS = {"bool": "bool", "uint8": "std::uint8_t", "int32": "std::int32_t", "uint32": "std::uint32_t", "int64": "std::int64_t",
+           "uint64": "std::uint64_t", "double": "double", "string": "std::string"}
+
+
+def cpp_type(field: Field) -> str:
+    """Returns the C++ type of a field."""
+    kind = NUMBERS[field.type.layout] if isinstance(field.type, Primitive) else field.type.full_cpp
+    if field.array is not None:
+        return f"std::array<{kind}, {field.array}>"
+    if field.sequence:
+        return f"::orca::Bulk<{kind}>" if field.bulk else f"std::vector<{kind}>"
+    return kind
+
+
+def accessors(field: Field) -> str:
+    """Returns what reads, changes and sets a field. A single number or enumerator is returned by value."""
+    kind, name = cpp_type(field), field.name
+    is_small = not field.sequence and field.array is None and (isinstance(field.type, Enum) or kind in NUMBERS.values() and kind != "std::string")
+    returned = kind if is_small else f"const {kind}&"
+    text = f"  {returned} {name}() const {{ return m_{name}; }}\n  {kind}& {name}() {{ return m_{name}; }}\n"
+    if is_small:
+        return text + f"  void {name}({kind} value) {{ m_{name} = value; }}\n"
+    return text + (f"  void {name}(const {kind}& value) {{ m_{name} = value; }}\n"
+                   f"  void {name}({kind}&& value) {{ m_{name} = std::move(value); }}\n")
+
+
+def class_of(struct: Struct) -> str:
+    base = f" : public {struct.base.full_cpp}" if struct.base else ""
+    return (f"class {struct.word}{base} {{\n public:\n" + "\n".join(map(accessors, struct.fields)) +
+            f"\n  bool operator==(const {struct.word}&) const = default;\n\n private:\n" +
+            "".join(f"  {cpp_type(f)} m_{f.name}{{}};\n" for f in struct.fields) + "};\n")
+
+
+def enum_of(enum: Enum) -> str:
+    return f"enum {enum.word} : std::uint32_t {{ {', '.join(enum.enumerators)} }};\n"
+
+
+def classes_header(file: IdlFile) -> str:
+    """Returns the classes of the structs: plain values, with the accessors that the IDL-to-C++ mapping of DDS has."""
+    space = file.module or "orca::idl"
+    parts = [HEAD, "#pragma once\n\n"]
+    parts += [f"#include <{name}>\n" for name in ("array", "cstdint", "string", "utility", "vector")]
+    parts.append('\n#include "orca/idl/bulk.hpp"\n')
+    parts += [f'#include "{i.place}/generated/{Path(i.name).stem}.h"\n' for i in file.includes]
+    parts.append(f"\nnamespace {space} {{\n\n")
+    parts.append("\n".join([*map(enum_of, file.enums), *map(class_of, file.structs)]))
+    parts.append(f"\n}}  // namespace {space}\n")
+    return "".join(parts)
 
 
 def reflection_header(file: IdlFile) -> str:

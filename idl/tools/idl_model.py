@@ -32,6 +32,11 @@ class Named:
         """The class in C++, as seen from namespace orca."""
         return f"::{self.module}::{self.word}" if self.module else f"idl::{self.name}"
 
+    @property
+    def full_cpp(self) -> str:
+        """The class in C++, as seen from everywhere."""
+        return f"::{self.module or 'orca::idl'}::{self.word}"
+
 
 @dataclass(frozen=True)
 class Primitive:
@@ -78,6 +83,8 @@ class Field:
     text: str
     sequence: bool = False
     array: Optional[int] = None
+    #: A sequence that is marked @bulk.
+    bulk: bool = False
 
     @property
     def layout(self) -> str:
@@ -139,6 +146,11 @@ class Struct(Named):
         if first and isinstance(first.type, Struct) and first.type.name != "TimeValue" and not first.sequence and first.array is None:
             return head + first.type.text_names + [f.name for f in own[1:]]
         return head + [f.name for f in own]
+
+    @property
+    def has_bulk(self) -> bool:
+        """Whether it has fields marked @bulk, its own or those of its parts."""
+        return any(f.bulk or (isinstance(f.type, Struct) and f.type.has_bulk) for f in self.all_fields)
 
     @property
     def root(self) -> "Struct":

@@ -9,6 +9,7 @@ its unit in brackets: `double speed;  ///< [m/s] forward positive`.
 
 A line `/// @travels` in the comment before a plain struct says that it can also be sent on its own, with OrcaObject's header in
 front (ADR 0031). Its base, if it has one, must be marked too.
+A line `/// @bulk` before a sequence of octets or numbers says that it may be long: it need not be copied between processes (ADR 0104).
 """
 
 import difflib
@@ -24,6 +25,8 @@ TOKEN = re.compile(
 )
 RESERVED = ("orca", "std", "eprosima")  # namespaces that generated code uses
 TRAVELS = "@travels"  # in the comment before a plain struct
+BULK = "@bulk"  # the comment before a sequence of octets or numbers
+BULK_ELEMENTS = [p for name, p in PRIMITIVES.items() if name not in ("boolean", "string")]
 HINTS = {
     "float": "use double",
     "short": "use long",
@@ -221,7 +224,7 @@ class Parser:
             self.field(struct)
         self.expect(";")
         if not struct.fields:
-            raise self.error(f"struct {name.text} needs a field of its own; fastddsgen cannot do without", name)
+            raise self.error(f"struct {name.text} needs a field of its own", name)
         names = struct.text_names
         for twice in {n for n in names if names.count(n) > 1}:
             raise self.error(f"'{twice}' would be twice on an element of {name.text}: its first field is a struct, whose fields are "
@@ -241,6 +244,10 @@ class Parser:
 
     def field(self, struct: Struct):
         start = self.peek()
+        mark = self.comment_before()
+        if mark not in ("", BULK):
+            raise self.error(f"found '/// {mark}': what a field means stands behind it, after '///<'; before it only {BULK} may stand", start)
+        start = self.peek()
         sequence = self.accept("sequence")
         if sequence:
             self.expect("<")
@@ -251,6 +258,8 @@ class Parser:
             self.expect(">")
             if kind is PRIMITIVES["boolean"]:
                 raise self.error("sequence<boolean> is not supported: use sequence<octet>", start)
+        if mark and not (sequence and kind in BULK_ELEMENTS):
+            raise self.error(f"{BULK} is for a sequence of octets or numbers only", start)
         name = self.identifier("a field", r"[a-z][a-z0-9_]*", "in snake_case")
         if any(f.name == name.text for f in struct.all_fields):
             raise self.error(f"{struct.name} has a field '{name.text}' already, of its own or inherited", name)
@@ -259,7 +268,7 @@ class Parser:
         array = self.array_size(sequence)
         self.expect(";")
         unit, text = self.field_comment(kind, name)
-        struct.fields.append(Field(name.text, kind, unit, text, sequence, array))
+        struct.fields.append(Field(name.text, kind, unit, text, sequence, array, bool(mark)))
 
     def array_size(self, sequence: bool):
         if not self.accept("["):

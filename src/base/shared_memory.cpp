@@ -21,16 +21,16 @@ Error system_error(Code code, const std::string& what) {
 }
 
 // Gives a new file its size, for ever.
-bool fix_size(int descriptor, std::size_t size) {
-  return ftruncate(descriptor, static_cast<off_t>(size)) == 0 &&
-         fcntl(descriptor, F_ADD_SEALS, kFixedSize | F_SEAL_SEAL) == 0;
+bool fix_size(int descriptor, std::size_t size, MemoryFile::Writers writers) {
+  const int seals = writers == MemoryFile::Writers::all ? kFixedSize | F_SEAL_SEAL : kFixedSize;
+  return ftruncate(descriptor, static_cast<off_t>(size)) == 0 && fcntl(descriptor, F_ADD_SEALS, seals) == 0;
 }
 
 }  // namespace
 
-Result<MemoryFile> MemoryFile::create(const std::string& name, std::size_t size) {
+Result<MemoryFile> MemoryFile::create(const std::string& name, std::size_t size, Writers writers) {
   MemoryFile file(memfd_create(name.substr(0, kLongestName).c_str(), MFD_CLOEXEC | MFD_ALLOW_SEALING));
-  if (file.descriptor_ < 0 || !fix_size(file.descriptor_, size))
+  if (file.descriptor_ < 0 || !fix_size(file.descriptor_, size, writers))
     return system_error(Code::unavailable,
                         "no memory file of " + std::to_string(size) + " bytes for " + name);
   return file;
@@ -47,7 +47,7 @@ MemoryFile::~MemoryFile() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-Result<SharedMemory> SharedMemory::map(int descriptor) {
+Result<SharedMemory> SharedMemory::map(int descriptor, Use use) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0)
     return system_error(Code::invalid_argument, "descriptor " + std::to_string(descriptor));
@@ -56,11 +56,17 @@ Result<SharedMemory> SharedMemory::map(int descriptor) {
     return fail(Code::invalid_argument,
                 "descriptor " + std::to_string(descriptor) + " is no memory file of a fixed size");
   const auto size = static_cast<std::size_t>(status.st_size);
-  void* const place = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+  const int access = use == Use::reads ? PROT_READ : PROT_READ | PROT_WRITE;
+  void* const place = mmap(nullptr, size, access, MAP_SHARED, descriptor, 0);
   if (place == MAP_FAILED)
     return system_error(Code::unavailable, "cannot map " + std::to_string(size) + " bytes of shared memory");
-  madvise(place, size, MADV_DONTFORK);  // what a copy of the process tries out must not reach other processes
-  return SharedMemory({static_cast<std::byte*>(place), size});
+  SharedMemory memory({static_cast<std::byte*>(place), size});
+  if (use == Use::owns && fcntl(descriptor, F_ADD_SEALS, F_SEAL_FUTURE_WRITE | F_SEAL_SEAL) != 0)
+    return system_error(Code::unavailable, "cannot keep others from writing shared memory");
+  if (use == Use::shares)
+    madvise(place, size,
+            MADV_DONTFORK);  // what a copy of the process tries out must not reach other processes
+  return memory;
 }
 
 SharedMemory::SharedMemory(SharedMemory&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}

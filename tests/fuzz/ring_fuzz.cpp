@@ -9,11 +9,15 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 
 #include "all_ports.hpp"
+#include "bulk_pools.hpp"
 #include "orca/base/log.hpp"
+#include "orca/idl/sensing.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
+#include "shm/bulk_loans.hpp"
 
 namespace {
 
@@ -24,8 +28,13 @@ using Input = std::span<const std::uint8_t>;
 
 constexpr std::size_t kCapacity = 4096;  // [bytes]
 
-ShmEnd& make_end(AllPorts& node, std::uint8_t choice, RingSegment segment, const ShmPeer& peer) {
-  switch (choice % 6) {
+struct Node : AllPorts {
+  using AllPorts::AllPorts;
+  PushProxy<idl::Image> pictures{*this, "pictures"};
+};
+
+ShmEnd& make_end(Node& node, std::uint8_t choice, RingSegment segment, const ShmPeer& peer) {
+  switch (choice % 7) {
     case 0: return make_shm_end(port<PushServerEndpoint>(node, "out"), std::move(segment), peer, {});
     case 1:
       return make_shm_end(port<PushClientEndpoint>(node, "in"), std::move(segment), peer, {.depth = 4},
@@ -33,14 +42,20 @@ ShmEnd& make_end(AllPorts& node, std::uint8_t choice, RingSegment segment, const
     case 2: return make_shm_end(port<SendServerEndpoint>(node, "taker"), std::move(segment), peer, {});
     case 3: return make_shm_end(port<SendClientEndpoint>(node, "sender"), std::move(segment), peer, {});
     case 4: return make_shm_end(port<QueryServerEndpoint>(node, "answerer"), std::move(segment), peer);
-    default: return make_shm_end(port<QueryClientEndpoint>(node, "question"), std::move(segment), peer);
+    case 5: return make_shm_end(port<QueryClientEndpoint>(node, "question"), std::move(segment), peer);
+    default:
+      return make_shm_end(port<PushClientEndpoint>(node, "pictures"), std::move(segment), peer, {.depth = 4},
+                          Duration{0});
   }
 }
 
 // Lets the component do whatever may make it write, or look at what it has received.
-void act(AllPorts& node) {
+void act(Node& node) {
   node.out.push(full_stop());
   if (node.in.connected()) (void)node.in.get_update_wait_max(Duration{0});
+  if (node.pictures.connected())
+    if (const auto image = node.pictures.get_update_wait_max(Duration{0}))
+      (void)std::accumulate(image->data().begin(), image->data().end(), 0U);
   if (const auto id = node.sender.send_request(full_stop())) (void)node.sender.send_receive(*id);
   if (const auto id = node.question.query_request(node.question.loan()))
     (void)node.question.query_receive(*id);
@@ -62,11 +77,15 @@ void run(Executive& executive, Input input) {
   const RingSegment theirs = RingSegment::map(file.descriptor()).value();
   DoorbellWord own{0};
   DoorbellWord others{0};
-  AllPorts node(executive, "node");
+  test::provide_to_itself();
+  // A peer that has a pool says so.
+  shm::loans_in(theirs.memory().bytes(), 1).pool = BulkPool::own().identity();
+  Node node(executive, "node");
   node.strand().set_doorbell(own);
   ShmEnd& end = make_end(node, input[0], RingSegment::map(file.descriptor()).value(), {"peer.port", &others});
   node.open();
   if (node.in.connected()) node.in.subscribe();
+  if (node.pictures.connected()) node.pictures.subscribe();
   input = input.subspan(1);
   while (input.size() > 3) {
     write_piece(theirs.memory().bytes(), input);

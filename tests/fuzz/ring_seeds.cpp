@@ -6,7 +6,10 @@
 #include <string>
 
 #include "all_ports.hpp"
+#include "bulk_pools.hpp"
+#include "orca/idl/sensing.hpp"
 #include "orca/patterns/shm/shm_edges.hpp"
+#include "shm/bulk_loans.hpp"
 
 namespace {
 
@@ -14,9 +17,21 @@ using namespace orca;
 using test::AllPorts;
 using test::port;
 
+struct Camera : test::Peer {
+  explicit Camera(Executive& executive) : Peer(executive, "server") {}
+  PushServer<idl::Image> out{*this, "out"};
+};
+struct Viewer : test::Peer {
+  explicit Viewer(Executive& executive) : Peer(executive, "client") {}
+  PushProxy<idl::Image> in{*this, "in"};
+};
+
 // One edge, with both ends here.
 struct Edge {
-  explicit Edge(Executive& executive) : client(executive, "peer"), server(executive, "peer") {
+  explicit Edge(Executive& executive)
+      : client(executive, "peer"), server(executive, "peer"), camera(executive), viewer(executive) {
+    camera.strand().set_doorbell(bells[1]);
+    viewer.strand().set_doorbell(bells[0]);
     client.strand().set_doorbell(bells[0]);
     server.strand().set_doorbell(bells[1]);
     server.open();
@@ -38,6 +53,18 @@ struct Edge {
     (void)client.sender.send_request(full_stop());
     server.strand().take_in();
   }
+  // Pushes an image whose bytes are lent.
+  void show() {
+    test::provide_to_itself();
+    make_shm_end(port<PushServerEndpoint>(camera, "out"), map(), to_client(), {});
+    make_shm_end(port<PushClientEndpoint>(viewer, "in"), map(), to_server(), {}, Duration{0});
+    viewer.in.subscribe();
+    camera.strand().take_in();
+    shm::loans_in(map().memory().bytes(), 1).readable = BulkPool::own().identity();
+    auto image = camera.out.loan();
+    image->data().resize(20'000);
+    camera.out.push(std::move(image));
+  }
   void ask() {
     make_shm_end(port<QueryServerEndpoint>(server, "answerer"), map(), to_client());
     make_shm_end(port<QueryClientEndpoint>(client, "question"), map(), to_server());
@@ -50,6 +77,8 @@ struct Edge {
   DoorbellWord bells[2] = {};
   AllPorts client;
   AllPorts server;
+  Camera camera;
+  Viewer viewer;
 };
 
 void write_piece(std::ofstream& out, std::span<const std::byte> segment, std::size_t at, std::size_t count) {
@@ -85,6 +114,9 @@ int main(int argc, char** argv) {
         write_seed(std::string(argv[1]) + "/" + std::to_string(2 * pattern + side), edge, 2 * pattern + side,
                    side);
     }
+    Edge edge(*executive);
+    edge.show();
+    write_seed(std::string(argv[1]) + "/6", edge, 6, 1);
   });
   return 0;
 }

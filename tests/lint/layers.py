@@ -42,7 +42,7 @@ LAYERS = (
     Layer("base", ("src/base",), ("orca/base/",), libraries=("fmt",)),
     Layer("log", ("src/base/log",), (), ("base",), ("spdlog", "fmt")),
     Layer("executive", ("src/base/executive",), (), ("base",), ("boost",)),
-    Layer("idl", ("idl",), ("orca/idl/",), ("base",), ("fastcdr",), ("fastcdr",)),
+    Layer("idl", ("idl",), ("orca/idl/",), ("base",)),
     Layer("xml", ("src/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
     Layer("text", ("src/text",), ("orca/text/",), ("idl", "xml", "base")),
     Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "bulk_pools.hpp"
+
 namespace orca::test {
 
 // Ends the help for an end before the end itself goes, because the port destroys it first.
@@ -34,6 +36,7 @@ RingSegment map(const MemoryFile& file) { return RingSegment::map(file.descripto
 
 ShmLinks::ShmLinks(Executive& executive, std::size_t capacity)
     : executive_(executive), capacity_(capacity), end_(executive.make_event()) {
+  provide_to_itself();
   task_ = executive_.spawn({"helper", 0}, [this] { work(); });
 }
 

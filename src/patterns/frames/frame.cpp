@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 // Writes what fits into memory of a fixed size, and counts the rest.
 class Writer {
  public:
-  explicit Writer(std::span<std::byte> to) : to_(to) {}
+  Writer(std::span<std::byte> to, detail::BulkLender* lender) : to_(to), lender_(lender) {}
 
   void add(std::span<const std::byte> bytes) {
     const auto rest = free();
@@ -34,7 +34,9 @@ class Writer {
   }
   void add(const ObjectRef& object) {
     add_plain(object.type().layout_hash);
-    used_ += object.type().write(object.get(), free());
+    const bool may_lend = lender_ != nullptr && object.type().bulk != nullptr;
+    used_ += may_lend ? object.type().bulk->write(object.get(), free(), *lender_)
+                      : object.type().write(object.get(), free());
   }
   [[nodiscard]] std::size_t size() const { return used_; }
 
@@ -42,6 +44,7 @@ class Writer {
   [[nodiscard]] std::span<std::byte> free() const { return to_.subspan(std::min(used_, to_.size())); }
 
   std::span<std::byte> to_;
+  detail::BulkLender* lender_;
   std::size_t used_ = 0;
 };
 
@@ -54,8 +57,8 @@ std::string no_subtype(const ObjectType& wanted, std::uint64_t hash) {
 
 }  // namespace
 
-std::size_t Frame::write(std::span<std::byte> to) const {
-  Writer writer(to);
+std::size_t Frame::write(std::span<std::byte> to, detail::BulkLender* lender) const {
+  Writer writer(to, lender);
   writer.add_plain(static_cast<std::uint64_t>(kind_));
   writer.add_plain(number_);
   for (std::size_t i = 0; i < number_count_; ++i) writer.add_plain(numbers_[i]);
@@ -67,14 +70,17 @@ std::size_t Frame::write(std::span<std::byte> to) const {
   return writer.size();
 }
 
-void Frame::append_to(std::vector<std::byte>& bytes) const {
+void Frame::append_to(std::vector<std::byte>& bytes, detail::BulkLender* lender) const {
   const std::size_t start = bytes.size();
-  bytes.resize(start + write({}));
-  write(std::span(bytes).subspan(start));
+  bytes.resize(start + write({}, lender));
+  write(std::span(bytes).subspan(start), lender);
 }
 
 FrameReader::FrameReader(std::span<const std::byte> frame, Duration clock_ahead)
     : rest_(frame), clock_ahead_(clock_ahead), kind_(read_kind()), number_(read_plain<std::uint64_t>()) {}
+FrameReader::FrameReader(std::span<const std::byte> frame, detail::BulkSource* source) : FrameReader(frame) {
+  source_ = source;
+}
 
 FrameKind FrameReader::read_kind() {
   const auto kind = read_plain<std::uint64_t>();
@@ -115,7 +121,11 @@ Result<ObjectRef> FrameReader::read_object(const ObjectType& wanted) {
   const ObjectType* const type = find_subtype(wanted, hash);
   if (type == nullptr) return fail(Code::data_loss, no_subtype(wanted, hash));
   ObjectLoan loan = make_object(*type);
-  if (Status read = type->deserialize(std::exchange(rest_, {}), loan.get()); !read.ok()) return read.error();
+  const auto bytes = std::exchange(rest_, {});
+  const bool may_borrow = source_ != nullptr && type->bulk != nullptr;
+  Status read = may_borrow ? type->bulk->deserialize(bytes, loan.get(), *source_)
+                           : type->deserialize(bytes, loan.get());
+  if (!read.ok()) return read.error();
   shift_times(loan, -clock_ahead_);
   return std::move(loan).seal();
 }

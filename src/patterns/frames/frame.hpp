@@ -11,6 +11,7 @@
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/object.hpp"
 
 namespace orca::frames {
@@ -64,10 +65,11 @@ class Frame {
 
   /// Encodes the frame as far as it fits into `to`.
   /// @return the bytes that the whole frame takes. If `to` has fewer, its contents are unspecified.
-  std::size_t write(std::span<std::byte> to) const;
+  /// @param lender  lends the object's bulk data, which is not encoded then; null: nothing is lent.
+  std::size_t write(std::span<std::byte> to, detail::BulkLender* lender = nullptr) const;
 
   /// Appends the encoded frame.
-  void append_to(std::vector<std::byte>& bytes) const;
+  void append_to(std::vector<std::byte>& bytes, detail::BulkLender* lender = nullptr) const;
 
  private:
   FrameKind kind_;
@@ -87,6 +89,8 @@ class FrameReader {
  public:
   /// @param clock_ahead  by how much the sender's clock is ahead of this one [s]: the instants in its objects are set back by that.
   explicit FrameReader(std::span<const std::byte> frame, Duration clock_ahead = Duration{0});
+  /// @param source  of bulk data that the peer has lent; null: it lends none.
+  explicit FrameReader(std::span<const std::byte> frame, detail::BulkSource* source);
 
   [[nodiscard]] FrameKind kind() const { return kind_; }
   [[nodiscard]] std::uint64_t number() const { return number_; }
@@ -108,6 +112,7 @@ class FrameReader {
 
   std::span<const std::byte> rest_;
   Duration clock_ahead_;
+  detail::BulkSource* source_ = nullptr;
   bool cut_short_ = false;
   FrameKind kind_;
   std::uint64_t number_;

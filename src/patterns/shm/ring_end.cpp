@@ -14,14 +14,32 @@ namespace {
 
 constexpr std::size_t kMostUnsent = std::size_t{64} << 20;  // [bytes]
 
-Ring outgoing(const RingSegment& segment, Side side) {
-  return ring_in(segment.memory().bytes(), static_cast<std::size_t>(side));
+Ring ring_of(const RingSegment& segment, Side writer) {
+  return ring_in(segment.memory().bytes(), static_cast<std::size_t>(writer));
 }
-Ring incoming(const RingSegment& segment, Side side) {
-  return ring_in(segment.memory().bytes(), 1 - static_cast<std::size_t>(side));
+LoanControl& loans_of(const RingSegment& segment, Side writer) {
+  return loans_in(segment.memory().bytes(), static_cast<std::size_t>(writer));
 }
+Side other(Side side) { return side == Side::client ? Side::server : Side::client; }
 
 }  // namespace
+
+Incoming::Incoming(const RingSegment& segment, Side writer)
+    : ring(ring_of(segment, writer)), bulk(segment.share(), loans_of(segment, writer)) {}
+
+void Incoming::restart(const RingSegment& segment, Side writer) {
+  ring.take_over(ring_of(segment, writer));
+  bulk.restart(segment.share(), loans_of(segment, writer));
+}
+
+Outgoing::Outgoing(const RingSegment& segment, Side writer) : ring(ring_of(segment, writer)) {
+  bulk->restart(segment.share(), loans_of(segment, writer));
+}
+
+void Outgoing::restart(const RingSegment& segment, Side writer) {
+  ring = RingWriter(ring_of(segment, writer));
+  bulk->restart(segment.share(), loans_of(segment, writer));
+}
 
 RingEnd::RingEnd(Side side, RingSegment segment, Strand& strand, ShmPeer peer, std::string name)
     : side_(side),
@@ -29,8 +47,8 @@ RingEnd::RingEnd(Side side, RingSegment segment, Strand& strand, ShmPeer peer, s
       peer_(std::move(peer)),
       name_(std::move(name)),
       segment_(std::move(segment)),
-      reader_(incoming(segment_, side)),
-      writer_(outgoing(segment_, side)) {}
+      incoming_(segment_, other(side)),
+      outgoing_(segment_, side) {}
 
 RingEnd::~RingEnd() { stop(); }
 
@@ -45,7 +63,8 @@ void RingEnd::stop() {
   const MutexLock lock(mutex_);
   handlers_ = {};
   cut_ = true;
-  writer_.close();
+  outgoing_.ring.close();
+  outgoing_.bulk->leave();
   ring(*peer_.doorbell);
 }
 
@@ -57,6 +76,7 @@ Sent RingEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
     const MutexLock lock(mutex_);
     if (is_cut() || fault_) return Sent::cut;
     outcome = write_or_keep(frame, loss);
+    outgoing_.bulk->settle(outcome == Sent::yes);
   }
   if (outcome == Sent::yes) ring(*peer_.doorbell);
   return outcome;
@@ -64,7 +84,8 @@ Sent RingEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
 
 Sent RingEnd::write_or_keep(const Frame& frame, Loss loss) {
   if (!unsent_.empty()) return loss == Loss::allowed ? Sent::no_room : keep(frame);
-  const Result<Written> written = writer_.write([&](std::span<std::byte> to) { return frame.write(to); });
+  const Result<Written> written =
+      outgoing_.ring.write([&](std::span<std::byte> to) { return frame.write(to, outgoing_.bulk.get()); });
   if (!written) {
     note_fault(written.error());
     return Sent::cut;
@@ -80,15 +101,15 @@ Sent RingEnd::write_or_keep(const Frame& frame, Loss loss) {
 // Keeps a frame until the peer has read others.
 Sent RingEnd::keep(const Frame& frame) {
   std::vector<std::byte> bytes;
-  frame.append_to(bytes);
-  if (bytes.size() > writer_.largest()) {
+  frame.append_to(bytes, outgoing_.bulk.get());
+  if (bytes.size() > outgoing_.ring.largest()) {
     note_too_large();
     return Sent::too_large;
   }
   unsent_bytes_ += bytes.size();
   unsent_.push_back(std::move(bytes));
   waits_ = true;
-  writer_.set_waits(true);
+  outgoing_.ring.set_waits(true);
   write_unsent();  // the peer may have read meanwhile, without a look at the announcement
   if (unsent_bytes_ > kMostUnsent)
     note_fault(fail(Code::unavailable, std::to_string(unsent_bytes_) + " bytes wait to be read by it"));
@@ -100,7 +121,7 @@ bool RingEnd::write_unsent() {
   bool any = false;
   while (!unsent_.empty() && !fault_) {
     const std::vector<std::byte>& bytes = unsent_.front();
-    const Result<Written> written = writer_.write([&](std::span<std::byte> to) {
+    const Result<Written> written = outgoing_.ring.write([&](std::span<std::byte> to) {
       if (bytes.size() <= to.size()) std::copy(bytes.begin(), bytes.end(), to.begin());
       return bytes.size();
     });
@@ -111,7 +132,7 @@ bool RingEnd::write_unsent() {
     any = true;
   }
   if (unsent_.empty() && !fault_) {
-    writer_.set_waits(false);
+    outgoing_.ring.set_waits(false);
     waits_ = false;
   }
   return any;
@@ -134,7 +155,7 @@ void RingEnd::note_fault(const Error& error) {
 
 void RingEnd::note_too_large() {
   if (std::exchange(warned_, true)) return;
-  log::warning(name_, "an object takes more than the " + std::to_string(writer_.largest()) +
+  log::warning(name_, "an object takes more than the " + std::to_string(outgoing_.ring.largest()) +
                           " bytes that this link can carry; it and others like it are dropped");
 }
 
@@ -142,7 +163,7 @@ void RingEnd::note_too_large() {
 
 bool RingEnd::has_news() const {
   if (is_to_change_.load(std::memory_order_acquire)) return true;
-  return !is_cut() && (reader_.has_news() || waits_.load(std::memory_order_relaxed));
+  return !is_cut() && (incoming_.ring.has_news() || waits_.load(std::memory_order_relaxed));
 }
 
 bool RingEnd::take_in() {
@@ -170,24 +191,25 @@ void RingEnd::receive_all() {
 }
 
 Status RingEnd::receive_frames() {
-  if (Status looked = reader_.look(); !looked.ok()) return looked;
+  if (Status looked = incoming_.ring.look(); !looked.ok()) return looked;
   bool any = false;
   for (;;) {
-    const auto record = reader_.next();
+    const auto record = incoming_.ring.next();
     if (!record) return record.error();
     if (!record->has_value()) break;
     Status handled = handle(**record);
-    reader_.release();
+    incoming_.ring.release();
     any = true;
     if (!handled.ok()) return handled;
   }
-  if (any && reader_.writer_waits()) ring(*peer_.doorbell);
+  if (any && incoming_.ring.writer_waits()) ring(*peer_.doorbell);
   return ok();
 }
 
 Status RingEnd::handle(std::span<const std::byte> record) {
   traffic_.frames_received.fetch_add(1, std::memory_order_relaxed);
-  FrameReader frame(record);
+  if (record.size() >= detail::kLeastBulk) incoming_.bulk.look();
+  FrameReader frame(record, &incoming_.bulk);
   if (Status handled = handlers_.receive(frame); !handled.ok()) return handled;
   return frame.status();
 }
@@ -211,7 +233,7 @@ void RingEnd::lose(const Error& reason) {
   {
     const MutexLock lock(mutex_);
     cut_.store(true, std::memory_order_release);
-    writer_.close();
+    outgoing_.ring.close();
   }
   ring(*peer_.doorbell);
   handlers_.cut(reason);
@@ -220,7 +242,7 @@ void RingEnd::lose(const Error& reason) {
 void RingEnd::cut(Error reason) {
   {
     const MutexLock lock(change_mutex_);
-    change_ = Change{std::move(reason), std::nullopt};
+    change_ = Change{std::move(reason), std::nullopt, true};
   }
   is_to_change_.store(true, std::memory_order_release);
   strand_.wake();
@@ -230,7 +252,8 @@ void RingEnd::renew(RingSegment segment) {
   {
     const MutexLock lock(change_mutex_);
     const Error reason = change_ ? change_->reason : fail(Code::unavailable, "its peer was replaced");
-    change_.emplace(Change{reason, std::move(segment)});
+    const bool is_gone = change_ && change_->is_gone;
+    change_.emplace(Change{reason, std::move(segment), is_gone});
   }
   is_to_change_.store(true, std::memory_order_release);
   strand_.wake();
@@ -245,6 +268,10 @@ bool RingEnd::apply_change() {
   }
   if (!change) return false;
   if (!is_cut()) lose(change->reason);
+  if (change->is_gone) {
+    const MutexLock lock(mutex_);
+    outgoing_.bulk->take_back();
+  }
   if (change->segment) replace(std::move(*change->segment));
   return true;
 }
@@ -253,8 +280,8 @@ void RingEnd::replace(RingSegment segment) {
   {
     const MutexLock lock(mutex_);
     segment_ = std::move(segment);
-    reader_.take_over(incoming(segment_, side_));
-    writer_ = RingWriter(outgoing(segment_, side_));
+    incoming_.restart(segment_, other(side_));
+    outgoing_.restart(segment_, side_);
     unsent_.clear();
     unsent_bytes_ = 0;
     fault_.reset();

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bulk_loans.hpp"
 #include "frames/frame_end.hpp"
 #include "orca/base/mutex.hpp"
 #include "orca/base/strand.hpp"
@@ -19,6 +21,24 @@ namespace orca::shm {
 
 /// Which end of an edge: the client writes the first ring of a segment, the server the second.
 enum class Side : std::size_t { client, server };
+
+/// The ring that an end reads, and the bulk data that comes with it.
+struct Incoming {
+  Incoming(const RingSegment& segment, Side writer);
+  void restart(const RingSegment& segment, Side writer);
+
+  RingReader ring;
+  Borrowing bulk;
+};
+
+/// The ring that an end writes, and the bulk data that it lends.
+struct Outgoing {
+  Outgoing(const RingSegment& segment, Side writer);
+  void restart(const RingSegment& segment, Side writer);
+
+  RingWriter ring;
+  std::shared_ptr<Loans> bulk = Loans::make();
+};
 
 /// One end of a link through two rings. Frames are written straight into one of them, and read straight out of the
 /// other. A peer that writes what cannot be, or does not read, is cut off.
@@ -50,6 +70,7 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   struct Change {
     Error reason;
     std::optional<RingSegment> segment;
+    bool is_gone = false;  // the peer's process has ended
   };
 
   [[nodiscard]] bool has_news() const;
@@ -62,7 +83,7 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   void lose(const Error& reason);
   void cut_off(const Error& reason);
   [[nodiscard]] std::optional<Error> fault() const;
-  [[nodiscard]] bool is_closed_by_peer() const { return reader_.is_closed(); }
+  [[nodiscard]] bool is_closed_by_peer() const { return incoming_.ring.is_closed(); }
 
   frames::Sent write_or_keep(const frames::Frame& frame, frames::Loss loss) ORCA_REQUIRES(mutex_);
   frames::Sent keep(const frames::Frame& frame) ORCA_REQUIRES(mutex_);
@@ -79,11 +100,11 @@ class RingEnd final : public frames::FrameEnd, public Intake, public ShmEnd {
   RingSegment segment_;
 
   Mutex reading_;  // held by whoever takes in
-  RingReader reader_;
+  Incoming incoming_;
   std::atomic<bool> cut_{false};
 
   mutable Mutex mutex_;
-  RingWriter writer_ ORCA_GUARDED_BY(mutex_);
+  Outgoing outgoing_ ORCA_GUARDED_BY(mutex_);
   std::deque<std::vector<std::byte>> unsent_
       ORCA_GUARDED_BY(mutex_);  // frames that found no room yet, oldest first
   std::size_t unsent_bytes_ ORCA_GUARDED_BY(mutex_) = 0;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <utility>
 
+#include "orca/idl/bulk_pool.hpp"
 #include "ring.hpp"
 
 namespace orca {
@@ -39,10 +40,14 @@ Result<RingSegment> RingSegment::map(int descriptor) {
   return segment;
 }
 
-std::size_t RingSegment::capacity() const { return (memory_.bytes().size() - shm::kControlSize) / 2; }
+std::size_t RingSegment::capacity() const { return (memory_->bytes().size() - shm::kControlSize) / 2; }
 
 std::uint64_t RingSegment::written_by_client() const {
-  return shm::ring_in(memory_.bytes(), 0).control->written.load(std::memory_order_relaxed);
+  return shm::ring_in(memory_->bytes(), 0).control->written.load(std::memory_order_relaxed);
+}
+
+Result<MemoryFile> create_bulk_pool(const std::string& process) {
+  return MemoryFile::create("orca bulk data of " + process, kBulkPoolSize, MemoryFile::Writers::owner);
 }
 
 }  // namespace orca

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, sys.argv.pop(1))
 
-from emit_cpp import library_source, reflection_header, type_table, types_header, types_list  # noqa: E402
+from emit_cpp import classes_header, library_source, reflection_header, type_table, types_header, types_list  # noqa: E402
 from generate import check_library, own_files  # noqa: E402
 from idl_model import IdlError, layout_hash  # noqa: E402
 from idl_parser import load_files  # noqa: E402
@@ -69,6 +69,11 @@ class Refusals(unittest.TestCase):
         self.refuses(self.field("sequence<sequence<double> > x;  ///< [m]"), "put the inner one into a struct")
         self.refuses(self.field("sequence<double> x[3];  ///< [m]"), "put the sequence into a struct")
         self.refuses("/// Text.\ntypedef double Angle;", "expected 'enum' or 'struct': write the type out")
+
+    def test_bulk_data_is_a_sequence_of_octets_or_numbers(self):
+        self.refuses(self.field("/// @bulk\noctet x[3];  ///< text"), "test.idl:8: @bulk is for a sequence of octets or numbers only")
+        self.refuses(self.field("/// @bulk\nsequence<string> x;  ///< text"), "@bulk is for a sequence of octets or numbers only")
+        self.refuses(self.field("/// Text.\nlong x;  ///< text"), "before it only @bulk may stand")
 
     def test_a_number_needs_its_unit(self):
         self.refuses(self.field("double x;  ///< forward"), "test.idl:7: the number 'x' needs its unit")
@@ -316,6 +321,32 @@ class TypesOfOthers(unittest.TestCase):
 
     def test_letters_that_are_no_ascii_are_named_with_their_line(self):
         self.refuses(OWN.replace("where\n", "w\u00e4re\n"), "light.idl:7: the byte 0xc3 is no ASCII")
+
+
+class BulkData(unittest.TestCase):
+    MARKED = "/// Text.\nstruct Picture {\n  /// @bulk\n  sequence<octet> data;  ///< bytes\n};"
+    HOLDER = MARKED + "\n/// Text.\nstruct Album {\n  sequence<Picture> pictures;  ///< text\n};"
+
+    def test_the_mark_changes_the_class_and_not_the_type(self):
+        self.assertEqual(hash_of(self.MARKED), hash_of(self.MARKED.replace("  /// @bulk\n", "")))
+        self.assertIn("const ::orca::Bulk<std::uint8_t>& data() const", classes_header(parse(self.MARKED)))
+        self.assertIn("std::vector<std::uint8_t> m_data{};", classes_header(parse(self.MARKED.replace("  /// @bulk\n", ""))))
+
+    def test_whoever_holds_bulk_data_has_some(self):
+        self.assertEqual([s.has_bulk for s in parse(self.HOLDER).structs], [True, True])
+        self.assertIn("has_bulk = true", reflection_header(parse(self.HOLDER)))
+        self.assertIn("has_bulk = false", reflection_header(parse(STRUCT)))
+
+
+class Classes(unittest.TestCase):
+    def test_numbers_are_returned_by_value_and_all_else_by_reference(self):
+        text = classes_header(parse(ENUM + STRUCT + "/// Text.\nstruct Box : Spot {\n  Kind kind;  ///< text\n  string name;  ///< text\n"
+                                    "  double side[3];  ///< [m]\n  sequence<Spot> spots;  ///< text\n};"))
+        for part in ("enum Kind : std::uint32_t { RED, BLUE };", "class Box : public ::orca::idl::Spot {", "double x() const", "double& x()",
+                     "void x(double value)", "::orca::idl::Kind kind() const", "const std::string& name() const", "void name(std::string&& value)",
+                     "const std::array<double, 3>& side() const", "std::vector<::orca::idl::Spot>& spots()",
+                     "bool operator==(const Box&) const = default;"):
+            self.assertIn(part, text)
 
 
 if __name__ == "__main__":

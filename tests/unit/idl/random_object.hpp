@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "orca/base/random.hpp"
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/reflection.hpp"
 
 namespace orca::test {
@@ -41,6 +42,11 @@ class RandomFill {
   }
   template <class T>
   void fill(std::vector<T>& values) {
+    values.resize(below(4));
+    for (T& value : values) fill(value);
+  }
+  template <class T>
+  void fill(Bulk<T>& values) {
     values.resize(below(4));
     for (T& value : values) fill(value);
   }

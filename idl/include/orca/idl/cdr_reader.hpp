@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/cdr_writer.hpp"
 #include "orca/idl/reflection.hpp"
 
@@ -36,6 +37,8 @@ constexpr std::size_t min_wire_size() {
 class CdrReader {
  public:
   explicit CdrReader(std::span<const std::byte> payload) : payload_(payload) {}
+  /// Reads also references to bulk data that a peer has lent.
+  CdrReader(std::span<const std::byte> payload, BulkSource& source) : payload_(payload), source_(&source) {}
 
   template <class T>
   void field(const FieldInfo& info, T& value) {
@@ -74,6 +77,19 @@ class CdrReader {
       if (assign_in_place(values, count)) return;
     }
     values.resize(count);
+    read_elements(std::span<T>(values));
+  }
+  template <class T>
+  void read(Bulk<T>& values) {
+    if (BulkReference reference; read_reference(reference)) {
+      if (BulkBlock* const block = borrow(reference, sizeof(T)))
+        values.show(*block, reference.size / sizeof(T));
+      return;
+    }
+    const std::size_t count = read_count(sizeof(T));
+    if (failed()) return;
+    values.clear();
+    values.resize_for_overwrite(count);
     read_elements(std::span<T>(values));
   }
   template <class T, std::size_t N>
@@ -121,10 +137,15 @@ class CdrReader {
   /// Reads the length of a sequence; fails if the payload cannot hold as many elements.
   std::size_t read_count(std::size_t element_size);
   void copy_out(std::span<std::byte> to);
+  /// Reads a reference if one stands here; nothing is read otherwise.
+  bool read_reference(BulkReference& reference);
+  /// Returns the block of a reference; null, and it fails, if there is none or it holds no whole elements.
+  BulkBlock* borrow(const BulkReference& reference, std::size_t element_size);
   void note_field(std::string_view name);
   void fail_enumerator(std::string_view name, std::uint32_t found, std::size_t count);
 
   std::span<const std::byte> payload_;
+  BulkSource* source_ = nullptr;
   std::size_t at_ = 0;
   std::string problem_;
   std::string path_;

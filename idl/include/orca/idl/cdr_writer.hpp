@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/reflection.hpp"
 
 namespace orca::detail {
@@ -30,6 +31,8 @@ concept WireNumber = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 class CdrWriter {
  public:
   explicit CdrWriter(std::span<std::byte> to) : to_(to) {}
+  /// Writes references in place of the bulk data that `lender` lends. Only a reader with its peer can read them.
+  CdrWriter(std::span<std::byte> to, BulkLender& lender) : to_(to), lender_(&lender) {}
 
   /// Returns the number of bytes that the values take so far, whether they fitted or not.
   [[nodiscard]] std::size_t size() const { return used_; }
@@ -67,8 +70,24 @@ class CdrWriter {
   void write(const std::array<T, N>& values) {
     write_elements(std::span<const T>(values));
   }
+  template <class T>
+  void write(const Bulk<T>& values) {
+    if (lends(values.block(), values.size() * sizeof(T))) return;
+    write(static_cast<std::uint32_t>(values.size()));
+    write_elements(std::span<const T>(values));
+  }
 
  private:
+  bool lends(BulkBlock* block, std::size_t size) {
+    if (lender_ == nullptr || block == nullptr || size < kLeastBulk) return false;
+    const std::optional<BulkReference> reference = lender_->lend(*block);
+    if (!reference) return false;
+    write(kBulkMark);
+    for (const std::uint64_t number : {reference->loan, reference->offset, std::uint64_t{size}})
+      write(number);
+    return true;
+  }
+
   template <class T>
   void write_elements(std::span<const T> values) {
     if constexpr (WireNumber<T>) {
@@ -95,6 +114,7 @@ class CdrWriter {
   }
 
   std::span<std::byte> to_;
+  BulkLender* lender_ = nullptr;
   std::size_t used_ = 0;
 };
 

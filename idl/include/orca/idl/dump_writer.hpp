@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/generated/time.h"
 #include "orca/idl/reflection.hpp"
 
@@ -62,6 +63,10 @@ class DumpWriter {
   }
   template <class T, std::size_t N>
   void write(const std::array<T, N>& values) {
+    write_list(std::span<const T>(values));
+  }
+  template <class T>
+  void write(const Bulk<T>& values) {
     write_list(std::span<const T>(values));
   }
   template <class T>

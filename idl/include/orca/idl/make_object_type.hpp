@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/cdr_reader.hpp"
 #include "orca/idl/cdr_writer.hpp"
 #include "orca/idl/dump_writer.hpp"
@@ -60,6 +61,52 @@ struct Operations {
   }
 };
 
+/// A visitor that gives back all blocks of bulk data.
+struct BulkRelease {
+  template <class T>
+  void field(const FieldInfo&, T& value) {
+    let_go(value);
+  }
+  template <class T>
+  void let_go(Bulk<T>& values) {
+    values.let_go();
+  }
+  template <class T>
+  void let_go(T& value) {
+    if constexpr (ReflectedStruct<T>) {
+      if constexpr (Reflection<T>::has_bulk) Reflection<T>::fields(value, *this);
+    } else if constexpr (requires { typename T::value_type; }) {
+      if constexpr (ReflectedStruct<typename T::value_type>)
+        for (auto& element : value) let_go(element);
+    }
+  }
+};
+
+template <class T>
+struct OperationsOnBulk {
+  static std::size_t write(const void* object, std::span<std::byte> to, BulkLender& lender) {
+    CdrWriter writer(to, lender);
+    Reflection<T>::fields(*static_cast<const T*>(object), writer);
+    return writer.size();
+  }
+  static Status deserialize(std::span<const std::byte> payload, void* object, BulkSource& source) {
+    CdrReader reader(payload, source);
+    Reflection<T>::fields(*static_cast<T*>(object), reader);
+    return reader.status(Reflection<T>::name);
+  }
+  static void let_go(void* object) noexcept {
+    BulkRelease release;
+    Reflection<T>::fields(*static_cast<T*>(object), release);
+  }
+  static constexpr BulkOperations all{write, deserialize, let_go};
+};
+
+template <class T>
+constexpr const BulkOperations* bulk_operations() {
+  if constexpr (Reflection<T>::has_bulk) return &OperationsOnBulk<T>::all;
+  return nullptr;
+}
+
 template <class T>
 constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t layout_hash,
                                       const ObjectType* parent, Pool& pool) {
@@ -81,6 +128,7 @@ constexpr ObjectType make_object_type(std::string_view layout, std::uint64_t lay
           .write = Do::write,
           .serialize = Do::serialize,
           .deserialize = Do::deserialize,
+          .bulk = bulk_operations<T>(),
           .pool = pool};
 }
 

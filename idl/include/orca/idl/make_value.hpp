@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "orca/idl/bulk.hpp"
 #include "orca/idl/generated/time.h"
 #include "orca/idl/value.hpp"
 
@@ -59,11 +60,20 @@ Value make_value(std::array<T, N>& list) {
   return {make_list(list)};
 }
 
+template <class List>
+Value make_sequence(List& list) {
+  ListValue value = make_list(list);
+  value.resize = [](void* l, std::size_t count) { static_cast<List*>(l)->resize(count); };
+  return {value};
+}
+
 template <class T>
 Value make_value(std::vector<T>& list) {
-  ListValue value = make_list(list);
-  value.resize = [](void* l, std::size_t count) { static_cast<std::vector<T>*>(l)->resize(count); };
-  return {value};
+  return make_sequence(list);
+}
+template <class T>
+Value make_value(Bulk<T>& list) {
+  return make_sequence(list);
 }
 
 /// A visitor that passes on the fields of a struct without their C++ types.

@@ -21,7 +21,17 @@ class OrcaObject;
 
 namespace detail {
 class Pool;
-}
+class BulkLender;
+class BulkSource;
+
+/// The operations that objects with bulk data have besides. They do as those of ObjectType, but bulk data is lent where it can be.
+struct BulkOperations {
+  std::size_t (*write)(const void* object, std::span<std::byte> to, BulkLender& lender);
+  Status (*deserialize)(std::span<const std::byte> payload, void* object, BulkSource& source);
+  void (*let_go)(void* object) noexcept;  ///< Gives back all blocks of bulk data.
+};
+
+}  // namespace detail
 
 /// The description of an object type, with which the framework makes, copies, moves and shows objects without
 /// their C++ type. One constant per type lives in liborca_idl.so, so two types are the same exactly if their
@@ -61,6 +71,8 @@ struct ObjectType {
   /// @errors  data_loss if the payload is cut short, too long, or holds an invalid value. The object is then
   ///          valid, but its fields are unspecified.
   Status (*deserialize)(std::span<const std::byte> payload, void* object);
+
+  const detail::BulkOperations* bulk;  ///< Null: it has no bulk data.
 
   detail::Pool& pool;  ///< The memory of all objects of this type.
 };

@@ -21,6 +21,7 @@ struct FieldInfo {
 /// Specialised for each struct by idl/tools/generate.py:
 ///   name           IDL name
 ///   min_wire_size  [bytes] the fewest that a value takes in XCDR1, without padding
+///   has_bulk       whether it has fields of bulk data, its own or those of its parts
 ///   fields(object, visitor)  calls visitor.field(FieldInfo, value) for each field, inherited ones first. The
 ///                  value is a reference, or a copy of a number of a const object; writers take `const T&`,
 ///                  readers `T&`.

@@ -44,6 +44,7 @@ struct Reflection<Travelling<T>> {
   static constexpr std::string_view name = Reflection<T>::name;
   static constexpr std::size_t min_wire_size =
       Reflection<idl::OrcaObject>::min_wire_size + Reflection<T>::min_wire_size;
+  static constexpr bool has_bulk = Reflection<T>::has_bulk;
 
   template <class Object, class Visitor>
   static void fields(Object& object, Visitor& visitor) {

@@ -50,9 +50,19 @@ void transfer(auto& archive, Status& status) {
   status = std::move(error);
 }
 
+// Transfers a descriptor that may be missing.
+void transfer_optional(auto& archive, Descriptor& descriptor) {
+  bool is_there = descriptor.number() >= 0;
+  transfer(archive, is_there);
+  if (is_there) transfer(archive, descriptor);
+}
+
 void transfer(auto& archive, EdgeMemory& edge) {
   transfer(archive, edge.edge);
   transfer(archive, edge.memory);
+  transfer(archive, edge.peer);
+  transfer_optional(archive, edge.pool);
+  transfer(archive, edge.peer_is_new);
 }
 
 void transfer(auto& archive, Duration& time) {
@@ -102,9 +112,7 @@ void transfer(auto& archive, graph::Edge& edge) {
 void transfer(auto& archive, EdgeChange& change) {
   transfer(archive, change.edge);
   transfer(archive, change.makes);
-  bool has_memory = change.memory.number() >= 0;
-  transfer(archive, has_memory);
-  if (has_memory) transfer(archive, change.memory);
+  transfer_optional(archive, change.memory);
 }
 
 template <class T>

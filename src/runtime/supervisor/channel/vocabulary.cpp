@@ -10,6 +10,7 @@ void fields(auto& archive, StateKept& m) { transfer(archive, m); }
 void fields(auto& archive, Setup& m) {
   transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.edges, m.doorbells, m.states,
                m.processes);
+  transfer_optional(archive, m.pool);
 }
 void fields(auto& /*archive*/, Build& /*m*/) {}
 void fields(auto& /*archive*/, OpenHardware& /*m*/) {}

@@ -18,6 +18,7 @@
 #include "orca/graph/placement.hpp"
 #include "orca/host/hosted_part.hpp"
 #include "orca/host/stop_signal.hpp"
+#include "orca/idl/bulk_pool.hpp"
 #include "orca/plugin/index.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/meeting_place.hpp"
@@ -54,7 +55,10 @@ using Memory = std::map<std::string, Descriptor>;
 
 Memory memory_of(std::vector<EdgeMemory>& edges) {
   Memory memory;
-  for (EdgeMemory& edge : edges) memory.emplace(edge.edge, std::move(edge.memory));
+  for (EdgeMemory& edge : edges) {
+    note_pool(edge);
+    memory.emplace(edge.edge, std::move(edge.memory));
+  }
   return memory;
 }
 
@@ -72,6 +76,7 @@ Result<std::optional<std::uint64_t>> await_build(Channel& channel, Memory& memor
     if (std::holds_alternative<CutEdge>(next->order)) continue;  // new memory will come
     auto* const renew = std::get_if<RenewEdge>(&next->order);
     if (renew == nullptr) return wrong_sequence();
+    note_pool(renew->edge);
     memory.insert_or_assign(renew->edge.edge, std::move(renew->edge.memory));
   }
 }
@@ -96,6 +101,8 @@ class Life {
     Status made = prepare(setup);
     answer(made, request);
     if (!made.ok()) return made;
+    if (setup.pool)
+      if (const Status given = BulkPool::own().provide(std::move(setup.pool)); !given.ok()) return given;
     Memory memory = memory_of(setup.edges);
     const auto build = await_build(*channel_, memory);
     if (!build) return build.error();

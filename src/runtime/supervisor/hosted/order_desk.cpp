@@ -17,6 +17,7 @@
 #include "counter_records.hpp"
 #include "orca/base/distant_log.hpp"
 #include "orca/base/exhaustion.hpp"
+#include "orca/idl/bulk_pool.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/supervisor/log_name.hpp"
@@ -85,6 +86,12 @@ host::PartOrder arrival_order(AddComponent& added) {
 }
 
 }  // namespace
+
+void note_pool(EdgeMemory& edge) {
+  if (!edge.pool) return;
+  if (const Status noted = PeerPools::all().note(edge.peer, std::move(edge.pool)); !noted.ok())
+    log::warning(edge.peer, "its bulk data will be copied: " + noted.error().message);
+}
 
 OrderDesk::OrderDesk(std::shared_ptr<Channel> channel, host::PartAccess& part, ReportSender& reports,
                      Site site)
@@ -213,8 +220,12 @@ std::optional<Answer> OrderDesk::answer_of(Order& order) {
   if (auto* outlive = std::get_if<Outlive>(&order)) return Answer{prepare_to_outlive(*outlive)};
   if (std::holds_alternative<Count>(order)) return Answer{ok(), to_records(part_.counters())};
   if (auto* line = std::get_if<OpenLine>(&order)) return Answer{lines_.open(std::move(*line))};
-  if (auto* renew = std::get_if<RenewEdge>(&order))
+  if (auto* renew = std::get_if<RenewEdge>(&order)) {
+    note_pool(renew->edge);
+    if (renew->edge.peer_is_new)
+      part_.cut_edge(renew->edge.edge, fail(Code::unavailable, "its peer was replaced"));
     return Answer{part_.renew_edge(renew->edge.edge, std::move(renew->edge.memory))};
+  }
   if (const auto* move = std::get_if<MoveEdge>(&order)) return Answer{part_.move_edge(move->edge)};
   return std::nullopt;
 }

@@ -22,6 +22,9 @@
 
 namespace orca::supervisor {
 
+/// Notes the pool of the process at the other end of an edge, where it came with the edge's memory.
+void note_pool(EdgeMemory& edge);
+
 /// The thread of a host process that listens to the supervisor: it passes orders on to the part, sends the answers, and
 /// beats. If the supervisor is gone, it stops the motors and ends the process; if the supervisor has said Outlive before, it
 /// lets the part go on, and waits for another supervisor.

@@ -46,7 +46,7 @@ Starter::Begun Starter::start(const Members& members) {
       continue;
     }
     begun.members.push_back(member);
-    begun.setups.push_back(setup(*member, std::move(lots->by_process[member->name()])));
+    begun.setups.push_back(setup(*member, *lots));
   }
   if (lots) renew_others(members, *lots);
   return begun;
@@ -84,12 +84,20 @@ HostStart Starter::plain_start(const std::string& name) const {
   return {name, options_.program, options_.arguments, std::nullopt, {}, 0};
 }
 
-Setup Starter::setup(const Member& member, std::vector<EdgeMemory> edges) {
+// Takes what is the member's out of the lots.
+Setup Starter::setup(const Member& member, Wiring::Lots& lots) {
   const RunWishes wishes{
       options_.seed.value_or(1), options_.log_level,        steady_epoch(),      run_.start,
       options_.executor,         options_.planned_failures, outputs_for(member), run_.name};
-  return {member.name(),    graph::print(graph_), to_pairs(wishes),   run_.page.descriptor(),
-          std::move(edges), doorbells_,           states_for(member), roster_.places()};
+  return {member.name(),
+          graph::print(graph_),
+          to_pairs(wishes),
+          run_.page.descriptor(),
+          std::move(lots.by_process[member.name()]),
+          doorbells_,
+          states_for(member),
+          roster_.places(),
+          std::move(lots.pools[member.name()])};
 }
 
 std::vector<StateKept> Starter::states_for(const Member& member) {

@@ -89,7 +89,7 @@ class Starter {
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
-  [[nodiscard]] Setup setup(const Member& member, std::vector<EdgeMemory> edges);
+  [[nodiscard]] Setup setup(const Member& member, Wiring::Lots& lots);
   [[nodiscard]] std::vector<StateKept> states_for(const Member& member);
   [[nodiscard]] host::RunOutputs outputs_for(const Member& member);
   void renew_others(const Members& started, Wiring::Lots& lots);

@@ -39,6 +39,10 @@ void Wiring::go_over(const graph::Graph& graph) {
 Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes,
                                   const std::set<std::string>& waking) {
   Lots lots;
+  lots.fresh = processes;
+  std::erase_if(pools_, [&](const auto& pool) {
+    return processes.contains(pool.first) && !waking.contains(pool.first);
+  });
   for (const Outer& outer : outer_) {
     if (!outer.needs_memory || !(processes.contains(outer.from) || processes.contains(outer.to))) continue;
     if (takes_over(outer, processes, waking)) {
@@ -48,6 +52,8 @@ Result<Wiring::Lots> Wiring::deal(const std::set<std::string>& processes,
       return dealt.error();
     }
   }
+  for (const auto& [process, file] : pools_)
+    if (processes.contains(process)) lots.pools.emplace(process, copy_of(file.descriptor()));
   return lots;
 }
 
@@ -69,7 +75,20 @@ Status Wiring::deal(const Outer& outer, Lots& lots) {
 }
 
 void Wiring::hand_out(const Outer& outer, const std::string& process, const MemoryFile& file, Lots& lots) {
-  lots.by_process[process].push_back({outer.name, copy_of(file.descriptor())});
+  const std::string& peer = process == outer.from ? outer.to : outer.from;
+  std::vector<EdgeMemory>& lot = lots.by_process[process];
+  const bool knows = std::ranges::find(lot, peer, &EdgeMemory::peer) != lot.end();
+  lot.push_back({outer.name, copy_of(file.descriptor()), peer, knows ? Descriptor{} : pool_of(peer),
+                 lots.fresh.contains(peer)});
+}
+
+// Returns the pool of a process, which has one as long as it runs. Without one, objects are copied.
+Descriptor Wiring::pool_of(const std::string& process) {
+  const auto known = pools_.find(process);
+  if (known != pools_.end()) return copy_of(known->second.descriptor());
+  Result<MemoryFile> file = create_bulk_pool(process);
+  if (!file) return {};
+  return copy_of(pools_.emplace(process, std::move(file).value()).first->second.descriptor());
 }
 
 // Keeps the memory of an edge at a process on demand.

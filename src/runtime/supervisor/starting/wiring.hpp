@@ -41,8 +41,10 @@ class Wiring {
   /// The new memory of the edges at some processes.
   struct Lots {
     std::map<std::string, std::vector<EdgeMemory>> by_process;
+    std::map<std::string, Descriptor> pools;  ///< For the bulk data of those processes that are started.
+    std::set<std::string> fresh = {};         ///< Those processes.
   };
-  /// Makes new memory for all edges that need it and have an end in one of the processes.
+  /// Makes new memory for all edges that need it and have an end in one of the processes, and new pools for those processes.
   /// @param waking  those of them that take over the memory which waits for them, where there is some.
   /// @errors  unavailable if the system gives none.
   [[nodiscard]] Result<Lots> deal(const std::set<std::string>& processes,
@@ -69,11 +71,13 @@ class Wiring {
   [[nodiscard]] bool takes_over(const Outer& outer, const std::set<std::string>& processes,
                                 const std::set<std::string>& waking) const;
   Status deal(const Outer& outer, Lots& lots);
-  static void hand_out(const Outer& outer, const std::string& process, const MemoryFile& file, Lots& lots);
+  void hand_out(const Outer& outer, const std::string& process, const MemoryFile& file, Lots& lots);
+  [[nodiscard]] Descriptor pool_of(const std::string& process);
   Status keep(const Outer& outer, MemoryFile file);
 
   std::vector<Outer> outer_;
-  std::map<std::string, Kept> kept_;  // by edge
+  std::map<std::string, Kept> kept_;         // by edge
+  std::map<std::string, MemoryFile> pools_;  // by process
 };
 
 }  // namespace orca::supervisor

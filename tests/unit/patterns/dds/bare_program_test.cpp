@@ -10,15 +10,16 @@
 #include <fastdds/dds/topic/Topic.hpp>
 
 #include <memory>
+#include <string>
 
 #include "dds_links.hpp"
 #include "executives.hpp"
 #include "on_loopback.hpp"
-#include "orca/idl/generated/motionPubSubTypes.h"
-#include "orca/idl/generated/navigationPubSubTypes.h"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "peer.hpp"
+#include "reference/motionPubSubTypes.h"
+#include "reference/navigationPubSubTypes.h"
 
 using namespace orca;
 using namespace orca::test;
@@ -47,6 +48,8 @@ class BareReader {
       : participant_(fd::DomainParticipantFactory::get_instance()->create_participant(dds_test_domain(),
                                                                                       on_loopback())) {
     fd::TypeSupport type(new PubSubType);
+    // The classes are in another namespace here, where Orca's own are, too.
+    type->setName(("orca" + type.get_type_name().substr(std::string("reference").size())).c_str());
     type.register_type(participant_);
     topic_ =
         participant_->create_topic("orca/test/publisher/out", type.get_type_name(), fd::TOPIC_QOS_DEFAULT);
@@ -80,10 +83,10 @@ TEST_CASE("a bare DDS program reads what a port publishes", "[patterns][dds]") {
     Publisher<idl::MotionCommand> publisher(executive);
     Subscriber<idl::MotionCommand> subscriber(executive);
     REQUIRE(links.connect(publisher.endpoint("out"), subscriber.endpoint("in")).ok());
-    BareReader<idl::MotionCommandPubSubType> bare;
+    BareReader<reference::idl::MotionCommandPubSubType> bare;
     subscriber.in.subscribe();
     REQUIRE(eventually(executive, [&] { return publisher.out.subscriber_count() == 1; }));
-    idl::MotionCommand read;
+    reference::idl::MotionCommand read;
     const bool came = eventually(executive, [&] {
       publisher.out.push(head(0.25, 0.5));
       return bare.take(read);
@@ -133,10 +136,10 @@ TEST_CASE("a bare DDS program reads a subtype as what its topic says", "[pattern
     Publisher<idl::GoalPoint> publisher(executive);
     Subscriber<idl::GoalPoint> subscriber(executive);
     REQUIRE(links.connect(publisher.endpoint("out"), subscriber.endpoint("in")).ok());
-    BareReader<idl::GoalPointPubSubType> bare;
+    BareReader<reference::idl::GoalPointPubSubType> bare;
     subscriber.in.subscribe();
     REQUIRE(eventually(executive, [&] { return publisher.out.subscriber_count() == 1; }));
-    idl::GoalPoint read;
+    reference::idl::GoalPoint read;
     const bool came = eventually(executive, [&] {
       Loan<idl::Door> door = make_object<idl::Door>();
       door->name() = "kitchen door";

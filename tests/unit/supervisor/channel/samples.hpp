@@ -21,8 +21,9 @@ inline std::vector<std::byte> some_bytes() { return {std::byte{1}, std::byte{0},
 inline supervisor::Setup setup() {
   supervisor::Setup setup{"base", "<graph/>",      {{"seed", "7"}, {"profile", "sim"}},     null_device(),
                           {},     {"a", "b", "c"}, {{"a", "test.Teller", 1, some_bytes()}}, {"base", ""}};
-  setup.edges.push_back({"a.out to b.in", null_device()});
-  setup.edges.push_back({"b.out to c.in", null_device()});
+  setup.edges.push_back({"a.out to b.in", null_device(), "arm", null_device()});
+  setup.edges.push_back({"b.out to c.in", null_device(), "arm"});
+  setup.pool = null_device();
   return setup;
 }
 

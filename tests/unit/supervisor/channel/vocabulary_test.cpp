@@ -93,7 +93,11 @@ TEST_CASE("Fields keep their values", "[supervisor][vocabulary]") {
   CHECK(read.options == Pairs{{"seed", "7"}, {"profile", "sim"}});
   CHECK(read.run_page);
   REQUIRE(read.edges.size() == 2);
+  CHECK(read.edges[0].pool);
   CHECK(read.edges[1].edge == "b.out to c.in");
+  CHECK(read.edges[1].peer == "arm");
+  CHECK_FALSE(read.edges[1].pool);
+  CHECK(read.pool);
   CHECK(read.doorbells == std::vector<std::string>{"a", "b", "c"});
 
   const auto rewiring = decode_order(encode(rewire()));

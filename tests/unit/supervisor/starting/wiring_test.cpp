@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "starting/wiring.hpp"
 
+#include <sys/stat.h>
 #include <catch2/catch.hpp>
 
 #include "open_descriptors.hpp"
@@ -94,8 +95,60 @@ TEST_CASE("the edges at a process are known by both of their ends", "[supervisor
   CHECK(wiring.edges_at("three")[0].to == "one");
 }
 
+namespace {
+
+std::uint64_t file_of(const Descriptor& descriptor) {
+  struct stat status {};
+  return descriptor && fstat(descriptor.number(), &status) == 0 ? status.st_ino : 0;
+}
+
+// Returns the pool of a process's peer, as the process gets it with an edge.
+std::uint64_t pool_at(const Wiring::Lots& lots, const std::string& process, std::size_t edge = 0) {
+  return file_of(lots.by_process.at(process).at(edge).pool);
+}
+
+}  // namespace
+
+TEST_CASE("each process gets a pool, and its peers get the same", "[supervisor][wiring]") {
+  Wiring wiring(wired_processes());
+  const auto lots = wiring.deal({"one", "two", "three"});
+  REQUIRE(lots);
+  CHECK(lots->pools.size() == 3);
+  CHECK(lots->by_process.at("two")[0].peer == "one");
+  CHECK(pool_at(*lots, "two") == file_of(lots->pools.at("one")));
+  CHECK(pool_at(*lots, "one", 0) == file_of(lots->pools.at("two")));
+  CHECK(pool_at(*lots, "one", 1) == file_of(lots->pools.at("three")));
+  CHECK(file_of(lots->pools.at("one")) != file_of(lots->pools.at("two")));
+}
+
+TEST_CASE("a peer's pool comes with the first edge to it", "[supervisor][wiring]") {
+  graph::Graph graph = wired_processes();
+  graph.edges.push_back(edge("b", "c"));
+  Wiring wiring(graph);
+  const auto lots = wiring.deal({"one", "two"});
+  REQUIRE(lots);
+  CHECK(pool_at(*lots, "two", 0) != 0);
+  CHECK(pool_at(*lots, "two", 1) == 0);
+}
+
+TEST_CASE("a process that is started again gets another pool, and its peers keep theirs",
+          "[supervisor][wiring]") {
+  Wiring wiring(wired_processes());
+  const auto first = wiring.deal({"one", "two", "three"});
+  REQUIRE(first);
+  const auto again = wiring.deal({"two"});
+  REQUIRE(again);
+  CHECK(again->pools.size() == 1);
+  CHECK(pool_at(*again, "one") == file_of(again->pools.at("two")));
+  CHECK(pool_at(*again, "one") != pool_at(*first, "one"));
+  CHECK(pool_at(*again, "two") == file_of(first->pools.at("one")));
+  CHECK(again->by_process.at("one")[0].peer_is_new);
+  CHECK_FALSE(again->by_process.at("two")[0].peer_is_new);
+}
+
 TEST_CASE("memory that nobody takes leaves no descriptor behind", "[supervisor][wiring]") {
   Wiring wiring(wired_processes());
+  REQUIRE(wiring.deal({"one", "two", "three"}));  // it keeps their pools
   const std::size_t before = test::open_descriptors();
   REQUIRE(wiring.deal({"one"}));
   CHECK(test::open_descriptors() == before);
@@ -154,6 +207,19 @@ TEST_CASE("what a client has written waits for a process on demand, and is found
   CHECK_FALSE(woken->by_process.contains("one"));  // it has its end
   CHECK(edges_of(*woken, "two") ==
         std::vector<std::string>{"a.out to c.in", "b.out to c.in", "c.out to e.in"});
+}
+
+TEST_CASE("a process on demand that wakes has the pool that its peers know",
+          "[supervisor][wiring][on_demand]") {
+  Wiring wiring(with_sleepers());
+  const auto lots = wiring.deal({"one", "three"});
+  REQUIRE(lots);
+  const auto woken = wiring.deal({"two"}, {"two"});
+  REQUIRE(woken);
+  CHECK(file_of(woken->pools.at("two")) == file_of(memory_of(*lots, "one", "a.out to c.in").pool));
+  const auto asleep = wiring.deal({"two"});
+  REQUIRE(asleep);
+  CHECK(file_of(asleep->pools.at("two")) != file_of(woken->pools.at("two")));
 }
 
 TEST_CASE("what a process on demand writes as a client of another process does not wake it",

@@ -15,10 +15,14 @@ namespace orca {
 /// Thread contract: one thread at a time.
 class MemoryFile {
  public:
+  /// Who may write: all who have it, or only the process that maps it as its owner (SharedMemory::Use::owns).
+  enum class Writers { all, owner };
+
   /// @param name  for people: it is shown in /proc/PID/maps, up to its 200th character.
   /// @param size  [bytes] > 0. The contents are zero and use memory only where they are written.
   /// @errors  unavailable if the system gives no more memory files or descriptors.
-  [[nodiscard]] static Result<MemoryFile> create(const std::string& name, std::size_t size);
+  [[nodiscard]] static Result<MemoryFile> create(const std::string& name, std::size_t size,
+                                                 Writers writers = Writers::all);
 
   MemoryFile(MemoryFile&& other) noexcept;
   MemoryFile& operator=(MemoryFile&& other) noexcept;
@@ -33,16 +37,22 @@ class MemoryFile {
   int descriptor_;  // -1: none
 };
 
-/// The contents of a MemoryFile, mapped into this process, to be read and written. A copy of the process, made by fork(), does not
-/// have them.
+/// The contents of a MemoryFile, mapped into this process. A copy of the process, made by fork(), has only those of an owner or reader.
 ///
 /// Thread contract: as plain memory. Other processes may write it at any time.
 class SharedMemory {
  public:
+  /// The use that this process makes of the contents.
+  enum class Use {
+    shares,  ///< Reads and writes, as others do.
+    owns,    ///< Reads and writes; from now on nobody else can map the file to be written.
+    reads    ///< Only reads.
+  };
+
   /// @param descriptor  of a memory file; the mapping does not need it afterwards.
   /// @errors  invalid_argument if it is no memory file, or one whose size can still change: a process that
-  /// shrank it would end this one.
-  [[nodiscard]] static Result<SharedMemory> map(int descriptor);
+  /// shrank it would end this one. unavailable if the system does not let it be owned.
+  [[nodiscard]] static Result<SharedMemory> map(int descriptor, Use use = Use::shares);
 
   SharedMemory(SharedMemory&& other) noexcept;
   SharedMemory& operator=(SharedMemory&& other) noexcept;

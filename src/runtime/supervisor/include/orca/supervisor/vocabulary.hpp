@@ -27,6 +27,9 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 struct EdgeMemory {
   std::string edge;
   Descriptor memory;
+  std::string peer = {};     ///< The process at its other end.
+  Descriptor pool = {};      ///< The bulk data of that process; empty: it came before, or there is none.
+  bool peer_is_new = false;  ///< That process has taken the place of one that has ended.
 };
 
 /// What a component has saved of its state.
@@ -51,7 +54,8 @@ struct Setup {
   std::vector<std::string> doorbells;  ///< The components whose doorbells are in the run page, in this order.
   std::vector<StateKept> states;       ///< With what components begin.
   std::vector<std::string>
-      processes;  ///< Those that have a place in the run page, in this order; "": nobody's.
+      processes;         ///< Those that have a place in the run page, in this order; "": nobody's.
+  Descriptor pool = {};  ///< For its bulk data, which its peers may read; empty: none.
 };
 /// Asks to construct all components and hardware and to connect the ports. Built comes before the answer.
 struct Build {

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "orca/base/result.hpp"
 #include "orca/base/shared_memory.hpp"
@@ -34,7 +36,9 @@ class RingSegment {
 
   /// Returns the capacity of each ring [bytes].
   [[nodiscard]] std::size_t capacity() const;
-  [[nodiscard]] const SharedMemory& memory() const { return memory_; }
+  [[nodiscard]] const SharedMemory& memory() const { return *memory_; }
+  /// Returns the memory for whoever needs it longer than the segment.
+  [[nodiscard]] std::shared_ptr<const SharedMemory> share() const { return memory_; }
 
   /// Returns how much the client of the edge has written so far [bytes], for whoever watches the edge and is no end of it:
   /// 0, it has used nothing of the server yet. The number is not checked.
@@ -42,9 +46,14 @@ class RingSegment {
   [[nodiscard]] std::uint64_t written_by_client() const;
 
  private:
-  explicit RingSegment(SharedMemory memory) : memory_(std::move(memory)) {}
+  explicit RingSegment(SharedMemory memory)
+      : memory_(std::make_shared<const SharedMemory>(std::move(memory))) {}
 
-  SharedMemory memory_;
+  std::shared_ptr<const SharedMemory> memory_;
 };
+
+/// Makes the memory file of a process's pool for bulk data (ADR 0104).
+/// @errors  as MemoryFile::create().
+[[nodiscard]] Result<MemoryFile> create_bulk_pool(const std::string& process);
 
 }  // namespace orca
