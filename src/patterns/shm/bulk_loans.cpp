@@ -85,8 +85,9 @@ std::optional<detail::BulkReference> Loans::lend(detail::BulkBlock& block) {
 }
 
 void Loans::settle(bool is_sent) {
+  if (!has_new_.load(std::memory_order_relaxed)) return;  // as after every small object
   const MutexLock lock(mutex_);
-  if (!std::exchange(has_new_, false)) return;
+  has_new_ = false;
   for (Loan& loan : loans_) {
     if (!std::exchange(loan.is_new, false)) continue;
     if (!is_sent) end(loan);

@@ -79,7 +79,7 @@ class Loans final : public detail::BulkLender, public BulkPool::Lender {
   std::array<Loan, kMostLoans> loans_ ORCA_GUARDED_BY(mutex_);
   std::size_t lent_ ORCA_GUARDED_BY(mutex_) = 0;     // [bytes]
   std::uint64_t count_ ORCA_GUARDED_BY(mutex_) = 0;  // of all loans
-  bool has_new_ ORCA_GUARDED_BY(mutex_) = false;
+  std::atomic<bool> has_new_{false};                 // a loan that is not settled yet
 };
 
 /// The reader's side.
