@@ -7,7 +7,7 @@
 namespace orca::keys {
 namespace {
 
-constexpr const char* kDomains = "<domains><id_range><min>0</min><max>230</max></id_range></domains>";
+constexpr const char* kDomains = "<domains><id_range><min>0</min><max>232</max></id_range></domains>";
 constexpr std::int64_t kDay = 86'400;  // [s]
 
 std::string time_text(std::int64_t seconds) {

@@ -131,7 +131,10 @@ class ColourTracker final : public orca::Component {
       track_.see(*mover, kMoverError, time);
     } else {
       const double error = std::max(kLeastError, kErrorShare * sighting.distance);
-      track_.see(camera.position() + sighting.distance * way, error, time);
+      const orca::Vec2 place = camera.position() + sighting.distance * way;
+      if (!track_.admits(place, error)) return;
+      if (track_.unseen() > orca::colour::Track::kDoubt) track_.clear();
+      track_.see(place, error, time);
     }
   }
 

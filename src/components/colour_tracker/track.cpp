@@ -7,7 +7,9 @@ namespace orca::colour {
 namespace {
 
 constexpr double kAcceleration = 1.5;  // [m/s2] standard deviation of what a person does.
-constexpr double kFirstSpeed = 1.0;    // [m/s] the same of the velocity of who is seen for the first time.
+constexpr double kSurprise =
+    0.3;  // [m] A sighting may be so far from where the track is, besides three standard deviations.
+constexpr double kFirstSpeed = 1.0;  // [m/s] the same of the velocity of who is seen for the first time.
 
 }  // namespace
 
@@ -33,6 +35,11 @@ void Track::see(Vec2 place, double error, double time) {
   velocity_variance_ -= velocity_gain * covariance_;
   covariance_ *= 1.0 - gain;
   variance_ *= 1.0 - gain;
+}
+
+bool Track::admits(Vec2 place, double error) const {
+  if (!begun_ || unseen() > kDoubt) return true;
+  return norm(place - place_) <= kSurprise + 3.0 * std::hypot(place_error(), error);
 }
 
 void Track::miss(double time) {

@@ -13,6 +13,7 @@ namespace orca::colour {
 /// @source  Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001, ch. 6.3 (piecewise constant acceleration).
 class Track {
  public:
+  static constexpr double kDoubt = 0.5;  ///< [s]
   static constexpr double kUnseen =
       2.0;  ///< [s] Out of sight it goes on as it went for so long, and is then forgotten.
 
@@ -20,6 +21,9 @@ class Track {
   /// @param error [m]  standard deviation of the place in each direction.
   /// @param time [s]   of a clock that only advances.
   void see(Vec2 place, double error, double time);
+  /// Returns whether somebody who was where the track says may be there now: a sighting that is hidden in part is far off. The track believes in
+  /// its place as long as it was confirmed within kDoubt.
+  [[nodiscard]] bool admits(Vec2 place, double error) const;
   /// Goes on to a time without a sighting.
   void miss(double time);
   void clear() { *this = {}; }

@@ -145,3 +145,13 @@ TEST_CASE("out of sight somebody goes on as he went, and is forgotten after two 
   track.see({9.0, 9.0}, 0.03, 5.2);
   CHECK(track.velocity() == Vec2{});
 }
+
+TEST_CASE("a sighting that cannot be is not believed for half a second", "[colour]") {
+  Track track;
+  for (int i = 0; i <= 30; ++i) track.see({0.05 * i, 0.0}, 0.03, 0.1 * i);
+  track.miss(3.1);
+  CHECK(track.admits({1.6, 0.1}, 0.05));
+  CHECK_FALSE(track.admits({3.5, 1.0}, 0.05));
+  track.miss(3.6);
+  CHECK(track.admits({3.5, 1.0}, 0.05));
+}

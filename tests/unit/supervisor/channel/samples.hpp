@@ -82,7 +82,7 @@ inline std::vector<supervisor::Order> all_orders() {
       RenewEdge{{"a.out to b.in", null_device()}}, CutEdge{"a.out to b.in", "process \"base\" has crashed"},
       TellAlarm{"base", some_bytes()}, ForgetAlarm{"FAILED", "avoid", "behaviours"}, ReleaseMotors{}, Count{},
       OpenLine{{{"base", "OdometryPush"}, {"base", "SonarPush"}}, true, false, 1000, null_device()},
-      Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}, "/keys/robot/base"}, Say{some_bytes()},
+      Meet{"orca/robot/machines", "10.0.0.1", "wlan0", {"10.0.0.2"}, 3, "/keys/robot/base"}, Say{some_bytes()},
       Outlive{null_device(), 60'000'000'000}, Adopt{}, MoveEdge{"a.out to b.in"}, AskUse{},
       TellLines{{{log::Level::warning, "goto", "lost", 12}, {log::Level::info, "base", "", 13}}},
       SwapCode{"avoid",
