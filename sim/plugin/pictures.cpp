@@ -20,7 +20,7 @@ void fill(idl::Image& object, const CameraShot& shot, const Camera& camera) {
   object.step(static_cast<std::uint32_t>(kBytes * camera.width));
   object.focal_length(camera.focal_length());
   object.pose(level_pose(shot.X_RB * camera.center, camera.link_height, shot.stamp));
-  object.data().resize(kBytes * camera.width * camera.height);
+  object.data().resize_for_overwrite(kBytes * camera.width * camera.height);
   std::vector<std::size_t> runs = shot.starts;
   std::uint8_t* pixel = object.data().data();
   for (std::size_t row = 0; row < camera.height; ++row) {

@@ -158,7 +158,7 @@ void CameraDriver::take(const Frame& frame) {
 Status CameraDriver::develop(const Frame& frame, idl::Image& image) {
   const Layout& layout = mode_.layout;
   if (frame.bytes.empty()) return fail(Code::data_loss, "the kernel's driver says that it is broken");
-  image.data().resize(layout.width * layout.height * static_cast<std::size_t>(channels()));
+  image.data().resize_for_overwrite(layout.width * layout.height * static_cast<std::size_t>(channels()));
   const std::span<std::uint8_t> into(image.data().data(), image.data().size());
   if (layout.format == PixelFormat::mjpeg)
     return jpeg_.decode(frame.bytes, layout.width, layout.height, channels(), into);

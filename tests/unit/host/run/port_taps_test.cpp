@@ -37,11 +37,10 @@ const ObjectType& Measured::type() {
   static const ObjectType& model = object_type<idl::MotionCommand>();
   struct Own {
     Own()
-        : type{model.name,        model.layout, model.layout_hash, model.parent,
-               model.size,        model.align,  model.construct,   model.destroy,
-               model.assign,      model.equal,  model.header,      model.stamp,
-               model.dump,        model.fields, Measured::write,   model.serialize,
-               model.deserialize, pool},
+        : type{model.name,      model.layout,      model.layout_hash, model.parent, model.size,
+               model.align,     model.construct,   model.destroy,     model.assign, model.equal,
+               model.header,    model.stamp,       model.dump,        model.fields, Measured::write,
+               model.serialize, model.deserialize, model.bulk,        pool},
           pool(type) {}
     const ObjectType type;
     detail::Pool pool;

@@ -107,14 +107,14 @@ TEST_CASE(
     Publisher<idl::MotionCommand> publisher(executive);
     Subscriber<idl::MotionCommand> subscriber(executive);
     REQUIRE(links.connect(publisher.endpoint("out"), subscriber.endpoint("in")).ok());
-    BareReader<idl::MotionCommandPubSubType> bare;
+    BareReader<reference::idl::MotionCommandPubSubType> bare;
     subscriber.in.subscribe();
     REQUIRE(eventually(executive, [&] { return publisher.out.subscriber_count() == 1; }));
     const TimePoint begun = executive.now();
     const auto made = [](const idl::MotionCommand& command) {
       return to_time_point(command.creation_time());
     };
-    idl::MotionCommand read;
+    reference::idl::MotionCommand read;
     std::size_t heard = 0;
     const bool came = eventually(executive, [&] {
       publisher.out.push(head(0.25, 0.5));
@@ -126,7 +126,9 @@ TEST_CASE(
       return bare.take(read) && heard > 20;  // by then objects come by the topic alone
     });
     REQUIRE(came);
-    CHECK(made(read) >= begun);
+    idl::TimeValue stamp;
+    stamp.ns(read.creation_time().ns());
+    CHECK(to_time_point(stamp) >= begun);
   });
 }
 
