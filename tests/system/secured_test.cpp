@@ -189,6 +189,16 @@ TEST_CASE("without good keys nothing starts, and the log says what to do", "[sys
     CHECK(run.exit_code() == 3);
     CHECK(run.says("its certificate was revoked"));
   }
+  SECTION("a system of its own name needs keys of its own") {
+    const Words other = kFlow + Words{"--name", "other"};
+    run = run_deployer(other);
+    CHECK(run.exit_code() == 3);
+    CHECK(run.says("/other/this-machine"));
+    home.make(other);
+    System system(other);
+    system.when("flow ", 0, Seconds(15));
+    stop(system);
+  }
   SECTION("a second authority is not made over the first") {
     run = run_orcactl(Words{"keys"} + kFlow);
     CHECK(run.exit_code() == 1);

@@ -28,6 +28,7 @@ TEST_CASE(
                                                          "uint32 height\n"
                                                          "uint32 step\n"
                                                          "uint8[] data\n"
+                                                         "float64 focal_length  # [pixels]\n"
                                                          "orca_values/Pose3D pose\n"
                                                          "====="));
   CHECK_THAT(image.definition, Catch::Matchers::Contains("=\nMSG: orca_values/Point\n"

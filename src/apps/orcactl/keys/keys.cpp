@@ -48,8 +48,9 @@ std::optional<graph::Graph> read_graph(const apps::Call& call) {
   for (const std::string& folder : call.folders("--plugins")) folders.push_back(folder);
   host::PluginCatalogue catalogue{plugin::PluginIndex(folders)};
   xml::Diagnostics diagnostics;
-  auto graph = graph::load_file(call.words.front(), {call.all("--profile"), call.all("--set")}, catalogue,
-                                diagnostics);
+  graph::LoadOptions options{call.all("--profile"), call.all("--set")};
+  options.name = call.text("--name").value_or("");
+  auto graph = graph::load_file(call.words.front(), options, catalogue, diagnostics);
   std::fputs(diagnostics.text().c_str(), stderr);
   return graph;
 }
@@ -93,6 +94,7 @@ apps::Command keys_command() {
                       {"--days", "N", "until they expire; 90 if not given", false, {}, 1, 3650},
                       {"--renew", "", "make new ones by the authority that is there"},
                       {"--revoke", "NAME", "make those of a process or machine useless"},
+                      {"--name", "NAME", "of the system, as for the deployer"},
                       {"--profile", "NAME", "as for the deployer", true},
                       {"--set", "NAME=VALUE", "as for the deployer", true},
                       {"--plugins", "FOLDER", "as for the deployer", true}},

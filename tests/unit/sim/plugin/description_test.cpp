@@ -244,6 +244,7 @@ struct Unknown {
 
 const std::string kPartOfTheBase = "a part of the base, to which no source gives a name of its own";
 const std::string kMakerUnnamed = "the thesis and the protocols do not say who made it";
+const std::string kNoCertainOne = "any camera with these figures will do";
 const std::string kModelUnnamed = "the thesis names its maker, Polaroid, and not what the maker calls it";
 const std::string kNeverBuilt = "a device of Orca's own, which exists in the simulation only";
 
@@ -268,6 +269,13 @@ const std::vector<Unknown> kUnknown{
     {"pioneer_2dx", "sonar", "vendor", kMakerUnnamed},
     {"pioneer_2dx", "sonar", "model", kMakerUnnamed},
 
+    {"pioneer_2dx_camera", "drive", "model", kPartOfTheBase},
+    {"pioneer_2dx_camera", "bumper", "model", kPartOfTheBase},
+    {"pioneer_2dx_camera", "odometry", "model", kPartOfTheBase},
+    {"pioneer_2dx_camera", "sonar", "vendor", kMakerUnnamed},
+    {"pioneer_2dx_camera", "sonar", "model", kMakerUnnamed},
+    {"pioneer_2dx_camera", "camera", "vendor", kNoCertainOne},
+    {"pioneer_2dx_camera", "camera", "model", kNoCertainOne},
     {"pioneer_2dx_gripper", "drive", "model", kPartOfTheBase},
     {"pioneer_2dx_gripper", "bumper", "model", kPartOfTheBase},
     {"pioneer_2dx_gripper", "odometry", "model", kPartOfTheBase},

@@ -14,7 +14,7 @@ using Catch::Contains;
 TEST_CASE("each shipped robot is solid at the height of each sensor of its own", "[sim][robots]") {
   const std::string name =
       GENERATE("barn_base", "courier", "create2", "nomad_200", "nomad_scout", "nomad_xr4000", "omni",
-               "peoplebot", "pioneer_2dx", "pioneer_2dx_gripper");
+               "peoplebot", "pioneer_2dx", "pioneer_2dx_camera", "pioneer_2dx_gripper");
   INFO(name);
   CHECK(gaps_at_own_sensors(shipped(name)).empty());
 }
