@@ -2,6 +2,9 @@
 // The link through shared memory: time of one push and of one question between two processes, on one processor.
 #include "bare_processes.hpp"
 #include "benchmarks.hpp"
+#ifdef ORCA_BENCH_ICEORYX
+#include "bare_iceoryx.hpp"
+#endif
 #include "comparison.hpp"
 #include "on_executive.hpp"
 #include "process_pair.hpp"
@@ -39,6 +42,20 @@ void push_large_beside_small(benchmark::State& state, Row& row) {
   });
 }
 
+void push_beside_iceoryx([[maybe_unused]] benchmark::State& state, [[maybe_unused]] Row& row) {
+#ifdef ORCA_BENCH_ICEORYX
+  BareIceoryxPair bare(kImage * sizeof(double));
+  run_on(kThreads, [&](Executive& executive) {
+    ProcessPushPair<ImageLoad> pair(executive);
+    alternate(
+        state, row, 5, [&](int n) { return pair.time(n, kImage * sizeof(double)); },
+        [&](int n) { return bare.time(n); });
+  });
+#else
+  state.SkipWithError("iceoryx is not installed (libiceoryx-posh-dev)");
+#endif
+}
+
 void query_beside_ring(benchmark::State& state, Row& row) {
   run_on(kThreads, [&](Executive& executive) {
     ProcessQueryPair pair(executive);
@@ -56,6 +73,8 @@ void register_shm() {
   add_row({"push 1 MB between processes", "memcpy of 1 MB", ratio_at_most(2.5)}, 200, push_beside_copy);
   add_row({"push an image of 1 MB between processes", "one of 16 bytes, same edge", ratio_at_most(1.3)}, 2000,
           push_large_beside_small);
+  add_row({"push an image of 1 MB between processes", "iceoryx, a piece of 1 MB", ratio_at_most(2.0)}, 2000,
+          push_beside_iceoryx);
   add_row({"query between processes", "two messages, ring + futex", ratio_at_most(1.6)}, 2000,
           query_beside_ring);
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "colour_finder.hpp"
+#include "orca/base/portable_math.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
@@ -124,8 +125,8 @@ class ColourTracker final : public orca::Component {
     const orca::Vec2 way = orca::direction(camera.yaw + sighting.bearing);
     const auto off = [&](orca::Vec2 place) {
       const orca::Vec2 from_camera = place - camera.position();
-      return std::hypot(cross(way, from_camera) / kAside,
-                        (dot(way, from_camera) - sighting.distance) / kAhead);
+      return orca::portable::hypot(cross(way, from_camera) / kAside,
+                                   (dot(way, from_camera) - sighting.distance) / kAhead);
     };
     if (const auto mover = mover_at(time, off, 1.0)) {
       track_.see(*mover, kMoverError, time);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "orca/base/portable_math.hpp"
+
 namespace orca::colour {
 namespace {
 
@@ -39,7 +41,7 @@ void Track::see(Vec2 place, double error, double time) {
 
 bool Track::admits(Vec2 place, double error) const {
   if (!begun_ || unseen() > kDoubt) return true;
-  return norm(place - place_) <= kSurprise + 3.0 * std::hypot(place_error(), error);
+  return norm(place - place_) <= kSurprise + 3.0 * portable::hypot(place_error(), error);
 }
 
 void Track::miss(double time) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLarge = 300'000;  // [bytes]
 
 struct PictureCamera : Peer {
-  explicit PictureCamera(Executive& executive) : Peer(executive, "camera") {}
+  explicit PictureCamera(Executive& executive, const std::string& name = "camera") : Peer(executive, name) {}
   // The bytes of an image are all its number.
   Loan<Image> numbered(int number, std::size_t size = kLarge) {
     auto image = make_object<Image>();
@@ -26,7 +26,7 @@ struct PictureCamera : Peer {
 };
 
 struct PictureViewer : Peer {
-  explicit PictureViewer(Executive& executive) : Peer(executive, "viewer") {}
+  explicit PictureViewer(Executive& executive, const std::string& name = "viewer") : Peer(executive, name) {}
   Status on_sent(const ObjectPtr<Image>& image) {
     kept.push_back(image);
     return ok();
@@ -127,8 +127,8 @@ CONTRACT_CASE("images are sent, asked for and answered", "[contract][bulk]") {
 CONTRACT_CASE("a received image can be pushed on", "[contract][bulk]") {
   PictureCamera camera(kit.executive);
   PictureViewer viewer(kit.executive);
-  PictureCamera relay(kit.executive);
-  PictureViewer last(kit.executive);
+  PictureCamera relay(kit.executive, "relay");  // topics of DDS are named after components
+  PictureViewer last(kit.executive, "last");
   listen(kit, camera, viewer);
   listen(kit, relay, last);
   for (int number = 1; number <= 4; ++number) {
