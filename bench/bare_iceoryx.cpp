@@ -16,6 +16,8 @@ namespace orca::bench {
 namespace {
 
 constexpr std::uint32_t kPieces = 16;
+const iox::capro::ServiceDescription kThere{"orca", "bench", "there"};
+const iox::capro::ServiceDescription kBack{"orca", "bench", "back"};
 
 [[noreturn]] void serve(std::size_t size) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -33,9 +35,7 @@ constexpr std::uint32_t kPieces = 16;
 }  // namespace
 
 struct BareIceoryxPair::Ends {
-  explicit Ends(bool is_child)
-      : out({"orca", "bench", is_child ? "back" : "there"}),
-        in({"orca", "bench", is_child ? "there" : "back"}) {
+  explicit Ends(bool is_child) : out(is_child ? kBack : kThere), in(is_child ? kThere : kBack) {
     (void)news.attachState(in, iox::popo::SubscriberState::HAS_DATA);
   }
   void put(std::size_t size) {

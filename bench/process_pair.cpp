@@ -17,6 +17,12 @@ Port& port(test::Peer& peer, const std::string& name) {
 
 MemoryFile make_file() { return RingSegment::create("bench").value(); }
 
+// Makes that of the other process, and that of this one, which the other must know when it begins.
+MemoryFile make_pools() {
+  (void)test::own_pool();
+  return test::make_pool();
+}
+
 }  // namespace
 
 void ScanLoad::order(Object& scan, const Order& order) {
@@ -71,7 +77,7 @@ template <class Load>
 ProcessPushPair<Load>::ProcessPushPair(Executive& executive)
     : there_(make_file()),
       back_(make_file()),
-      pool_there_(test::make_pool()),
+      pool_there_(make_pools()),
       other_([this](Executive& there) { echo(there); }),
       one_(std::make_unique<Both>(executive, "publisher")) {
   test::provide(test::own_pool());

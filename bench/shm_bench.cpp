@@ -52,7 +52,7 @@ void push_beside_iceoryx([[maybe_unused]] benchmark::State& state, [[maybe_unuse
         [&](int n) { return bare.time(n); });
   });
 #else
-  state.SkipWithError("iceoryx is not installed (libiceoryx-posh-dev)");
+  state.SkipWithError("iceoryx is not installed (libiceoryx-posh-dev, libacl1-dev)");
 #endif
 }
 
