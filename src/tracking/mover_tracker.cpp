@@ -13,8 +13,6 @@ constexpr double kWidest = 0.8;         // [m] across a new mover
 constexpr double kBeside = 0.3;         // [m]
 constexpr double kOwn = 0.5;            // [m] around a mover in which readings are its own
 constexpr double kReadingError = 0.07;  // [m] of the middle of a person from readings of the legs
-constexpr double kUnrest = 0.1;         // [m2/s3] spectral density of people's acceleration
-constexpr double kFirstSpeed = 1.0;     // [m/s] standard deviation of a new mover's
 constexpr int kSure =
     4;  // A sighting on floor that was seen free is worth as many on floor that was only open.
 constexpr int kSightings = 5 * kSure;  // before it is reported
@@ -75,13 +73,7 @@ void MoverTracker::find_fresh(std::span<const nav::Beam> scan, double time) {
 }
 
 void MoverTracker::predict(double elapsed) {
-  for (Track& track : tracks_) {
-    track.place = track.place + elapsed * track.velocity;
-    track.variance += elapsed * (2.0 * track.covariance + elapsed * track.velocity_variance) +
-                      kUnrest * elapsed * elapsed * elapsed / 3.0;
-    track.covariance += elapsed * track.velocity_variance + 0.5 * kUnrest * elapsed * elapsed;
-    track.velocity_variance += kUnrest * elapsed;
-  }
+  for (Track& track : tracks_) track.walk.predict(elapsed);
 }
 
 // Gives each fresh reading to the nearest mover, and leaves in fresh_ those that nobody has.
@@ -92,7 +84,7 @@ void MoverTracker::update(double time, double elapsed) {
     double least = kOwn;
     std::size_t owner = tracks_.size();
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const double apart = norm(point - tracks_[i].place);
+      const double apart = norm(point - tracks_[i].walk.place);
       if (apart >= least) continue;
       least = apart;
       owner = i;
@@ -104,7 +96,7 @@ void MoverTracker::update(double time, double elapsed) {
     Track& track = tracks_[i];
     if (!own[i].empty()) {
       correct(track, own[i], time);
-    } else if (floor_.is_seen_free(track.place)) {
+    } else if (floor_.is_seen_free(track.walk.place)) {
       track.missed_for += elapsed;
     }
   }
@@ -115,23 +107,15 @@ void MoverTracker::update(double time, double elapsed) {
 }
 
 void MoverTracker::correct(Track& track, std::span<const Vec2> own, double time) {
-  const double gain_below = track.variance + kReadingError * kReadingError;
-  const double gain = track.variance / gain_below;
-  const double velocity_gain = track.covariance / gain_below;
-  const Vec2 off = mean_of(own) - track.place;
-  track.place = track.place + gain * off;
-  track.velocity = track.velocity + velocity_gain * off;
-  track.velocity_variance -= velocity_gain * track.covariance;
-  track.covariance *= 1.0 - gain;
-  track.variance *= 1.0 - gain;
+  track.walk.correct(mean_of(own), kReadingError);
   track.half_width = half_width_of(own);
   track.seen_at = time;
   track.missed_for = 0.0;
   const auto sure = std::ranges::count_if(own, [&](Vec2 point) { return floor_.was_free(point, time); });
   track.sightings += 2 * static_cast<std::size_t>(sure) >= own.size() ? kSure : 1;
-  const double speed = norm(track.velocity);
-  const bool moves = track.sightings >= kSightings && norm(track.place - track.born) >= kWay &&
-                     speed >= kSlowest && speed >= kClear * std::sqrt(track.velocity_variance);
+  const double speed = norm(track.walk.velocity);
+  const bool moves = track.sightings >= kSightings && norm(track.walk.place - track.born) >= kWay &&
+                     speed >= kSlowest && speed >= kClear * track.walk.velocity_error();
   if (moves && track.number == 0) track.number = ++last_number_;
 }
 
@@ -149,9 +133,8 @@ void MoverTracker::begin_new(double time) {
     const double half_width = half_width_of(group);
     if (group.size() < 2 || 2.0 * half_width > kWidest || is_part_of_furniture(group)) continue;
     Track track;
-    track.place = track.born = mean_of(group);
-    track.variance = kReadingError * kReadingError;
-    track.velocity_variance = kFirstSpeed * kFirstSpeed;
+    track.born = mean_of(group);
+    track.walk = WalkEstimate::at(track.born, kReadingError);
     track.seen_at = time;
     track.sightings = 1;
     track.half_width = half_width;
@@ -163,8 +146,8 @@ std::vector<Mover> MoverTracker::movers() const {
   std::vector<Mover> found;
   for (const Track& track : tracks_)
     if (track.number != 0)
-      found.push_back({track.number, track.place, track.velocity, std::max(kBody, track.half_width),
-                       std::sqrt(track.variance), std::sqrt(track.velocity_variance), time_ - track.seen_at});
+      found.push_back({track.number, track.walk.place, track.walk.velocity, std::max(kBody, track.half_width),
+                       track.walk.place_error(), track.walk.velocity_error(), time_ - track.seen_at});
   return found;
 }
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
-#include <optional>
-
-#include "orca/geometry/vec2.hpp"
+#include "orca/tracking/walk_estimate.hpp"
 
 namespace orca::colour {
 
-/// Something that moves and is seen now and then, in a frame that stands still: a Kalman filter of constant velocity, the same for both axes.
+/// Somebody who is seen now and then, in a frame that stands still.
 ///
 /// Thread contract: as for a container.
-/// @source  Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001, ch. 6.3 (piecewise constant acceleration).
 class Track {
  public:
   static constexpr double kDoubt = 0.5;  ///< [s]
@@ -30,20 +27,17 @@ class Track {
 
   [[nodiscard]] bool is_there() const { return begun_; }
   [[nodiscard]] double time() const { return time_; }  ///< [s] As of which the rest is.
-  [[nodiscard]] Vec2 place() const { return place_; }
-  [[nodiscard]] Vec2 velocity() const { return velocity_; }
-  [[nodiscard]] double place_error() const;                         ///< [m]
-  [[nodiscard]] double velocity_error() const;                      ///< [m/s]
-  [[nodiscard]] double unseen() const { return time_ - seen_at_; }  ///< [s]
+  [[nodiscard]] Vec2 place() const { return walk_.place; }
+  [[nodiscard]] Vec2 velocity() const { return walk_.velocity; }
+  [[nodiscard]] double place_error() const { return walk_.place_error(); }        ///< [m]
+  [[nodiscard]] double velocity_error() const { return walk_.velocity_error(); }  ///< [m/s]
+  [[nodiscard]] double unseen() const { return time_ - seen_at_; }                ///< [s]
 
  private:
   void advance(double time);
 
   bool begun_ = false;
-  Vec2 place_, velocity_;
-  double variance_ = 0.0;  // [m2] of the place,
-  double covariance_ = 0.0;
-  double velocity_variance_ = 0.0;
+  tracking::WalkEstimate walk_;
   double time_ = 0.0, seen_at_ = 0.0;
 };
 

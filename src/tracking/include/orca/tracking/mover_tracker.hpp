@@ -8,6 +8,7 @@
 #include "orca/geometry/vec2.hpp"
 #include "orca/navigation/beams.hpp"
 #include "orca/tracking/free_floor.hpp"
+#include "orca/tracking/walk_estimate.hpp"
 
 namespace orca::tracking {
 
@@ -25,7 +26,7 @@ struct Mover {
 /// Finds and follows what moves around a robot.
 ///
 /// A reading on floor that was free of late (FreeFloor) is one of something that moves. Readings near to where a mover is expected are
-/// its own; each mover has a Kalman filter of constant velocity. Others that lie together, no wider than a person, are perhaps a new one:
+/// its own; each mover has a WalkEstimate. Others that lie together, no wider than a person, are perhaps a new one:
 /// it is reported when it has come kWay far, at kSlowest or faster.
 ///
 /// A mover out of sight - hidden, or beside the field of view - goes on as it went for kUnseen. One that is not where beams look through is
@@ -56,10 +57,7 @@ class MoverTracker {
  private:
   struct Track {
     std::uint32_t number = 0;  // 0: it is not reported yet
-    Vec2 place, velocity;
-    double variance = 0.0;  // [m2] of the place in each direction,
-    double covariance = 0.0;
-    double velocity_variance = 0.0;
+    WalkEstimate walk;
     Vec2 born;
     double seen_at = 0.0;     // [s]
     double missed_for = 0.0;  // [s] in which beams looked through its place
