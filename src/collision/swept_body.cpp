@@ -139,10 +139,15 @@ double distance(const Shape& shape, const Post& post) {
 struct SweptBody::Shapes {
   std::vector<Shape> all;
 
-  // Returns the distance [m] to a post at least.
-  [[nodiscard]] double at_least(const Post& post) const {
-    double least = Approach::kFar;
-    for (const Shape& shape : all) least = std::min(least, collision::at_least(shape, post));
+  // Returns the distance [m] to a post at least; `most` or more if it is not nearer than that.
+  [[nodiscard]] double at_least(const Post& post, double most = Approach::kFar) const {
+    double least = most;
+    for (const Shape& shape : all) {
+      const Vec2 off = post.place - shape.middle;
+      const double beyond = std::max(0.0, least) + shape.radius;
+      if (dot(off, off) >= beyond * beyond) continue;  // all of its plan is farther away
+      least = std::min(least, collision::at_least(shape, post));
+    }
     return least;
   }
   // Returns the distance [m] to a post, at most kFar.
@@ -176,7 +181,7 @@ class SweptBody::Motion {
 
   // Adds a post, unless the motion cannot come near to it.
   void add(const Post& post, std::size_t index, double margin) {
-    const double least = shapes_.at_least(post);
+    const double least = shapes_.at_least(post, Approach::kFar + length_);
     if (least >= Approach::kFar + length_) return;
     if (least >= margin) return near_.push_back({post, index, margin, least, 0.0});
     const double there = shapes_.distance(post);
@@ -200,6 +205,7 @@ class SweptBody::Motion {
   bool look(double share) {
     spare_ = std::numeric_limits<double>::infinity();
     X_ = along_arc({}, {share * travel_.forward, share * travel_.left, share * travel_.turn});
+    back_ = direction(-X_.yaw);
     for (Neighbour& neighbour : near_) {
       // Since it was looked at it can have come nearer by the way that the farthest point has gone.
       const double least = neighbour.distance - (share - neighbour.at) * length_;
@@ -216,7 +222,8 @@ class SweptBody::Motion {
 
   // FCL is asked only where the distance decides something.
   void measure(Neighbour& neighbour, double share) {
-    const Post seen{seen_from(X_, neighbour.post.place), neighbour.post.bottom, neighbour.post.top};
+    const Post seen{rotated(neighbour.post.place - X_.position(), back_), neighbour.post.bottom,
+                    neighbour.post.top};
     neighbour.at = share;
     neighbour.distance = shapes_.at_least(seen);
     if (neighbour.distance - neighbour.allowed > kStep && neighbour.distance > approach_.clearance - kStep)
@@ -231,6 +238,7 @@ class SweptBody::Motion {
   const double length_;
   std::vector<Neighbour> near_;
   Pose2 X_;             // of the body now
+  Vec2 back_;           // direction of the posts' x axis, seen from it
   double spare_ = 0.0;  // [m] until the next post is too near, at least
   Approach approach_;
 };
