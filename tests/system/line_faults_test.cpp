@@ -194,7 +194,9 @@ class AtWork {
       for (int i = 0; i < 50; ++i, World::sleep(10ms)) REQUIRE(stands());
       CHECK(World::let_go());
     }
-    CHECK(World::until([this] { return works(); }));
+    const bool works_again = World::until([this] { return works(); });
+    INFO(world_.log());
+    CHECK(works_again);
   }
 
  private:

@@ -346,7 +346,7 @@ TEST_CASE(
   CHECK(took <= 60.0 * kSlowCode);
 }
 
-TEST_CASE("the log of the Intel lab gives the same bytes on both executors", "[system][log][data]") {
+TEST_CASE("the log of the Intel lab gives the same bytes on both executors", "[.][slow]") {
   const std::string log = public_data("slam/intel_scans.txt.gz");
   if (log.empty()) return;
   const TempFolder folder;

@@ -201,7 +201,7 @@ TEST_CASE(
   const std::string numb =
       folder.write("numb.xml", world("numb", hall + R"(<outage robot="Dewey" sensor="bumper" at="0 s"/>)"));
   int blocked = 0;
-  for (int seed = 1; seed <= 3; ++seed) {
+  for (int seed = 1; seed <= part_of(3); ++seed) {
     const Words behind{"--seed", std::to_string(seed), "--set", "goals=behind: 5.6 2.5", "--set"};
     const Run with_bumpers = drive(behind + Words{"world=" + feels});
     const Run without = drive(behind + Words{"world=" + numb});
@@ -215,7 +215,7 @@ TEST_CASE(
     CHECK(without.contacts().size() > with_bumpers.contacts().size());
     blocked += without.says("alarm BLOCKED: \"behind\" was not reached") ? 1 : 0;
   }
-  CHECK(blocked > 0);  // The others have not given up by then.
+  if (is_slow_run()) CHECK(blocked > 0);  // The others have not given up by then.
 }
 
 TEST_CASE("without one of the parts the robot stays where it is", "[system][planner][parts][ablation]") {
