@@ -81,10 +81,11 @@ void Surroundings::see(const std::string& name, Sweep sweep) {
   std::erase_if(laser.echoes,
                 [&](const Echo& echo) { return look(sweep, echo.place).sight == Sight::clear; });
   const double farthest = std::min(sweep.max_range, kRange);
+  const Vec2 ahead = direction(sweep.X_OS.yaw);
   for (std::size_t i = 0; i < sweep.ranges.size(); ++i) {
     if (!(sweep.ranges[i] < farthest)) continue;
     const double angle = sweep.angle_start + sweep.angle_increment * static_cast<double>(i);
-    laser.echoes.push_back({sweep.X_OS * (sweep.ranges[i] * direction(angle))});
+    laser.echoes.push_back({sweep.X_OS.position() + rotated(sweep.ranges[i] * direction(angle), ahead)});
   }
   const std::size_t most = std::max(kMost, 2 * sweep.ranges.size());
   if (laser.echoes.size() > most)
@@ -161,10 +162,11 @@ collision::Post Surroundings::post_of(const Source& source, Vec2 place) const {
 std::span<const collision::Post> Surroundings::posts(const Pose2& X_OR, const std::optional<Disc>& spared) {
   posts_.clear();
   owners_.clear();
+  const Vec2 back = direction(-X_OR.yaw);  // once for the hundreds of echoes
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     for (const Echo& echo : sources_[i].echoes) {
       collision::Post post = post_of(sources_[i], echo.place);
-      if (!echo.is_carried) post.place = seen_from(X_OR, post.place);
+      if (!echo.is_carried) post.place = rotated(post.place - X_OR.position(), back);
       if (norm(post.place) > kRange) continue;
       if (spared && norm(post.place - spared->middle) <= spared->radius) continue;
       posts_.push_back(post);
