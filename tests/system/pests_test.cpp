@@ -15,22 +15,26 @@ using namespace orca::test;
 
 namespace {
 
-// Runs the loop beside a client and returns the times between its laps, in ascending order [s].
-std::vector<double> laps_beside(const std::string& manner, const std::string& link, Seconds duration) {
+struct Beside {
+  Run run;
+  std::vector<double> laps;  // times between the laps of the loop, in ascending order [s]
+};
+
+// Runs a graph of the loop and a client.
+Beside run_beside(const std::string& graph, const std::string& manner, const Words& more, Seconds duration) {
   const TempFolder folder;
-  const Run run = run_deployer(
-      Words{system_graph("pest.xml")} + with_test_plugins() +
-          Words{"--set", "manner=" + manner, "--set", "link=" + link, "--set", "path=" + folder.file("laps"),
-                "--until", std::to_string(duration.count()) + " s"},
-      duration + Seconds(20));
-  INFO(run.err);
+  Beside beside{run_deployer(Words{system_graph(graph)} + with_test_plugins() + more +
+                                 Words{"--set", "manner=" + manner, "--set", "path=" + folder.file("laps"),
+                                       "--until", std::to_string(duration.count()) + " s"},
+                             duration + Seconds(20)),
+                {}};
+  INFO(beside.run.err);
   // A run that ends while one of its processes hangs has failed.
-  CHECK((run.exit_code() == 0 || manner == "stop"));
-  std::vector<double> laps;
+  CHECK((beside.run.exit_code() == 0 || manner == "stop"));
   for (const std::int64_t ns : read_numbers(folder.file("laps")))
-    laps.push_back(1e-9 * static_cast<double>(ns));
-  std::ranges::sort(laps);
-  return laps;
+    beside.laps.push_back(1e-9 * static_cast<double>(ns));
+  std::ranges::sort(beside.laps);
+  return beside;
 }
 
 double p99(const std::vector<double>& laps) { return laps[laps.size() * 99 / 100]; }
@@ -39,7 +43,7 @@ double p99(const std::vector<double>& laps) { return laps[laps.size() * 99 / 100
 double p99_beside(const std::string& manner, const std::string& link, Seconds duration) {
   CAPTURE(manner, link);
   const auto wanted = static_cast<std::size_t>(duration / Seconds(0.01));
-  const std::vector<double> laps = laps_beside(manner, link, duration);
+  const std::vector<double> laps = run_beside("pest.xml", manner, {"--set", "link=" + link}, duration).laps;
   REQUIRE(laps.size() > wanted * 8 / 10);
   std::printf("%s %-10s p99 %7.3f ms, longest %7.3f ms, %zu laps\n", link.c_str(), manner.c_str(),
               1e3 * p99(laps), 1e3 * laps.back(), laps.size());
@@ -68,6 +72,22 @@ TEST_CASE("a control loop goes on whatever a client in another process does", "[
   for (const std::string& manner : kBadManners) {
     CAPTURE(manner);
     CHECK(p99_beside(manner, "shm", Seconds(2.5)) < 0.2);
+  }
+}
+
+TEST_CASE("whatever a client of images does, the others get theirs whole and without a copy",
+          "[system][pests][bulk]") {
+  for (const std::string manner : {"good", "exit", "kill", "stop", "deaf", "hoard"}) {
+    const auto [run, laps] = run_beside("pest_images.xml", manner, {"--log", "info"}, Seconds(2.5));
+    INFO(manner << '\n' << run.err);
+    REQUIRE(laps.size() > 200);
+    CHECK(p99(laps) < 0.2);
+    CHECK(laps.back() < 0.5);
+    CHECK_FALSE(run.says("a wrong picture"));
+    const std::size_t lent = run.err.rfind(": lent");
+    const std::size_t copied = run.err.rfind(": copied");
+    REQUIRE(lent != std::string::npos);
+    CHECK((copied == std::string::npos || copied < lent));  // at first, before it has the writer's pool
   }
 }
 

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "orca/component.hpp"
 #include "orca/idl/motion.hpp"
@@ -12,7 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A client that behaves in the manner that it is given: good, exit, kill, stop (each after a second of its life), deaf
-/// (subscribes and never reads), push_flood or send_flood (2 kHz).
+/// (subscribes and never reads), hoard (keeps all images), push_flood or send_flood (2 kHz).
 class Pest final : public orca::Component {
  public:
   explicit Pest(orca::ComponentHost& host) : Component(host) { lap_every(100ms); }
@@ -29,9 +30,17 @@ class Pest final : public orca::Component {
     } else {
       out_.push(orca::dont_care());
     }
-    if (*manner_ != "deaf" && in_.new_data_arrived()) (void)in_.get_update();
+    if (*manner_ != "deaf") take();
     if (++laps_ == 10) vanish();
     return orca::again();
+  }
+
+  void take() {
+    if (in_.new_data_arrived()) (void)in_.get_update();
+    while (images_.new_data_arrived()) {
+      const auto image = images_.get_update();
+      if (*manner_ == "hoard") kept_.push_back(image);
+    }
   }
 
   void flood() {
@@ -49,9 +58,11 @@ class Pest final : public orca::Component {
   }
 
   orca::PushProxy<orca::idl::Odometry> in_{*this, "in"};
+  orca::PushProxy<orca::idl::Image> images_{*this, "images", {.text = "Pictures.", .optional = true}};
   orca::PushServer<orca::idl::MotionCommand> out_{*this, "out"};
   orca::SendProxy<orca::idl::TurretCommand> sends_{*this, "sends"};
   orca::Param<std::string> manner_{*this, "manner", "good"};
+  std::vector<orca::ObjectPtr<orca::idl::Image>> kept_;
   int laps_ = 0;
 };
 
