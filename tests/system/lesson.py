@@ -101,6 +101,7 @@ class Learner:
         self.build, self.folder = pathlib.Path(build), pathlib.Path(folder).resolve()
         self.within = self.folder  # where the commands have gone to
         self.said = ""             # what the last commands have printed
+        self.options, self.longest = "set -e -o pipefail", LONGEST
         self.shells = []           # their process groups, which live on while they have something in the background
         sockets = self.folder / ".sockets"
         sockets.mkdir(mode=0o700)
@@ -145,14 +146,14 @@ class Learner:
 
     def run(self, block):
         with tempfile.TemporaryFile("w+") as out, tempfile.NamedTemporaryFile("r") as place:
-            script = f"set -e -o pipefail\n{block.text}pwd >{place.name}\n"
+            script = f"{self.options}\n{block.text}pwd >{place.name}\n"
             shell = subprocess.Popen(["bash", "-c", script], cwd=self.within, env=self.environment, stdin=subprocess.DEVNULL, stdout=out,
                                      stderr=subprocess.STDOUT, start_new_session=True)
             self.shells.append(shell.pid)
             try:
-                shell.wait(LONGEST)
+                shell.wait(self.longest)
             except subprocess.TimeoutExpired:
-                raise Wrong(f"the commands have not ended after {LONGEST} s:\n{block.text}") from None
+                raise Wrong(f"the commands have not ended after {self.longest} s:\n{block.text}") from None
             out.seek(0)
             self.said = self.plain(out.read())
             if shell.returncode != 0:
