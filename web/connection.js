@@ -5,7 +5,7 @@ import { decode } from "./cdr.js";
 import { parseLayout } from "./layout.js";
 
 /**
- * The one connection to orcaview (docs/orcaview.md). It comes back by itself, and looks that were under way go on then.
+ * The one connection to orcaview (docs/orcaview-messages.md). It comes back by itself, and looks that were under way go on then.
  *
  * @typedef {{ok: boolean, records: Record<string, any>[], text: string, notes: string[], error: string, type: string, object: any}} Answer
  * @typedef {{passed: number, created: number, lost: number, leftOut: number, bytes: number, type: string}} Passage

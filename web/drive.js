@@ -5,7 +5,7 @@ import { xmlText } from "./dom.js";
 import { componentOf } from "./system_model.js";
 
 /**
- * Orders to a robot: goals, its pose, and driving by hand (docs/orcactl.md, "Goals from outside").
+ * Orders to a robot: goals, its pose, and driving by hand (docs/orders.md, "Goals from outside").
  * @typedef {import("./geometry.js").Point} Point
  * @typedef {import("./geometry.js").Pose} Pose
  * @typedef {import("./connection.js").Connection} Connection

@@ -107,7 +107,7 @@ class Types:
     def kind(self, name):
         if name not in self._kinds:
             if name not in self._layouts:
-                raise TypeError(f"there is no object type {name!r}; docs/objects.md lists them")
+                raise TypeError(f"there is no object type {name!r}; docs/all-objects.md lists them")
             self._kinds[name] = _LayoutReader(self._layouts[name]).read()
         return self._kinds[name]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Codes of the errors in the text form of an object. docs/errors.md explains them, and a test compares the
+// Codes of the errors in the text form of an object. docs/errors-elsewhere.md explains them, and a test compares the
 // two lists. A code never changes its meaning.
 #pragma once
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The targets of documents exist: links and their anchors, graphs that pages name, pages that sources name."""
+"""The targets of documents exist: links and their anchors, graphs that pages name, pages that sources name. Pages are short."""
 import posixpath
 import re
 
@@ -9,6 +9,8 @@ FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`[^`\n]*`")
 GRAPH = re.compile(r"(?<!/)\bgraphs/[\w./-]+?\.xml\b")
 PAGE = re.compile(r"\bdocs/[\w./-]+?\.md\b")
+MOST_LINES = 150
+LONGER = {"docs/acceptance.md": "a table of claims, for looking up one", "docs/states.md": "made from the tables of the runtime"}
 SOURCES = (".cpp", ".hpp", ".idl", ".py", ".cmake", "CMakeLists.txt", ".xml", ".urdf", ".md")
 
 
@@ -62,17 +64,25 @@ def _named(tree, paths, pattern, kind):
                 yield f"{path}:{_line(text, match)}: names the {kind} {match[0]}, which does not exist"
 
 
+def _long(tree):
+    for page in tree.with_suffix(".md"):
+        lines = tree.text(page).count("\n")
+        if page.startswith("docs/") and lines > MOST_LINES and page not in LONGER:
+            yield f"{page}:1: {lines} lines, more than {MOST_LINES}; split it by what a reader asks"
+
+
 def find(tree):
-    """Finds missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) and the reader's own (graphs/mine.xml)."""
+    """Finds pages that are too long, and missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) and the reader's own (graphs/mine.xml)."""
     sources = [p for p in tree.with_suffix(*SOURCES) if not p.startswith(("tests/lint/", "tests/data/"))]
     graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?!(?:tasks/)?[A-Z]{3}|(?:my|mine)[.])"))
     page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))
     shown = [p for p in tree.with_suffix(".md") if not p.startswith(("templates/", "tests/"))]
-    findings = [*_links(tree), *_named(tree, shown, graph, "graph"), *_named(tree, sources, page, "page")]
+    findings = [*_long(tree), *_links(tree), *_named(tree, shown, graph, "graph"), *_named(tree, sources, page, "page")]
     return list(dict.fromkeys(findings))
 
 
 BAD = [
+    ({"docs/a.md": "a\n" * 151}, "docs/a.md:1: 151 lines"),
     ({"README.md": "see [a](docs/none.md)\n"}, "README.md:1: link"),
     ({"README.md": "\n[a](docs/a.md#two)\n", "docs/a.md": "# One\n"}, 'has no heading "two"; it has: one'),
     ({"docs/a.md": "![picture](../none.png)\n"}, "there is no none.png"),
@@ -82,6 +92,7 @@ BAD = [
     ({"src/a.cpp": "/// @source docs/none.md, eq. 3\n"}, "src/a.cpp:1: names the page docs/none.md"),
 ]
 GOOD = [
+    {"docs/a.md": "a\n" * 150, "docs/acceptance.md": "a\n" * 151},
     {"README.md": "[a](docs/a.md#one-and-two) `[b](c)` [d](https://example.org) [e](#here)\n# Here\n",
      "docs/a.md": "# One, and `two`\n[up](../README.md)\n"},
     {"README.md": "./dev run graphs/NAME.xml; graphs/a.xml; graphs/mine.xml\n", "graphs/a.xml": "<graph/>"},

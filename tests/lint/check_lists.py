@@ -12,7 +12,7 @@ STRUCT = re.compile(r"((?:^///[^\n]*\n)+)struct (\w+)(?: : (\w+))? \{", re.MULTI
 TYPE = re.compile(r"^ORCA_(COMPONENT|HARDWARE)\((\w+), \"([\w.]+)\"\)", re.MULTILINE)
 FIRST_COMMENT = re.compile(r"((?:^ *///[^\n]*\n)+) *(?:template|class|struct|enum|using|inline|constexpr|\[\[|namespace|\w)", re.MULTILINE)
 LIST = re.compile(r"(<!-- list of (\w+); made by tests/lint/check_lists.py -->\n).*?(<!-- end of list -->)", re.DOTALL)
-PAGES = {"docs/objects.md": ["objects"], "docs/components.md": ["components", "drivers", "helpers"]}
+PAGES = {"docs/all-objects.md": ["objects"], "docs/components.md": ["components", "drivers"], "docs/helpers.md": ["helpers"]}
 HELPERS = ("src/component_api/include/", "src/patterns/include/orca/patterns/", "src/geometry/", "src/navigation/include/",
            "src/testing/include/", "src/text/include/", "src/hw/framing/include/", "src/hw/driver/include/", "src/hw/api/include/",
            "src/base/include/orca/base/portable_math.hpp", "src/base/include/orca/base/result.hpp",
@@ -103,11 +103,11 @@ _IDL = "module orca {\n/// A question. More of it.\nstruct Ask : OrcaObject {\n}
 _PAGE = ("<!-- list of objects; made by tests/lint/check_lists.py -->\n| object | what it is | declared in |\n|---|---|---|\n"
          "| `Ask` | A question. | [a.idl](../idl/a.idl) |\n%s<!-- end of list -->\n")
 _PLACE = "| `Place` | A place. | [a.idl](../idl/a.idl) |\n"
-BAD = [({"idl/a.idl": _IDL, "docs/objects.md": _PAGE % ""}, "not that of the sources"),
-       ({"idl/a.idl": _IDL, "docs/objects.md": "no list"}, "the list of objects is missing"),
+BAD = [({"idl/a.idl": _IDL, "docs/all-objects.md": _PAGE % ""}, "not that of the sources"),
+       ({"idl/a.idl": _IDL, "docs/all-objects.md": "no list"}, "the list of objects is missing"),
        ({"src/a/a.cpp": "/// A cook.\nclass A {};\nORCA_COMPONENT(A, \"my.A\")\n",
          "docs/components.md": "<!-- list of components; made by tests/lint/check_lists.py -->\n<!-- end of list -->"}, "not that of the sources")]
-GOOD = [{"idl/a.idl": _IDL, "docs/objects.md": _PAGE % _PLACE}]
+GOOD = [{"idl/a.idl": _IDL, "docs/all-objects.md": _PAGE % _PLACE}]
 
 if __name__ == "__main__":
     if len(sys.argv) != 3 or sys.argv[1] != "--write":

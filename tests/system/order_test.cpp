@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the order of a graph's elements means, as docs/graph.md says it.
+// What the order of a graph's elements means, as docs/graph-parts.md says it.
 #include <catch2/catch.hpp>
 
 #include "deployer.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two robots of one type in one hall, each driven by a shipped graph with its avoider: they see each other and keep
-// apart. docs/several_robots.md has the figures and says which meetings end otherwise.
+// apart. docs/meetings.md has the figures and says which meetings end otherwise.
 #include <catch2/catch.hpp>
 
 #include <cmath>

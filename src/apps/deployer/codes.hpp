@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-// The codes of what can be wrong with a command line. docs/errors.md explains them; a test compares the two. The
+// The codes of what can be wrong with a command line. docs/errors-elsewhere.md explains them; a test compares the two. The
 // meaning of a code never changes.
 #pragma once
 

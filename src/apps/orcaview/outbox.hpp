@@ -91,7 +91,7 @@ void append(std::string& bytes, Number number) {
   bytes.append(raw, sizeof number);
 }
 
-/// Returns what stands before an object in a frame to a page: 32 bytes, little-endian (docs/orcaview.md).
+/// Returns what stands before an object in a frame to a page: 32 bytes, little-endian (docs/orcaview-messages.md).
 [[nodiscard]] std::string object_head(const Frame& frame);
 /// The same for the reply to a question.
 [[nodiscard]] std::string reply_head(std::uint32_t id);

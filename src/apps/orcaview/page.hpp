@@ -14,7 +14,7 @@
 
 namespace orca::view {
 
-/// One page that is open in a browser. It answers what the page asks; nonsense gets an error (docs/orcaview.md).
+/// One page that is open in a browser. It answers what the page asks; nonsense gets an error (docs/orcaview-messages.md).
 ///
 /// Thread contract: the loop's thread.
 class Page final : public Session {

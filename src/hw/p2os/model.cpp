@@ -123,7 +123,7 @@ constexpr Model with_bumpers(Model model, int front, int rear) {
   return model;
 }
 
-// The middle of these bodies is behind the axle, as that of their sonars: docs/robot-files.md.
+// The middle of these bodies is behind the axle, as that of their sonars: docs/device-errors.md.
 constexpr Model behind_axle(Model model) {
   model.behind = 44.5 * kMillimetre;
   return model;

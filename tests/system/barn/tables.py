@@ -8,7 +8,7 @@ With --tuned it runs those variants only for which DIR holds settings, NAME.xml,
 the declared values were the best there are none, and the row is that of the table without --tuned.
 LEVEL is ideal, nominal, harsh or recorded; POSE is odometry (drifts, as that of a robot without a map), slam (a map made on the way) or truth (the simulator's).
 The runs are kept in OUT/LEVEL_POSE.batch; called again it goes on where it was stopped. All columns are the referee's
-(docs/comparing.md). Exit status: 0 if all runs were made; 77 if the worlds are missing; otherwise that of simbatch.
+(docs/many-runs.md). Exit status: 0 if all runs were made; 77 if the worlds are missing; otherwise that of simbatch.
 """
 import argparse
 import csv
@@ -96,7 +96,7 @@ def table(args, rows, commit):
         "",
         f"Made by `tests/system/barn/tables.py {args.level} {args.pose}{f' --tuned {os.path.relpath(args.tuned, TREE)}' if args.tuned else ''}` on {time.strftime('%Y-%m-%d', time.gmtime())} with commit {commit}: "
         f"{len(rows)} runs, each behaviour once in each of {worlds} worlds,",
-        "judged by the referee. [comparing.md](../comparing.md#barn) says what the columns mean.",
+        "judged by the referee. [many-runs.md](../many-runs.md#barn) says what the columns mean.",
         "",
         "| behaviour | success | 95 % | BARN score | SPL | median time of successes | claimed wrongly | not claimed | failures |",
         "|---|---|---|---|---|---|---|---|---|",

@@ -215,8 +215,8 @@ TEST_CASE("each measure has a name of its own", "[batch][measures]") {
   for (const Measure& measure : all_measures()) CHECK(names.insert(measure.name).second);
 }
 
-TEST_CASE("docs/comparing.md lists the measures as they are", "[batch][measures]") {
-  std::ifstream page(ORCA_SOURCE_DIR "/docs/comparing.md");
+TEST_CASE("docs/measures.md lists the measures as they are", "[batch][measures]") {
+  std::ifstream page(ORCA_SOURCE_DIR "/docs/measures.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
   std::string table = "| measure | unit | what it is |\n|---|---|---|\n";
   for (const Measure& measure : all_measures())

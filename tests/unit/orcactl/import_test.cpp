@@ -183,8 +183,8 @@ TEST_CASE("orcactl import prints a graph that the deployer finds right, or says 
   CHECK(none.wait(30s)->exit_code == 1);
 }
 
-TEST_CASE("docs/errors.md explains every code of import, and no other", "[orcactl][import][docs]") {
-  const std::string page = read_text(ORCA_SOURCE_DIR "/docs/errors.md");
+TEST_CASE("docs/errors-elsewhere.md explains every code of import, and no other", "[orcactl][import][docs]") {
+  const std::string page = read_text(ORCA_SOURCE_DIR "/docs/errors-elsewhere.md");
   for (const char* code : {"I001", "I002", "I003", "I004", "I005", "I006"})
     CHECK_THAT(page, Contains("\n| " + std::string(code) + " | "));
   CHECK_THAT(page, !Contains("\n| I007"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The columns of a recording, as docs/graph.md promises them.
+// The columns of a recording, as docs/tables.md promises them.
 #include <catch2/catch.hpp>
 
 #include <limits>

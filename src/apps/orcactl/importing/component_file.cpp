@@ -136,10 +136,11 @@ class Reader {
         if (part.name() == "NameService" && entry.name() == "nsName") service.name = text;
         if (part.name() == "NameService" && entry.name() == "use") service.is_named = text != "false";
         if (part.name() == "TraderService" && entry.name() == "use" && text == "true")
-          without_equivalent(part.position(),
-                             "a trader that is told of " + in_quotes(service.name) +
-                                 " has no equivalent: each port can be sought by its type (docs/graph.md, "
-                                 "\"What a port seeks\"); only more than that needs a <property>");
+          without_equivalent(
+              part.position(),
+              "a trader that is told of " + in_quotes(service.name) +
+                  " has no equivalent: each port can be sought by its type (docs/connections.md, "
+                  "\"What a port seeks\"); only more than that needs a <property>");
       }
     if (service.name.empty())
       return without_equivalent(e.position(), "a server without nsName is no port that others can name");

@@ -49,13 +49,13 @@ std::set<std::string> approved_codes(const std::string& folder, char letter) {
 
 }  // namespace
 
-TEST_CASE("docs/world-files.md explains every code of a world, and no other", "[sim][docs]") {
-  CHECK(documented_codes("world-files.md", 'W') ==
+TEST_CASE("docs/errors-of-worlds.md explains every code of a world, and no other", "[sim][docs]") {
+  CHECK(documented_codes("errors-of-worlds.md", 'W') ==
         codes_in(bytes_of(kRoot / "sim/files/world/codes.hpp"), 'W'));
 }
 
-TEST_CASE("docs/robot-files.md explains every code of a robot, and no other", "[sim][docs]") {
-  CHECK(documented_codes("robot-files.md", 'R') ==
+TEST_CASE("docs/errors-of-worlds.md explains every code of a robot, and no other", "[sim][docs]") {
+  CHECK(documented_codes("errors-of-worlds.md", 'R') ==
         codes_in(bytes_of(kRoot / "src/robot_file/include/orca/robot_file/codes.hpp"), 'R'));
 }
 

@@ -21,7 +21,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 // Returns the rows of a page's table that begins with `heading`, without the heading and the line below it.
-Lines rows_below(const std::string& heading, const std::string& name = "simulation.md") {
+Lines rows_below(const std::string& heading, const std::string& name) {
   std::ifstream page(ORCA_SOURCE_DIR "/docs/" + name);
   std::string line;
   while (std::getline(page, line) && line != heading) {
@@ -163,7 +163,7 @@ Table rules_below(const orca::xml::ElementRule& root) {
 
 }  // namespace
 
-TEST_CASE("docs/simulation.md has the numbers behind each level of realism", "[sim][docs]") {
+TEST_CASE("docs/realism.md has the numbers behind each level of realism", "[sim][docs]") {
   const Lines ideal = column_of(Realism::ideal);
   const Lines nominal = column_of(Realism::nominal);
   const Lines harsh = column_of(Realism::harsh);
@@ -172,12 +172,12 @@ TEST_CASE("docs/simulation.md has the numbers behind each level of realism", "[s
   for (std::size_t i = 0; i < kErrors.size(); ++i)
     expected.push_back("| " + kErrors[i] + " | " + ideal[i] + " | " + nominal[i] + " | " + harsh[i] + " | " +
                        recorded[i] + " |");
-  CHECK(rows_below("| error | ideal | nominal | harsh | recorded |") == expected);
+  CHECK(rows_below("| error | ideal | nominal | harsh | recorded |", "realism.md") == expected);
 }
 
-TEST_CASE("docs/simulation.md says of each error where its values come from", "[sim][docs]") {
+TEST_CASE("docs/realism.md says of each error where its values come from", "[sim][docs]") {
   Lines named;
-  for (const std::string& row : rows_below("| error | nominal | harsh | recorded |")) {
+  for (const std::string& row : rows_below("| error | nominal | harsh | recorded |", "realism.md")) {
     named.push_back(cell(row, 0));
     for (const std::size_t level : {1U, 2U, 3U}) {
       CAPTURE(row);
@@ -187,9 +187,10 @@ TEST_CASE("docs/simulation.md says of each error where its values come from", "[
   CHECK(named == kErrors);
 }
 
-TEST_CASE("docs/simulation.md has the estimates that all levels share", "[sim][docs]") {
+TEST_CASE("docs/halved-and-doubled.md has the estimates that all levels share", "[sim][docs]") {
   Lines shown;
-  for (const std::string& row : rows_below("| name | estimate | what it is |")) shown.push_back(cell(row, 1));
+  for (const std::string& row : rows_below("| name | estimate | what it is |", "halved-and-doubled.md"))
+    shown.push_back(cell(row, 1));
   for (const Realism level : {Realism::ideal, Realism::nominal, Realism::harsh, Realism::recorded}) {
     const Lines all = numbers_of(level);
     CHECK(Lines(all.begin() + static_cast<std::ptrdiff_t>(kErrors.size()), all.end()) == shown);
@@ -201,7 +202,7 @@ TEST_CASE("docs/simulation.md has every shipped robot with its drive, speeds and
   Lines expected;
   for (const auto& file : orca::test::files_in(kRobots, ".urdf"))
     expected.push_back(row_of(file.stem().string()));
-  CHECK(rows_below("| file | drive | speed | turn rate | plan |") == expected);
+  CHECK(rows_below("| file | drive | speed | turn rate | plan |", "simulation.md") == expected);
 }
 
 TEST_CASE("docs/world-files.md has every element of a world file with its attributes", "[sim][docs]") {

@@ -32,7 +32,7 @@ struct Band {
 };
 constexpr Band kBand{1609.08 / kSeeds, 2004.02 / kSeeds};
 // The covariance is linear in the errors of the heading. The Create 2 with its narrow track has turned by more than 10 deg too
-// little or too much at harsh, where that is not enough: docs/robot-files.md has what it reaches.
+// little or too much at harsh, where that is not enough: docs/device-errors.md has what it reaches.
 constexpr double kNotLinear = 3.6;
 
 struct Leg {

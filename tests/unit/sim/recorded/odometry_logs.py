@@ -2,7 +2,7 @@
 """Reads recorded and simulated runs as steps: how a robot moved by its odometry, and how it really moved.
 
 A motion is (forward [m], left [m], turn [rad]) in the frame at its beginning. A step is a pair of motions over the same
-time, (odometry, reference). The public logs are described in docs/simulation.md.
+time, (odometry, reference). The public logs are described in docs/realism.md.
 """
 import csv
 import gzip

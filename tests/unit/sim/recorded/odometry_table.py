@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lays the odometry of recorded robots beside that of the simulator's levels: the table of docs/simulation.md.
+"""Lays the odometry of recorded robots beside that of the simulator's levels: the table of docs/realism.md.
 
     odometry_table.py BUILD            compares the page with the table; exit status 1 if they differ
     odometry_table.py BUILD --write    puts the table into the page
@@ -20,7 +20,7 @@ import odometry_errors
 import odometry_logs
 
 TREE = pathlib.Path(__file__).resolve().parents[4]
-PAGE = TREE / "docs/simulation.md"
+PAGE = TREE / "docs/realism.md"
 BEGIN, END = "<!-- odometry of recorded robots: made by tests/unit/sim/recorded/odometry_table.py -->\n", "<!-- end of odometry -->\n"
 FILES = ("slam/intel_scans.txt.gz", "slam/intel.relations.gz", "localization/aces-corrected.carmen.log.gz")
 ROBOT = TREE / "sim/robots/pioneer_2dx.urdf"
@@ -111,7 +111,7 @@ def main():
     if options.write:
         PAGE.write_text(before + BEGIN + made + END + after, encoding="utf-8")
     elif shown != made:
-        print(*difflib.unified_diff(shown.splitlines(), made.splitlines(), "docs/simulation.md", "made now", lineterm=""), sep="\n")
+        print(*difflib.unified_diff(shown.splitlines(), made.splitlines(), "docs/realism.md", "made now", lineterm=""), sep="\n")
         print("Make it anew with odometry_table.py BUILD --write")
         return 1
     return 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The errors of ranges are distributed as docs/simulation.md says. Each bound is passed by chance alone in
+// The errors of ranges are distributed as docs/simulated-devices.md says. Each bound is passed by chance alone in
 // one run of a thousand; the seeds are fixed, so a run is either always fine or never.
 #include <catch2/catch.hpp>
 

@@ -88,7 +88,7 @@ TEST_CASE("in 20,000 random poses in the office nine rays read 1 in 88 otherwise
       count_bounce(caster, pose, echo, count);
   }
   CAPTURE(count.bounces, count.missed, count.off, count.farthest);
-  // docs/simulation.md tells these numbers.
+  // docs/simulated-devices.md tells these numbers.
   CHECK(count.bounces == 1079);
   CHECK(count.missed == 80);
   CHECK(count.off == 146);

@@ -11,7 +11,7 @@
 
 namespace orca::sim::test {
 
-/// What a sonar hears by the rules of docs/simulation.md, found with a cone of 2,001 rays: the reference for the
+/// What a sonar hears by the rules of docs/simulated-devices.md, found with a cone of 2,001 rays: the reference for the
 /// simulator's own search, with which it shares no code.
 ///
 /// However many rays there are, something can stand between two of them. So further rays pass closely on both sides of

@@ -13,7 +13,7 @@ using robot_file::Realism;
 using robot_file::realism_from;
 using robot_file::to_string;
 
-/// The numbers behind a level, and estimates. docs/simulation.md gives the source of each.
+/// The numbers behind a level, and estimates. docs/realism.md gives the source of each.
 struct ErrorLevels {
   double wheel_mismatch = 0.0;  ///< Bound of the ratio of two wheels' diameters, less 1.
   double wheel_size = 0.0;      ///< Bound of the relative error of the wheels' mean diameter.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The codes of everything that can be wrong with a robot. docs/robot-files.md explains them to people; a test
+// The codes of everything that can be wrong with a robot. docs/errors-of-worlds.md explains them to people; a test
 // compares the two. A code keeps its meaning for ever.
 #pragma once
 

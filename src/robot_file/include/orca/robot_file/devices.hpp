@@ -130,7 +130,7 @@ struct BumperRing {
   }
 };
 
-/// The kinematics of a base; docs/simulation.md has the models.
+/// The kinematics of a base; docs/simulated-devices.md has the models.
 enum class DriveKind {
   differential,  ///< Two wheels on one axle.
   synchro,       ///< Three wheels, steered and driven together; the body does not turn with them.

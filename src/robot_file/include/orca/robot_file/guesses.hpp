@@ -15,7 +15,7 @@ enum class Realism {
   ideal,    ///< Exact sensors, wheels and odometry, a drive without lag and dead time.
   nominal,  ///< Errors of well calibrated devices on a hard, even floor.
   harsh,    ///< Errors about twice as large.
-  recorded  ///< Wheels as wrong as those of the robots whose logs docs/simulation.md compares; else as nominal.
+  recorded  ///< Wheels as wrong as those of the robots whose logs docs/realism.md compares; else as nominal.
 };
 
 [[nodiscard]] std::string_view to_string(Realism realism);

@@ -15,7 +15,7 @@
 namespace orca {
 
 /// The columns of a table of objects in CSV (RFC 4180): stamp, port, and one for each number, text or choice in
-/// the objects (docs/graph.md, "Recording"). Types are added and room is made first, then header() fixes the columns.
+/// the objects (docs/tables.md). Types are added and room is made first, then header() fixes the columns.
 ///
 /// It writes no file, and does not check that an object's type was added: fields without a column are left out.
 ///
