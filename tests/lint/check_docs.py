@@ -9,7 +9,7 @@ FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`[^`\n]*`")
 GRAPH = re.compile(r"(?<!/)\bgraphs/[\w./-]+?\.xml\b")
 PAGE = re.compile(r"\bdocs/[\w./-]+?\.md\b")
-MOST_LINES = 150
+MOST_LINES, MOST_LINES_OF_VERSION = 150, 30
 LONGER = {"docs/acceptance.md": "a table of claims, for looking up one", "docs/states.md": "made from the tables of the runtime"}
 SOURCES = (".cpp", ".hpp", ".idl", ".py", ".cmake", "CMakeLists.txt", ".xml", ".urdf", ".md")
 
@@ -71,17 +71,25 @@ def _long(tree):
             yield f"{page}:1: {lines} lines, more than {MOST_LINES}; split it by what a reader asks"
 
 
+def _long_versions(tree):
+    if tree.exists("CHANGELOG.md"):
+        for section in re.split(r"^## ", tree.text("CHANGELOG.md"), flags=re.MULTILINE)[1:]:
+            if section.rstrip("\n").count("\n") > MOST_LINES_OF_VERSION:
+                yield f"CHANGELOG.md:1: the version {section.splitlines()[0]} has more than {MOST_LINES_OF_VERSION} lines; tell less"
+
+
 def find(tree):
     """Finds pages that are too long, and missing targets, except names in capitals (docs/adr/NNNN-title.md, graphs/NAME.xml) and the reader's own (graphs/mine.xml)."""
     sources = [p for p in tree.with_suffix(*SOURCES) if not p.startswith(("tests/lint/", "tests/data/"))]
     graph = re.compile(GRAPH.pattern.replace("graphs/", "graphs/(?!(?:tasks/)?[A-Z]{3}|(?:my|mine)[.])"))
     page = re.compile(PAGE.pattern.replace("docs/", "docs/(?!(?:adr/)?[A-Z]{3})"))
     shown = [p for p in tree.with_suffix(".md") if not p.startswith(("templates/", "tests/"))]
-    findings = [*_long(tree), *_links(tree), *_named(tree, shown, graph, "graph"), *_named(tree, sources, page, "page")]
+    findings = [*_long(tree), *_long_versions(tree), *_links(tree), *_named(tree, shown, graph, "graph"), *_named(tree, sources, page, "page")]
     return list(dict.fromkeys(findings))
 
 
 BAD = [
+    ({"CHANGELOG.md": "# Changes\n## 2\n" + "* a\n" * 31 + "## 1\n"}, "the version 2 has more than 30 lines"),
     ({"docs/a.md": "a\n" * 151}, "docs/a.md:1: 151 lines"),
     ({"README.md": "see [a](docs/none.md)\n"}, "README.md:1: link"),
     ({"README.md": "\n[a](docs/a.md#two)\n", "docs/a.md": "# One\n"}, 'has no heading "two"; it has: one'),
@@ -92,6 +100,7 @@ BAD = [
     ({"src/a.cpp": "/// @source docs/none.md, eq. 3\n"}, "src/a.cpp:1: names the page docs/none.md"),
 ]
 GOOD = [
+    {"CHANGELOG.md": "# Changes\n## 2\n" + "* a\n" * 30 + "\n## 1\n" + "* a\n" * 30},
     {"docs/a.md": "a\n" * 150, "docs/acceptance.md": "a\n" * 151},
     {"README.md": "[a](docs/a.md#one-and-two) `[b](c)` [d](https://example.org) [e](#here)\n# Here\n",
      "docs/a.md": "# One, and `two`\n[up](../README.md)\n"},
