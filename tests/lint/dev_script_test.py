@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests the parts of ./dev that need no build of Orca: its help, its exit codes, its speed when all packages are there, and what
 it does with a project of one target that stands for Orca."""
+import json
 import shutil
 import subprocess
 import sys
@@ -36,6 +37,12 @@ class DevScript(unittest.TestCase):
             answer = dev(command, "--help")
             self.assertEqual((answer.returncode, answer.stderr), (0, ""), command)
             self.assertTrue(answer.stdout.startswith(f"./dev {command}"), command)
+
+    def test_the_container_for_editors_is_the_debian_of_the_image_and_is_set_up_by_dev(self):
+        container = json.loads((ROOT / ".devcontainer/devcontainer.json").read_text())
+        self.assertIn(f"FROM {container['image']} AS build\n", (ROOT / "Containerfile").read_text())
+        self.assertEqual(container["postCreateCommand"], "./dev setup")
+        self.assertLessEqual(set(container), {"name", "image", "postCreateCommand", "customizations"})  # nothing that names other files
 
     def test_wrong_use_ends_with_2_and_says_what_was_wrong(self):
         for arguments, word in ((["biuld"], "biuld"), (["build", "relaese"], "relaese"), (["run"], "needs a graph"),
