@@ -3,7 +3,7 @@
 import posixpath
 import re
 
-LINK = re.compile(r"(?<!!)\[[^\]\n]*\]\(<?([^)>\s]+)>?\)|!\[[^\]\n]*\]\(<?([^)>\s]+)>?\)")
+LINK = re.compile(r"(?<!!)\[[^\]\n]*(?:\n[^\]\n]+)?\]\(<?([^)>\s]+)>?\)|!\[[^\]\n]*\]\(<?([^)>\s]+)>?\)")
 HEADING = re.compile(r"^#{1,6}\s+(.*?)\s*#*$", re.MULTILINE)
 FENCE = re.compile(r"^(```|~~~).*?^\1", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"`[^`\n]*`")
@@ -89,6 +89,7 @@ def find(tree):
 
 
 BAD = [
+    ({"docs/a.md": "[a link of\ntwo lines](#none)\n"}, 'has no heading "none"'),
     ({"CHANGELOG.md": "# Changes\n## 2\n" + "* a\n" * 31 + "## 1\n"}, "the version 2 has more than 30 lines"),
     ({"docs/a.md": "a\n" * 151}, "docs/a.md:1: 151 lines"),
     ({"README.md": "see [a](docs/none.md)\n"}, "README.md:1: link"),
