@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -305,6 +306,44 @@ TEST_CASE("a robot that is put in a corner is not sure of one of the many that l
   CHECK(run.says("Pioneer is kidnapped"));
   CHECK(run.arrivals().size() == 1);
   CHECK_FALSE(run.says("truly the robot is"));
+}
+
+TEST_CASE("a robot that is switched on where it was switched off knows at once where it is",
+          "[system][localizer]") {
+  const Drives drives;
+  const auto run_from = [&](const std::string& place, const Words& more) {
+    return drives.drive(
+        "pioneer_localize",
+        Words{"--set", "place=" + place, "--set", "localizer.keeps_pose=office"} + kOfficeMap + more);
+  };
+  const auto [evening, csv] = run_from("start", {"--until", "60 s"});
+  INFO(evening.err);
+  const auto truth = poses_of(csv, "truth.RobotPosePush");
+  REQUIRE_FALSE(truth.empty());
+  const Stamped last = truth.back();
+  CHECK(std::hypot(last.x - truth.front().x, last.y - truth.front().y) > 3.0);
+  std::ostringstream bed;
+  bed << "<place name=\"bed\" x=\"" << last.x << "\" y=\"" << last.y << "\" yaw=\"" << last.yaw << "\"/>";
+  const std::string world = "world=" + drives.office_with(bed.str());
+  const Words asks_nobody{"--until", "3 s", "--set", world, "--set", "localizer.searches=false"};
+
+  const Errors there = errors_of(run_from("bed", asks_nobody).csv);
+  CHECK(there.unknown <= 10);
+  CHECK(there.share(1.0) < 0.05);
+  const Errors elsewhere = errors_of(run_from("start", asks_nobody).csv);
+  CHECK(elsewhere.place.empty());
+  // The search finds a robot that was carried off.
+  const Errors carried = errors_of(run_from("start", {"--until", "20 s"}).csv);
+  CHECK(carried.share(1.0) < 0.1);
+  CHECK(carried.place.size() > carried.unknown);
+
+  // Programs that a test starts have a state folder of their own.
+  const std::string file = std::string(std::getenv("XDG_STATE_HOME")) + "/orca/office.pose";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  const auto [damaged, poses] = run_from("bed", asks_nobody);
+  CHECK(damaged.says("what was kept of where the robot was is not used"));
+  CHECK(damaged.says("office.pose: this file is damaged"));
+  CHECK(errors_of(poses).place.empty());
 }
 
 TEST_CASE("a robot finds where it is the same way on both executors", "[system][localizer]") {

@@ -5,11 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "last_place.hpp"
 #include "orca/component.hpp"
-#include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
-#include "orca/geometry/objects/odometry_trust.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -17,6 +16,7 @@
 #include "orca/idl/time.hpp"
 #include "orca/navigation/map_localizer.hpp"
 #include "orca/planning/floor.hpp"
+#include "reckoning.hpp"
 #include "senses.hpp"
 
 namespace {
@@ -41,19 +41,6 @@ orca::idl::LocalizationState state_of(Known known) {
     case Known::lost: break;
   }
   return orca::idl::LOCALIZATION_LOST;
-}
-
-Reckoned reckoned_by(const Odometry& odometry, orca::OdometryTrust& trust) {
-  return {orca::to_seconds(orca::to_time_point(odometry.stamp()).time_since_epoch()),
-          orca::plane_pose(odometry), trust.covariance_of(odometry)};
-}
-
-// Odometry that has gone on farther than any robot can drive counts from another place.
-bool has_jumped(const Reckoned& before, const Reckoned& now) {
-  constexpr double kFastest = 10.0;  // [m/s]
-  constexpr double kRoom = 0.5;      // [m]
-  return norm(now.X_OR.position() - before.X_OR.position()) >
-         kRoom + kFastest * std::max(0.0, now.time - before.time);
 }
 
 orca::idl::Pose2D pose_of(const Pose2& pose) {
@@ -123,7 +110,21 @@ class Localizer final : public orca::Component {
     orca::nav::LocalizerOptions options;
     options.searches = *searches_;
     localizer_.emplace(nullptr, random("particles"), options);
+    if (orca::Status kept = open_last(); !kept.ok()) return kept;
     return start_place_->empty() ? orca::ok() : find_start();
+  }
+
+  // A robot that cannot remember where it was finds it as one that has never been there.
+  orca::Status open_last() {
+    if (keeps_pose_->empty()) return orca::ok();
+    if (keeps_pose_->find('/') != std::string::npos || keeps_pose_->front() == '.')
+      return keeps_pose_.refuse(
+          "it is a name, not a path; expected a name without \"/\" that does not begin "
+          "with a dot, such as \"pioneer\"");
+    if (orca::Status opened = last_.open(*keeps_pose_); !opened.ok())
+      log_warning("what was kept of where the robot was is not used: " + opened.error().text());
+    if (!start_place_->empty()) last_.forget();
+    return orca::ok();
   }
 
   // Asks where the place is at which the robot starts.
@@ -160,6 +161,11 @@ class Localizer final : public orca::Component {
     laser_.unsubscribe_all();
     sonar_.unsubscribe_all();
     if (question_) map_.query_forget(*std::exchange(question_, std::nullopt));
+    warn_unless(last_.close(floor_));
+  }
+
+  void warn_unless(const orca::Status& kept) {
+    if (!kept.ok()) log_warning("it is not kept where the robot is: " + kept.error().text());
   }
 
   orca::Outcome work() override {
@@ -184,6 +190,7 @@ class Localizer final : public orca::Component {
     }
     if (!floor_.has_changed()) return;
     has_map_ = true;
+    last_.change_map();
     localizer_->change_map(floor_.map());
   }
 
@@ -201,12 +208,20 @@ class Localizer final : public orca::Component {
 
   // Goes on with the odometry; a place that was taken over is where the robot was at an older one.
   void follow(const Odometry& odometry) {
-    const Reckoned now = reckoned_by(odometry, trust_);
-    const bool goes_on = !base_.begins_anew(odometry) && reckoned_ && !has_jumped(*reckoned_, now);
-    if (reckoned_ && !goes_on) begin_anew(now, odometry.origin());
+    const bool goes_on = reckoning_.take(odometry);
+    const Reckoned now = *reckoning_.latest();
+    if (!goes_on) begin_anew(now, odometry.origin());
     senses_.move(orca::to_time_point(odometry.stamp()), now.X_OR);
-    reckoned_ = now;
     if (start_) localizer_->place(said_by(*std::exchange(start_, std::nullopt), floor_.X_WM()), now);
+    if (has_map_ && last_.waits()) doubt_last(now);
+  }
+
+  // The robot may still be where it was in the last run: the next scan says whether it is.
+  void doubt_last(const Reckoned& now) {
+    if (const auto where = last_.take(floor_))
+      localizer_->suggest(*where, now);
+    else
+      log_info("what was kept of where the robot was is not used: " + where.error().message);
   }
 
   void begin_anew(const Reckoned& now, const std::string& base) {
@@ -230,32 +245,36 @@ class Localizer final : public orca::Component {
   }
 
   void sense() {
+    const Reckoned now = *reckoning_.latest();
     while (const auto taken = senses_.take_scan(*range_)) {
       const double time = orca::to_seconds(taken->stamp.time_since_epoch());
-      if (time < localizer_->time() && localizer_->time() <= reckoned_->time) continue;
-      localizer_->move({time, taken->X_OR, reckoned_->covariance});
+      if (time < localizer_->time() && localizer_->time() <= now.time) continue;
+      localizer_->move({time, taken->X_OR, now.covariance});
       localizer_->see(taken->scan);
     }
-    const bool hears =
-        senses_.has_echoes() && localizer_->is_time_for(orca::nav::MapLocalizer::kSonars, *reckoned_);
-    if (hears || reckoned_->time - localizer_->time() > kSilence || reckoned_->time < localizer_->time())
-      localizer_->move(*reckoned_);
-    if (hears) localizer_->hear(senses_.take_echoes(reckoned_->X_OR));
+    const bool hears = senses_.has_echoes() && localizer_->is_time_for(orca::nav::MapLocalizer::kSonars, now);
+    if (hears || now.time - localizer_->time() > kSilence || now.time < localizer_->time())
+      localizer_->move(now);
+    if (hears) localizer_->hear(senses_.take_echoes(now.X_OR));
   }
 
   void report(const Odometry& odometry) {
-    const Known known = localizer_->known(*reckoned_);
+    const Reckoned reckoned = *reckoning_.latest();
+    const Known known = localizer_->known(reckoned);
     note(known);
     auto pose = poses_.loan();
     const Pose2 X_WM = floor_.X_WM();
-    if (const auto where = localizer_->where(*reckoned_)) {
+    if (const auto where = localizer_->where(reckoned)) {
       const auto X_WR = seen_in(X_WM, *where);
       pose->x(X_WR.x());
       pose->y(X_WR.y());
       pose->orientation(X_WR.orientation());
       pose->covariance(X_WR.covariance());
     }
-    if (known != Known::localized) pose->covariance(orca::anywhere());
+    if (known == Known::localized)
+      warn_unless(last_.keep(floor_, *localizer_->where(reckoned), now()));
+    else
+      pose->covariance(orca::anywhere());
     pose->translational_velocity(odometry.translational_velocity());
     pose->sideways_velocity(odometry.sideways_velocity());
     pose->steering_velocity(odometry.steering_velocity());
@@ -263,7 +282,7 @@ class Localizer final : public orca::Component {
     poses_.push(std::move(pose));
     auto state = states_.loan();
     state->state(state_of(known));
-    const std::vector<PlaceBelief> places = localizer_->places(*reckoned_);
+    const std::vector<PlaceBelief> places = localizer_->places(reckoned);
     state->share(places.empty() ? 0.0 : std::max(0.0, places.front().quick));
     for (const PlaceBelief& place : places) state->places().push_back(seen_in(X_WM, place.where));
     state->stamp(odometry.stamp());
@@ -291,32 +310,34 @@ class Localizer final : public orca::Component {
     if (orca::is_anywhere(pose->covariance()))
       return orca::fail(orca::Code::invalid_argument,
                         "its covariance says that nobody knows where the robot is");
-    if (!reckoned_)
+    if (!reckoning_.latest())
       return orca::fail(
           orca::Code::failed_precondition,
           "no odometry has come that says anything valid; send the pose again when the base works");
-    localizer_->place(said_by(*pose, floor_.X_WM()), *reckoned_);
+    last_.forget();
+    localizer_->place(said_by(*pose, floor_.X_WM()), *reckoning_.latest());
     log_info("the robot is where \"" + pose->origin() + "\" says");
     return orca::ok();
   }
 
   void save_state(orca::StateWriter& state) const override {
-    Memory memory{{}, localizer_->was_known(), reckoned_, localizer_->offsets(), floor_.X_WM().yaw};
-    if (reckoned_) memory.places = localizer_->places(*reckoned_);
-    state.write(memory, base_);
+    Memory memory{{}, localizer_->was_known(), reckoning_.latest(), localizer_->offsets(), floor_.X_WM().yaw};
+    if (memory.reckoned) memory.places = localizer_->places(*memory.reckoned);
+    state.write(memory, reckoning_);
   }
 
   orca::Status load_state(orca::StateReader& state) override {
     Memory memory;
-    orca::Status read = state.read(memory, base_);
+    orca::Status read = state.read(memory, reckoning_);
     start_.reset();
     if (!read.ok() || !memory.reckoned) return read;
     const bool is_fresh =
         std::fabs(orca::to_seconds(now().time_since_epoch()) - memory.reckoned->time) < kFresh;
     if (!is_fresh) doubt(memory);
-    reckoned_ = memory.reckoned;
+    last_.forget();
+    reckoning_.resume(*memory.reckoned);
     floor_.expect(memory.yaw);
-    localizer_->resume(memory.places, memory.was_known, *reckoned_);
+    localizer_->resume(memory.places, memory.was_known, *reckoning_.latest());
     localizer_->offsets() = memory.offsets;
     return read;
   }
@@ -327,14 +348,13 @@ class Localizer final : public orca::Component {
   static constexpr orca::Duration kAskAgain = std::chrono::seconds(2);
 
   orca::SenderWatch senders_{host()};
-  orca::OdometryTrust trust_;
-  orca::SenderLife base_;
+  orca::localizer::Reckoning reckoning_;
   orca::planning::Floor floor_;
+  orca::localizer::LastPlace last_;
   orca::localizer::Senses senses_;
   std::optional<orca::nav::MapLocalizer> localizer_;
-  std::optional<RobotPose> start_;    // as somebody has said, until the first odometry
-  std::optional<Reckoned> reckoned_;  // by the last odometry
-  Known known_ = Known::unknown;      // as was said last
+  std::optional<RobotPose> start_;  // as somebody has said, until the first odometry
+  Known known_ = Known::unknown;    // as was said last
   bool has_map_ = false;
   std::optional<orca::TimePoint> asked_;
   std::optional<orca::QueryId> question_;
@@ -379,6 +399,13 @@ class Localizer final : public orca::Component {
       {.fixed = true,
        .text = "Whether it searches the whole map while it does not know where the robot is; otherwise "
                "somebody must say it."}};
+  orca::Param<std::string> keeps_pose_{
+      *this,
+      "keeps_pose",
+      "",
+      {.fixed = true,
+       .text = "Name under which the last pose is kept from one run to the next, to be checked by the first "
+               "scan: NAME.pose in ~/.local/state/orca; empty: it is not kept."}};
   orca::Param<double> range_{
       *this,
       "map_range",

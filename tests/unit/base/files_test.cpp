@@ -11,10 +11,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "orca/base/files/kept_file.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/input_file.hpp"
 #include "orca/base/output_file.hpp"
@@ -256,6 +258,60 @@ TEST_CASE("two output files at once are two files", "[base][files]") {
   REQUIRE(first.close().ok());
   OutputFile second("the report");
   CHECK(second.open(folder.file("a")).ok());
+}
+
+namespace {
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+TEST_CASE("a kept file returns what was written last, and keeps what was there before if that is wanted",
+          "[base][files]") {
+  const TempFolder folder;
+  const KeptFile file(folder.file("kept"), "thing", true);
+  const auto kept_in = [](const KeptFile& one) { return one.read().value().value(); };
+  CHECK_FALSE(file.read().value().has_value());
+  const auto first = bytes_of(std::string("one\n\0two", 8));
+  REQUIRE(file.write(first).ok());
+  CHECK(kept_in(file) == first);
+  CHECK_FALSE(std::filesystem::exists(folder.file("kept.old")));
+  put(folder.file("kept.new"), "of a run that was killed");
+  REQUIRE(file.write({}).ok());
+  CHECK(kept_in(file).empty());
+  CHECK(kept_in(KeptFile(folder.file("kept.old"), "thing")) == first);
+  CHECK_FALSE(std::filesystem::exists(folder.file("kept.new")));
+}
+
+TEST_CASE("a kept file that is damaged, or of another kind, is refused", "[base][files]") {
+  const TempFolder folder;
+  const KeptFile file(folder.file("kept"), "thing");
+  REQUIRE(file.write(bytes_of("what is kept")).ok());
+  CHECK_THAT(KeptFile(folder.file("kept"), "other").read().error().message, Contains("keeps a other"));
+  const std::string whole = content(folder.file("kept"));
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    put(folder.file("kept"), whole.substr(0, length));
+    CHECK(file.read().error().code == Code::data_loss);
+  }
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string spoilt = whole;
+    spoilt[i] = static_cast<char>(spoilt[i] ^ 1);
+    put(folder.file("kept"), spoilt);
+    CHECK(file.read().error().code == Code::data_loss);
+  }
+}
+
+TEST_CASE("where a kept file cannot be written, what was kept is still there", "[base][files]") {
+  const TempFolder folder;
+  const KeptFile file(folder.file("kept"), "thing");
+  const auto before = bytes_of("before");
+  REQUIRE(file.write(before).ok());
+  REQUIRE(mkdir(folder.file("kept.new").c_str(), 0700) == 0);  // where the draft would be
+  CHECK(file.write(bytes_of("after")).error().code == Code::unavailable);
+  CHECK(file.read().value() == before);
 }
 
 TEST_CASE("a file that a user names goes before Orca's own of that name", "[base][files]") {

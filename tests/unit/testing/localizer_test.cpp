@@ -2,6 +2,8 @@
 // A Localizer with made-up readings: wrong ones, clocks that jump, maps that come in parts.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 
@@ -11,6 +13,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/testing/component_trial.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::testing;
@@ -226,4 +229,88 @@ TEST_CASE("a Localizer takes maps and parts of them, and none that says nothing 
     CHECK(room.is_known());
     CHECK(room.off() < 0.05);
   });
+}
+
+namespace {
+
+/// A folder in which programs keep what is to be there in the next run.
+struct StateHome {
+  StateHome() { setenv("XDG_STATE_HOME", folder.path().c_str(), 1); }
+  ~StateHome() { unsetenv("XDG_STATE_HOME"); }
+
+  [[nodiscard]] std::string pose() const { return folder.file("orca/room.pose"); }
+
+  test::TempFolder folder;
+};
+
+struct Morning {
+  Pose2 X_WR{3.5, 1.5, 2.2};
+  bool searches = false;  // Then it learns where the robot is by what was kept alone.
+  std::size_t changed_cells = 0;
+};
+
+// A run of some seconds, of a robot that stands.
+void stand(const Morning& morning, const std::function<void(Room&)>& look) {
+  try_component<Room>({.type = "orca.Localizer",
+                       .params = {{"keeps_pose", "room"}, {"searches", morning.searches ? "true" : "false"}}},
+                      [&](Room& room) {
+                        auto map = Room::map();
+                        for (std::size_t i = 0; i < morning.changed_cells; ++i) map->cells()[i] = 0;
+                        room.maps.push(std::move(map));
+                        room.X_WR = morning.X_WR;
+                        (void)room.stand(30);
+                        look(room);
+                      });
+}
+
+const Pose2 kElsewhere{4.8, 2.8, -2.8};
+
+void check_known(Room& room) {
+  CHECK(room.is_known());
+  CHECK(room.off() < 0.05);
+}
+void check_unknown(Room& room) { CHECK_FALSE(room.is_known()); }
+
+}  // namespace
+
+TEST_CASE("a Localizer goes on where the run before has ended, if its scans fit there",
+          "[testing][localizer]") {
+  const StateHome home;
+  stand({}, check_unknown);
+  stand({.searches = true}, check_known);
+  stand({}, check_known);
+  stand({.X_WR = Pose2{3.5, 1.5, 2.2} * Pose2{0.15, -0.15, 0.1}}, check_known);
+  SECTION("a robot that was carried off is not there") {
+    stand({.X_WR = kElsewhere}, check_unknown);
+    stand({.X_WR = kElsewhere, .searches = true}, check_known);
+    stand({.X_WR = kElsewhere}, check_known);
+  }
+  SECTION("a place in another map says nothing") {
+    stand({.changed_cells = 1}, check_unknown);
+    stand({}, check_known);
+  }
+  SECTION("what somebody has said comes first") {
+    stand({}, [](Room& room) {
+      auto said = room.where.loan();
+      said->x(kElsewhere.x);
+      said->y(kElsewhere.y);
+      said->orientation(kElsewhere.yaw);
+      REQUIRE(room.where.send(std::move(said)).ok());
+      room.X_WR = kElsewhere;
+      (void)room.stand(10);
+      check_known(room);
+    });
+    stand({.X_WR = kElsewhere}, check_known);
+  }
+}
+
+TEST_CASE("a Localizer leaves out a damaged file of where the robot was", "[testing][localizer]") {
+  const StateHome home;
+  stand({.searches = true}, check_known);
+  const std::uintmax_t size = std::filesystem::file_size(home.pose());
+  REQUIRE(size > 100);
+  std::filesystem::resize_file(home.pose(), GENERATE_COPY(std::uintmax_t{0}, std::uintmax_t{20}, size - 1));
+  stand({}, check_unknown);
+  stand({.searches = true}, check_known);
+  stand({}, check_known);
 }
