@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace orca::nav {
 
@@ -35,14 +36,96 @@ PoseInformation information_of(const Pose2& moved, const TravelErrors& errors) {
   return {1.0 / (place * place), 0.0, 1.0 / (place * place), 0.0, 0.0, 1.0 / (turned * turned)};
 }
 
+bool is_finite(const Pose2& pose) {
+  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.yaw);
+}
+
+bool is_finite(const SlamNode& node) {
+  const auto is_number = [](const SurfacePoint& point) {
+    return std::isfinite(point.at.x + point.at.y + point.normal.x + point.normal.y);
+  };
+  return is_finite(node.X_OR) && is_finite(node.X_LR) && is_finite(node.X_MR) &&
+         std::isfinite(node.sensor.x + node.sensor.y) && std::ranges::all_of(node.scan, is_number);
+}
+
+bool is_finite(const PoseInformation& i) { return std::isfinite(i.xx + i.xy + i.yy + i.xt + i.yt + i.tt); }
+
 PoseInformation both(const PoseInformation& a, const PoseInformation& b) {
   return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xt + b.xt, a.yt + b.yt, a.tt + b.tt};
 }
 
 }  // namespace
 
+Status check(const SlamMemory& memory) {
+  const std::size_t count = memory.nodes.size();
+  const auto is_sound = [&](const PoseRelation& relation) {
+    return relation.from < count && relation.to < count && is_finite(relation.measured) &&
+           is_finite(relation.information);
+  };
+  const auto has_its_nodes = [&](const SlamStretch& stretch) {
+    return stretch.count > 0 && stretch.first < count && stretch.count <= count - stretch.first &&
+           std::isfinite(stretch.way);
+  };
+  // Scans that are farther apart than this cannot be drawn as one map.
+  constexpr double kFarthest = 850.0;  // [m] from the first node
+  constexpr double kEcho = 110.0;      // [m]
+  const auto is_near = [&](const SlamNode& node) {
+    const Vec2 off = node.X_MR.position() - memory.nodes.front().X_MR.position();
+    return norm(off) < kFarthest && norm(node.X_MR.position()) < 1e6 && norm(node.sensor) < kEcho &&
+           std::ranges::all_of(node.scan,
+                               [kEcho](const SurfacePoint& point) { return norm(point.at) < kEcho; });
+  };
+  if (!std::ranges::all_of(memory.nodes, [](const SlamNode& node) { return is_finite(node); }))
+    return fail(Code::data_loss, "a pose or a point of a scan is no number");
+  if (!std::ranges::all_of(memory.nodes, is_near))
+    return fail(Code::data_loss, "a scan is more than 850 m from the first one, or an echo too far");
+  if (!std::ranges::all_of(memory.relations, is_sound))
+    return fail(Code::data_loss, "a relation is no number, or names a scan that is not there");
+  if (!std::ranges::all_of(memory.submaps, has_its_nodes) || !std::isfinite(memory.way))
+    return fail(Code::data_loss, "a part of the map names scans that are not there");
+  return ok();
+}
+
 Slam::Slam(SlamOptions options) : options_(options), known_(information_of({}, options.travel)) {}
+
+Slam::Slam(SlamMemory memory, SlamOptions options) : Slam(options) {
+  nodes_ = std::move(memory.nodes);
+  relations_ = std::move(memory.relations);
+  loops_ = loops_fitted_ = memory.loops;
+  fitted_ = nodes_.size();
+  way_ = way_at_loop_ = memory.way;
+  for (const SlamStretch& stretch : memory.submaps) {
+    Submap& submap = *submaps_.emplace_back(std::make_unique<Submap>());
+    submap.first = stretch.first;
+    for (std::size_t node = stretch.first; node < stretch.first + stretch.count; ++node) add_to(submap, node);
+    submap.map.prepare();
+    submap.way = stretch.way;
+    submap.complete = true;
+  }
+}
+
 Slam::~Slam() = default;
+
+SlamMemory Slam::memory() const {
+  SlamMemory memory{nodes_, relations_, {}, loops_, way_};
+  for (const auto& submap : submaps_) memory.submaps.push_back({submap->first, submap->count, submap->way});
+  return memory;
+}
+
+// A bond with the nearest node keeps all nodes tied to the first one, even if no submap is found again there.
+void Slam::enter(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_MR, Vec2 sensor) {
+  const auto distance = [&](const SlamNode& node) { return norm(node.X_MR.position() - X_MR.position()); };
+  const auto nearest = std::ranges::min_element(nodes_, {}, distance);
+  const auto from = static_cast<std::size_t>(nearest - nodes_.begin());
+  const std::size_t node = nodes_.size();
+  known_ = information_of({}, options_.travel);
+  relations_.push_back({from, node, seen_from(nearest->X_MR, X_MR), known_});
+  nodes_.push_back({X_OR, X_MR, X_MR, {scan.begin(), scan.end()}, sensor});
+  way_at_loop_ = way_;
+  complete_submaps();
+  grow_submaps();
+  close_loops(node);
+}
 
 // The older of the submaps that grow knows more.
 std::optional<ScanMatch> Slam::lay(std::span<const SurfacePoint> scan, const Pose2& X_LR) const {
@@ -122,14 +205,18 @@ void Slam::grow_submaps() {
   }
   for (const auto& submap : submaps_) {
     if (submap->complete) continue;
-    const Pose2 X_AR = seen_from(nodes_[submap->first].X_LR, nodes_[node].X_LR);
-    submap->map.add(nodes_[node].scan, X_AR);
+    add_to(*submap, node);
     submap->map.prepare();
-    submap->middle =
-        submap->middle + 1.0 / static_cast<double>(++submap->count) * (X_AR.position() - submap->middle);
     submap->way = way_;
     submap->complete = submap->count >= options_.submap;
   }
+}
+
+void Slam::add_to(Submap& submap, std::size_t node) {
+  const Pose2 X_AR = seen_from(nodes_[submap.first].X_LR, nodes_[node].X_LR);
+  submap.map.add(nodes_[node].scan, X_AR);
+  submap.middle =
+      submap.middle + 1.0 / static_cast<double>(++submap.count) * (X_AR.position() - submap.middle);
 }
 
 PoseInformation Slam::known_at(const Pose2& X_OR) const {

@@ -99,6 +99,65 @@ TEST_CASE("the same scans give the same bits", "[navigation]") {
   CHECK(map_on(rounds(1), ring()).estimates == map_on(rounds(1), ring()).estimates);
 }
 
+TEST_CASE(
+    "a map goes on where another day ended: half of the way each, from another place, by another odometry",
+    "[navigation]") {
+  const test::Walls walls = ring();
+  const std::vector<Pose2> way = rounds(1);
+  RandomStream random(10, "test", "days");
+  const auto drive = [&](Slam& slam, std::size_t first, std::size_t last, const Pose2& X_OM) {
+    for (std::size_t i = first; i < last; ++i)
+      (void)slam.see(test::scan_of(walls, way[i], 0.01, random), X_OM * way[i]);
+  };
+  Slam monday;
+  drive(monday, 0, way.size() / 2, {});
+  const std::size_t before = monday.nodes().size();
+  const std::size_t loops = monday.loops();
+  REQUIRE(check(monday.memory()).ok());
+
+  Slam tuesday(monday.memory());
+  CHECK(tuesday.nodes().size() == before);
+  const Pose2 X_OM{40.0, -3.0, 2.0};
+  const std::size_t start = way.size() / 8;  // Somebody has carried it back to a place that the map knows.
+  tuesday.enter(test::scan_of(walls, way[start], 0.01, random), X_OM * way[start], way[start]);
+  CHECK(tuesday.nodes().size() == before + 1);
+  drive(tuesday, start + 1, way.size(), X_OM);
+  CHECK(tuesday.loops() > loops);
+  CHECK(tuesday.nodes().size() > before + before / 2);
+  // Both days' scans lie where they were taken.
+  double worst = 0.0;
+  for (const SlamNode& node : tuesday.nodes()) {
+    double nearest = 1e9;
+    for (const Pose2& place : way) nearest = std::min(nearest, apart(place, node.X_MR).way);
+    worst = std::max(worst, nearest);
+  }
+  CHECK(worst < 0.1);
+}
+
+TEST_CASE("what says nothing valid of a map is refused", "[navigation]") {
+  Slam slam;
+  for (int i = 0; i <= 20; ++i) (void)slam.see({}, {0.25 * i, 0.0, 0.0});
+  const SlamMemory good = slam.memory();
+  REQUIRE(check(good).ok());
+  CHECK(check({}).ok());
+  const auto refuses = [&](const auto& spoil) {
+    SlamMemory bad = good;
+    spoil(bad);
+    return !check(bad).ok();
+  };
+  const double kNone = std::nan("");
+  CHECK(refuses([&](SlamMemory& bad) { bad.nodes[3].X_MR.x = kNone; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.nodes[3].X_MR.x = 2000.0; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.nodes[3].scan.push_back({{kNone, 0.0}, {}}); }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.nodes[3].scan.push_back({{1e9, 0.0}, {}}); }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.nodes.pop_back(); }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.relations[0].to = 21; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.relations[0].information.tt = kNone; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.submaps[0].count = 22; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.submaps[0].first = 21; }));
+  CHECK(refuses([&](SlamMemory& bad) { bad.way = kNone; }));
+}
+
 TEST_CASE("where scans show nothing, the pose is odometry's", "[navigation]") {
   Slam slam;
   Pose2 X_MR;

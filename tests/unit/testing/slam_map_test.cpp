@@ -5,17 +5,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/testing/component_trial.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::testing;
@@ -32,7 +36,11 @@ struct Mapper final : Partner {
   PushServer<idl::LaserRangeReadings> laser{*this, "laser"};
   PushProxy<idl::RobotPose> pose{*this, "RobotPosePush"};
   QueryProxy<idl::Ask, idl::OccupancyGrid> asked{*this, "OccupancyGridQuery"};
+  QueryProxy<idl::Ask, idl::Path> way{*this, "PathQuery"};
   PushProxy<idl::OccupancyGrid> pushed{*this, "OccupancyGridPush", {.manual = true}};
+
+  Pose2 X_DM;                // the map's frame in that of the drifting pose
+  bool has_pillars = false;  // Without them the room looks the same along its walls.
 
   /// Sends the pose and what a laser in the middle of the robot sees of the room.
   void stand(double x, double y) {
@@ -45,8 +53,10 @@ struct Mapper final : Partner {
     for (int i = 0; i <= 180; ++i)
       scan->ranges().push_back(range(x, y, scan->angle_start() + i * scan->angle_increment()));
     auto here = drifting.loan();
-    here->x(x);
-    here->y(y);
+    const Pose2 X_DR = X_DM * Pose2{x, y, 0.0};
+    here->x(X_DR.x);
+    here->y(X_DR.y);
+    here->orientation(X_DR.yaw);
     here->stamp().ns(now().time_since_epoch().count());
     here->covariance({1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4});
     laser.push(std::move(scan));
@@ -71,13 +81,32 @@ struct Mapper final : Partner {
   ObjectPtr<idl::OccupancyGrid> whole() { return asked.query(asked.loan()).value(); }
 
  private:
-  static double range(double x, double y, double angle) {
+  using Box = std::array<double, 4>;  // least x and y, largest x and y
+
+  // How far a ray goes from a place in the room.
+  [[nodiscard]] double range(double x, double y, double angle) const {
     const double ahead = std::cos(angle), left = std::sin(angle);
-    const auto to = [](double distance, double speed) {
-      return speed * distance > 0.0 ? distance / speed : std::numeric_limits<double>::infinity();
+    double nearest = std::min(within({x, y}, {ahead, left}, kRoom).second, kRange);
+    for (const Box& pillar :
+         {Box{-3.5, -2.0, -3.2, -1.5}, {-1.4, -2.0, -0.9, -1.4}, {2.2, -2.0, 2.4, -1.3}}) {
+      const auto [in, out] = within({x, y}, {ahead, left}, pillar);
+      if (has_pillars && in > 0.0 && in < out) nearest = std::min(nearest, in);
+    }
+    return nearest;
+  }
+
+  // Where a line goes into a box, and where it comes out: in units of `by`.
+  static std::pair<double, double> within(const Vec2& from, const Vec2& by, const Box& box) {
+    double in = -std::numeric_limits<double>::infinity();
+    double out = std::numeric_limits<double>::infinity();
+    const auto cut = [&](double distance_to_low, double distance_to_high, double speed) {
+      if (std::fabs(speed) < 1e-9) return;  // No wall of the room is hit along another one.
+      in = std::max(in, std::min(distance_to_low / speed, distance_to_high / speed));
+      out = std::min(out, std::max(distance_to_low / speed, distance_to_high / speed));
     };
-    return std::min({to(kRoom[0] - x, ahead), to(kRoom[2] - x, ahead), to(kRoom[1] - y, left),
-                     to(kRoom[3] - y, left), kRange});
+    cut(box[0] - from.x, box[2] - from.x, by.x);
+    cut(box[1] - from.y, box[3] - from.y, by.y);
+    return {in, out};
   }
 };
 
@@ -208,4 +237,84 @@ TEST_CASE("a SlamLocalizer that was set to another place has a map of another na
   });
   CHECK(map->name() != before->name());
   CHECK(value_at(*map, -4.5, 0.52) == kNotKnown);
+}
+
+namespace {
+
+// The session of a day.
+Trial day(const std::string& file) { return {.type = "orca.SlamLocalizer", .params = {{"session", file}}}; }
+
+// Whether it claims to be there.
+bool is_at(const Mapper& robot, const Vec2& place) {
+  const auto pose = robot.pose.latest();
+  UNSCOPED_INFO(pose->x() << ' ' << pose->y() << ' ' << pose->covariance()[0]);
+  return !is_anywhere(pose->covariance()) && norm(plane_pose(*pose).position() - place) < 0.1;
+}
+
+}  // namespace
+
+TEST_CASE("a SlamLocalizer goes on with the map of the day before, and keeps what both have seen",
+          "[testing][slam]") {
+  const test::TempFolder folder;
+  const std::string file = folder.file("room.session");
+  try_component<Mapper>(day(file), [&](Mapper& robot) {
+    robot.has_pillars = true;
+    robot.drive(-5.0, -3.0);
+  });
+  REQUIRE(std::filesystem::exists(file));
+  ObjectPtr<idl::OccupancyGrid> map;
+  std::optional<ObjectPtr<idl::Path>> way;
+  try_component<Mapper>(day(file), [&](Mapper& robot) {
+    robot.has_pillars = true;
+    robot.X_DM = {10.0, 2.0, 1.0};  // Odometry counts from another place today.
+    robot.drive(-3.0, 3.0);
+    CHECK(is_at(robot, {2.9, 0.5}));
+    map = robot.whole();
+    way = robot.way.query(robot.way.loan()).value();
+  });
+  const auto wall = [&](double x) {
+    int most = 0;
+    for (double y = kRoom[3] - 0.1; y < kRoom[3] + 0.1; y += 0.02)
+      if (value_at(*map, x, y) != kNotKnown) most = std::max(most, value_at(*map, x, y));
+    return most;
+  };
+  CHECK(wall(-4.5) == 100);  // beside the robot, before the second day
+  CHECK(wall(2.0) == 100);
+  int ahead = 0;  // out of sight on the first day
+  for (double x = kRoom[2] - 0.1; x < kRoom[2] + 0.1; x += 0.02)
+    ahead += value_at(*map, x, 0.52) == 100 ? 1 : 0;
+  CHECK(ahead > 0);
+  // The way is that of this run.
+  REQUIRE((*way)->poses().size() > 10);
+  CHECK((*way)->poses().front().position().x() > -3.0);
+  CHECK(std::filesystem::exists(file + ".old"));
+}
+
+TEST_CASE("a SlamLocalizer that was set to another place finds itself in the map of its session",
+          "[testing][slam]") {
+  const test::TempFolder folder;
+  try_component<Mapper>(day(folder.file("room.session")), [&](Mapper& robot) {
+    robot.has_pillars = true;
+    robot.drive(-2.0, 3.0);
+    const std::string name = robot.whole()->name();
+    robot.lose();
+    CHECK(is_anywhere(robot.pose.latest()->covariance()));
+    robot.X_DM = {10.0, 2.0, 1.0};
+    for (int i = 0; i < 30; ++i) robot.stand(2.0, 1.5);
+    CHECK(robot.whole()->name() == name);
+    CHECK(is_at(robot, {2.0, 1.5}));
+  });
+}
+
+TEST_CASE("a SlamLocalizer refuses a session that is damaged, with what to do", "[testing][slam]") {
+  const test::TempFolder folder;
+  const std::string file = folder.file("room.session");
+  try_component<Mapper>(day(file), [&](Mapper& robot) { robot.drive(-5.0, -4.0); });
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  CHECK_THROWS_WITH(try_component<Mapper>(day(file), [](Mapper& robot) { robot.stand(0.0, 0.5); }),
+                    Catch::Contains("this file is damaged") &&
+                        Catch::Contains("put an older copy in its place (" + file + ".old is the last one)"));
+  CHECK_THROWS_WITH(
+      try_component<Mapper>(day(folder.file("none/room")), [](Mapper& robot) { robot.stand(0.0, 0.5); }),
+      Catch::Contains("cannot be written: its folder: No such file or directory"));
 }

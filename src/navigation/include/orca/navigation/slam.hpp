@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "orca/base/result.hpp"
 #include "orca/geometry/pose2.hpp"
 #include "orca/navigation/pose_graph.hpp"
 #include "orca/navigation/scan_match.hpp"
@@ -51,6 +52,27 @@ struct SlamNode {
   Vec2 sensor;                     ///< Where it was taken from, robot frame: what lies between is free.
 };
 
+/// Some nodes that follow each other, which were laid one upon the other.
+struct SlamStretch {
+  std::size_t first = 0;  ///< The number of a node.
+  std::size_t count = 0;
+  double way = 0.0;  ///< [m] that the robot had driven when the last of them came.
+};
+
+/// All that a Slam knows of a building, for another one to go on with, in this run or on another day.
+struct SlamMemory {
+  std::vector<SlamNode> nodes;
+  std::vector<PoseRelation> relations;
+  std::vector<SlamStretch> submaps;
+  std::size_t loops = 0;
+  double way = 0.0;  ///< [m] driven
+};
+
+/// Checks what comes from a file.
+/// @errors  data_loss if a number is not finite, or something names a node that is not there.
+/// @thread  pure function; any thread.
+[[nodiscard]] Status check(const SlamMemory& memory);
+
 /// Finds where a robot is and what its map is, at once: each scan is laid into a submap of some nodes before it; a scan that comes by an older
 /// submap and fits there closes a loop; the poses of all nodes go where all these relations fit best.
 ///
@@ -59,7 +81,16 @@ struct SlamNode {
 class Slam {
  public:
   explicit Slam(SlamOptions options = {});
+  /// Goes on with what another one knows. The robot is at none of its nodes: enter() comes before see().
+  /// @pre  check(memory).ok()
+  explicit Slam(SlamMemory memory, SlamOptions options = {});
   ~Slam();
+
+  /// Takes a scan of a robot whose place in the map was found by others: it was switched off, or carried there.
+  /// @param X_OR  by odometry, which may count from another place than before.  @param X_MR  where the robot is, map frame.
+  /// @param sensor  where the scan was taken from, robot frame.
+  /// @pre  there is a node.
+  void enter(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_MR, Vec2 sensor = {});
 
   /// Takes the next scan. The map frame is odometry's at the first one.
   /// @param X_OR    by odometry, when it was taken.
@@ -72,6 +103,8 @@ class Slam {
 
   [[nodiscard]] std::span<const SlamNode> nodes() const { return nodes_; }
   [[nodiscard]] std::size_t loops() const { return loops_; }
+  /// Returns all that another one needs to go on.
+  [[nodiscard]] SlamMemory memory() const;
   /// Returns how much is known of the robot's pose in the map around it, in its own frame: what the scans say, and where they say nothing,
   /// what odometry does.
   /// @param X_OR  by odometry now.
@@ -84,6 +117,7 @@ class Slam {
   void add_node(std::span<const SurfacePoint> scan, const Pose2& X_OR, const Pose2& X_LR,
                 const std::optional<ScanMatch>& match);
   void grow_submaps();
+  void add_to(Submap& submap, std::size_t node);
   void complete_submaps();
   void close_loops(std::size_t node);
   bool close_loop(std::size_t node, Submap& submap, double way, double turn);
