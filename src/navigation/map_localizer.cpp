@@ -160,7 +160,7 @@ void MapLocalizer::add_place(const PlaceBelief& belief, std::size_t count) {
 
 void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now) {
   reckon_anew(now);
-  left_some_out_ = false;
+  left_some_out_ = suggested_ = false;
   places_.clear();
   for (const PlaceBelief& belief : places) add_place(belief, kParticles);
   was_known_ = was_known;
@@ -169,6 +169,7 @@ void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, c
 
 void MapLocalizer::suggest(const PoseSpread& where, const Reckoned& now) {
   resume(std::array{PlaceBelief{where}}, was_known_, now);
+  suggested_ = options_.searches;
 }
 
 void MapLocalizer::place(const PoseSpread& where, const Reckoned& now) {
@@ -255,7 +256,7 @@ void MapLocalizer::see(const RobotScan& seen) {
     place.note(place.belief.believed ? explained.fit_of_room : explained.fit);
   }
   compare(fits);
-  believe();
+  believe(suggested_ ? options_.believed_at_once : options_.believed_from);
   if (options_.searches && !search_) begin_search(scan);
 }
 
@@ -311,13 +312,13 @@ void MapLocalizer::drop_unlikely() {
   }
 }
 
-void MapLocalizer::believe() {
+void MapLocalizer::believe(double least) {
   // A search that found more places than it keeps may have left out the right one.
   constexpr double kAlone = 3.0;  // [m] on which it alone has fitted
   if (places_.size() != 1) alone_since_ = way_;
   if (places_.size() != 1 || (left_some_out_ && way_ - alone_since_ < kAlone)) return;
   Candidate& place = places_.front();
-  if (place.belief.quick >= options_.believed_from) place.belief.believed = true;
+  if (place.belief.quick >= least) place.belief.believed = true;
   was_known_ |= known(now_) == Known::localized;
 }
 
@@ -327,7 +328,7 @@ void MapLocalizer::begin_search(const RobotScan& scan) {
   const bool doubts = places_.empty() || places_.front().is_doubtful(options_);
   const bool is_due = way_ - searched_way_ >= kOtherPlace || (places_.size() == 1 && left_some_out_);
   const bool seeks = !doubts && !places_.front().belief.believed && is_due;
-  if (!doubts && !seeks) return;
+  if (!doubts && !seeks && !suggested_) return;
   constexpr double kAnew = 0.5;      // [m]
   constexpr double kAnewTime = 1.0;  // [s]
   const bool is_time =
@@ -357,6 +358,7 @@ void MapLocalizer::take_found() {
     const Pose2 X_MR = place.particles.spread().mean * inverse(since);
     evidence.push_back(place.belief.odds);
     place.belief.odds += options_.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
+    if (suggested_) place.belief.odds += options_.suggested;
   }
   for (const Found& found : search_->places.found()) {
     const std::optional<ScanMatch> laid = refine(scan.echoes, map_->surface(), found.X_MR, options_.match);
@@ -377,7 +379,9 @@ void MapLocalizer::take_found() {
     place.belief.slow = place.belief.quick;
   }
   drop_unlikely();
-  believe();
+  // Then the places that were left out are as unlikely as those that were dropped.
+  if (std::exchange(suggested_, false) && places_.size() == 1) left_some_out_ = false;
+  believe(options_.believed_from);
 }
 
 Known MapLocalizer::known(const Reckoned& now) const {
@@ -420,7 +424,7 @@ void MapLocalizer::hear(std::span<const SonarEcho> echoes) {
     place.particles.resample(random_);
     place.note(share_heard(echoes, *map_, place.particles.spread().mean), kOfScan);
   }
-  believe();
+  believe(options_.believed_from);
 }
 
 }  // namespace orca::nav

@@ -39,6 +39,15 @@ void MapEntry::move(const nav::Reckoned& now) {
   localizer_.move(now);
 }
 
+void MapEntry::see(const nav::RobotScan& scan) {
+  constexpr double kElsewhere = 0.3;  // [m]
+  const auto before = where(*before_);
+  localizer_.see(scan);
+  const auto after = where(*before_);
+  if (!before || !after || norm(before->mean.position() - after->mean.position()) > kElsewhere)
+    known_way_ = 0.0;
+}
+
 std::optional<nav::PoseSpread> MapEntry::where(const nav::Reckoned& now) const {
   if (localizer_.known(now) != nav::Known::localized) return std::nullopt;
   return localizer_.where(now);

@@ -23,13 +23,13 @@ class MapEntry {
   void move(const nav::Reckoned& now);
   /// Takes a scan.
   /// @pre  move() was called for when it was taken.
-  void see(const nav::RobotScan& scan) { localizer_.see(scan); }
+  void see(const nav::RobotScan& scan);
 
   /// Returns where the robot is, map frame; nothing: that is not known.
   /// @param now  as move() was given it.
   [[nodiscard]] std::optional<nav::PoseSpread> where(const nav::Reckoned& now) const;
   /// Returns whether that has been known for so long that the map can go on.
-  [[nodiscard]] bool is_sure() const { return known_way_ >= kProof; }
+  [[nodiscard]] bool is_sure() const { return known_way_ >= kProof && !localizer_.searches(); }
 
  private:
   static constexpr double kProof = 1.0;  // [m]

@@ -251,6 +251,37 @@ TEST_CASE("a place from before is checked before it is believed", "[navigation]"
   CHECK(carried.off() < 0.05);
 }
 
+TEST_CASE("a place from before gives way to one along the same corridor that fits better", "[navigation]") {
+  Drive drive;
+  drive.walls = test::box({0.03, 0.02}, {24.03, 2.02});
+  for (const test::Walls& more : {test::box({5.0, 0.0}, {5.5, 0.4}), test::box({9.0, 1.5}, {9.3, 2.0}),
+                                  test::box({16.0, 0.0}, {16.8, 0.3})})
+    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {24.5, 2.5}));
+  drive.localizer.change_map(drive.map);
+  drive.X_MR = {3.0, 1.0, 0.0};
+  drive.localizer.suggest(around({11.0, 1.0, 0.0}), drive.reckoned);
+  drive.stand(20);
+  CHECK((drive.known() != Known::localized || drive.off() < 0.1));
+  drive.go_on(80);
+  CHECK(drive.known() == Known::localized);
+  CHECK(drive.off() < 0.1);
+}
+
+TEST_CASE("a place from before is believed although others fit as well", "[navigation]") {
+  Drive drive;
+  drive.walls = test::box({0.03, 0.02}, {4.03, 3.02});
+  const test::Walls other = test::box({6.03, 0.02}, {10.03, 3.02});
+  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 3.5}));
+  drive.localizer.change_map(drive.map);
+  drive.X_MR = {8.2, 1.3, -0.5};
+  drive.localizer.suggest(around({8.1, 1.4, -0.45}), drive.reckoned);
+  drive.stand(40);
+  CHECK(drive.known() == Known::localized);
+  CHECK(drive.off() < 0.05);
+}
+
 TEST_CASE("a localizer that takes another's place goes on with what that believed", "[navigation]") {
   Drive drive;
   drive.localizer.place(around(drive.X_MR), drive.reckoned);

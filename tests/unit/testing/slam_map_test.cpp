@@ -306,6 +306,19 @@ TEST_CASE("a SlamLocalizer that was set to another place finds itself in the map
   });
 }
 
+TEST_CASE("a SlamLocalizer that is exchanged finds itself in the map of its session", "[testing][slam]") {
+  const test::TempFolder folder;
+  Trial exchanged = day(folder.file("room.session"));
+  for (const Duration swap_at : {Duration{0}, Duration{std::chrono::seconds(2)}}) {
+    exchanged.swap_at = swap_at;
+    try_component<Mapper>(exchanged, [&](Mapper& robot) {
+      robot.has_pillars = true;
+      robot.drive(-5.0, 0.0);
+      CHECK(is_at(robot, {-0.1, 0.5}));
+    });
+  }
+}
+
 TEST_CASE("a SlamLocalizer refuses a session that is damaged, with what to do", "[testing][slam]") {
   const test::TempFolder folder;
   const std::string file = folder.file("room.session");

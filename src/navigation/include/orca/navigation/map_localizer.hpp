@@ -51,6 +51,9 @@ enum class Known : std::uint8_t {
 struct LocalizerOptions {
   double believed_from =
       0.72;  ///< [1] how well scans fit at a place (Explanation::fit) for it to be believed.
+  double believed_at_once =
+      0.9;                 ///< [1] the same for a place that was suggested, before the map was searched.
+  double suggested = 10.0;  ///< logarithm of the odds of such a place against others that fit as well.
   double doubted_below =
       0.45;              ///< [1] the same, on the average of the last scans, below which a place is doubted.
   double fallen = 0.75;  ///< [1] the same as a part of what it was before, on a long average.
@@ -96,7 +99,8 @@ class MapLocalizer {
   /// Goes on with what another one has believed.
   /// @param was_known  whether the robot has been localized before.
   void resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now);
-  /// Begins with a place that may be wrong, such as where the robot was before it was switched off: it is checked before it is believed.
+  /// Begins with a place that may be wrong, such as where the robot was before it was switched off. It is believed at once only if scans
+  /// fit very well there; in any case the map is searched once for places that fit better, as along a corridor many fit well.
   void suggest(const PoseSpread& where, const Reckoned& now);
 
   /// Goes on to where odometry is now.
@@ -139,7 +143,7 @@ class MapLocalizer {
   void go_on_searching();
   void take_found();
   void drop_unlikely();
-  void believe();
+  void believe(double least);
   void add_place(const PlaceBelief& belief, std::size_t count);
 
   std::shared_ptr<const KnownMap> map_;
@@ -151,6 +155,7 @@ class MapLocalizer {
   double unsettled_ = 0.0;  // [m], [rad] moved since
   bool moved_ = false;      // move() was called
   bool was_known_ = false;
+  bool suggested_ = false;      // The first place was suggested, and the map was not searched since.
   bool left_some_out_ = false;  // The last search found more places than it keeps.
   double way_ = 0.0;            // [m] driven
   double alone_since_ = 0.0;    // [m] driven when there was more than one place, or none
