@@ -222,7 +222,7 @@ LAYERS = (
           "supervisor_run", "supervisor_starting", "supervisor_hosted", "supervisor_agreed", "supervisor_processes", "supervisor_channel",
           "host_run", "host", "host_containment", "host_picture", "graph", "plugin", "navigation", "recording_objects", "recording",
           "robot_file", "geometry_objects", "keys", "patterns_dds", "ros", "maps", "text", "xml", "hw_link", *DEVICE), ("fmt",), module="src/apps"),
-    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "recording_objects", "recording", "ros", "text", "xml", *DEVICE),
+    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "recording_objects", "recording", "robot_file", "ros", "text", "xml", *DEVICE),
           ("boost", "nlohmann")),
 )
 graphlib.TopologicalSorter({layer.name: layer.may for layer in LAYERS}).prepare()  # raises CycleError for a circle

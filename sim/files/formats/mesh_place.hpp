@@ -12,10 +12,8 @@ struct MeshPlace {
   bool instead = false;  // Whether it is another format of the mesh, which lies beside it.
 };
 
-// Finds the file that the filename of a <mesh> names: a path, beside the robot's file or from /; file://PATH; or
-// package://PACKAGE/PATH and model://PACKAGE/PATH. A package is looked for in the folder `packages`, if it is given, and else
-// in the folders above the robot's file: a folder of its name, or one with the package.xml of that name. For a file whose format is
-// not read (COLLADA, glTF, PLY) it finds an STL or OBJ file of the same name beside it.
+// Finds the file that the filename of a <mesh> names (robot_file::find_named_file). For a file whose format is not read (COLLADA,
+// glTF, PLY) it finds an STL or OBJ file of the same name beside it.
 // @errors  not_found with the folders that were searched; invalid_argument for a format that is not read.
 [[nodiscard]] Result<MeshPlace> find_mesh(const std::string& name, const std::string& robot_file,
                                           const std::string& packages);

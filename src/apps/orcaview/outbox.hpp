@@ -60,6 +60,7 @@ class Outbox {
   /// Returns when there will be a frame to take; nothing if none waits.
   [[nodiscard]] std::optional<Moment> due() const;
 
+  [[nodiscard]] bool has_answers() const { return !answers_.empty(); }
   /// Returns how many objects were dropped because the page was slow.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
   [[nodiscard]] std::size_t waiting_bytes() const { return answer_bytes_ + object_bytes_; }

@@ -119,6 +119,7 @@ awaitable<void> Session::write_all() {
 // Returns false if there was nothing to send.
 awaitable<bool> Session::write_next() {
   report_drops();
+  if (!outbox_.has_answers()) have_room();
   std::optional<Frame> frame = outbox_.take(std::chrono::steady_clock::now());
   if (!frame) co_return false;
   const std::optional<Packet> packet = frame->passed ? pack(*frame) : Packet{std::move(frame->text)};

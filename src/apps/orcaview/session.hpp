@@ -70,6 +70,9 @@ class Session : public std::enable_shared_from_this<Session> {
   /// A look could not begin, or has ended.
   virtual void blind(std::uint32_t id, const Error& why, bool had_seen) = 0;
 
+  /// Learns that no answer waits, so that there is room for one of any size.
+  virtual void have_room() {}
+
   /// Says that objects were dropped because the other end was slow.
   /// @param dropped  so far.
   /// @param waiting  [bytes] that wait.
@@ -79,6 +82,8 @@ class Session : public std::enable_shared_from_this<Session> {
   void say(const nlohmann::json& message);
   /// Sends a message that carries bytes.
   void say_bytes(std::string bytes);
+  /// Lets what waits be sent.
+  void wake() { bell_.cancel(); }
   /// Begins to look at a port.
   /// @param rate  [1/s] Most objects; 0: all.
   /// @errors  unavailable: too many looks; already_exists: the number is taken. Other errors come as blind().
@@ -97,7 +102,6 @@ class Session : public std::enable_shared_from_this<Session> {
   boost::asio::awaitable<void> write_all();
   boost::asio::awaitable<bool> write_next();
   void report_drops();
-  void wake() { bell_.cancel(); }
   void close();
 
   Socket socket_;

@@ -8,7 +8,7 @@ const { MessageReader } = require("@foxglove/rosmsg2-serialization");
 const WebSocket = require("ws");
 
 const SECONDS = 4;
-const seen = { server: {}, topics: {}, messages: {}, parameters: [], graph: {}, status: [] };
+const seen = { server: {}, topics: {}, messages: {}, parameters: [], graph: {}, status: [], assets: [] };
 const client = new FoxgloveClient({ ws: new WebSocket(process.argv[2], [FoxgloveClient.SUPPORTED_SUBPROTOCOL]) });
 const readers = new Map();
 
@@ -23,6 +23,13 @@ client.on("serverInfo", (info) => { seen.server = info; });
 client.on("status", (status) => { seen.status.push(status.message); });
 client.on("parameterValues", ({ parameters }) => { seen.parameters.push(...parameters); });
 client.on("connectionGraphUpdate", (graph) => { seen.graph = graph; });
+client.on("fetchAssetResponse", ({ requestId, status, error, data }) => {
+  seen.assets.push({ id: requestId, status, error, bytes: data?.byteLength, first: data && data.getUint32(0, true) });
+});
+client.on("advertise", (channels) => {
+  if (!channels.some(({ topic }) => topic === "/robot_description")) return;  // which names the meshes
+  for (const [id, uri] of ["package://pioneer/shell.stl", "package://pioneer/other.stl"].entries()) client.fetchAsset(uri, id);
+});
 client.on("advertise", (channels) => {
   for (const channel of channels) {
     seen.topics[channel.topic] = channel.schemaName;

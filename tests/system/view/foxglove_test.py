@@ -23,8 +23,23 @@ PACKAGES = ("@foxglove/ws-protocol@0.8.0", "@foxglove/rosmsg", "@foxglove/rosmsg
 
 class Foxglove(ViewCase):
     NAME = "pioneer_planner"
-    OPTIONS = ()
     COMPONENTS = 5
+
+    @classmethod
+    def start_system(cls):
+        """With a robot that has a mesh in a package, and one of a file that is no mesh."""
+        robot = (TREE / "sim" / "robots" / "pioneer_2dx.urdf").read_text(encoding="utf-8")
+        meshes = "".join(f'<link name="{name}"><visual><geometry><mesh filename="{uri}"/></geometry></visual></link>'
+                         f'<joint name="to_{name}" type="fixed"><parent link="base_link"/><child link="{name}"/></joint>'
+                         for name, uri in (("shell", "package://pioneer/shell.stl"), ("leak", "/etc/passwd")))
+        cls.robot = cls.folder / "pioneer" / "robot.urdf"
+        cls.robot.parent.mkdir()
+        cls.robot.write_text(robot.replace("</robot>", meshes + "</robot>"), encoding="utf-8")
+        cls.shell = bytes(range(256)) * 4096
+        (cls.folder / "pioneer" / "shell.stl").write_bytes(cls.shell)
+        (cls.folder / "pioneer" / "other.stl").write_bytes(b"solid other")
+        cls.OPTIONS = ("--set", f"robot={cls.robot}")
+        return super().start_system()
 
     def viewer(self, token=None, protocol=NEW):
         viewer = WebSocket(self.port, token or self.operator, **{"Sec-WebSocket-Protocol": protocol})
@@ -98,10 +113,38 @@ class Foxglove(ViewCase):
             _, message = self.first(viewer, 9)
             length = struct.unpack_from("<I", message, 4)[0]
             self.assertEqual((message[:4], message[-1:], len(message)), (b"\0\1\0\0", b"\0", 8 + length))
-            self.assertEqual(message[8:-1], (TREE / "sim" / "robots" / "pioneer_2dx.urdf").read_bytes())
+            self.assertEqual(message[8:-1], self.robot.read_bytes())
             viewer.send(op="unsubscribe", subscriptionIds=[9])
-        viewer.send(op="fetchAsset", requestId=1, uri="package://orca/../../../../etc/passwd")
-        self.assertIn("fetchAsset", self.message(viewer, "status")["message"])
+
+    def asset(self, viewer, number, uri):
+        """Asks for a file, and returns what comes: its bytes, or the error as a text."""
+        viewer.send(op="fetchAsset", requestId=number, uri=uri)
+        return self.fetched(viewer, number)
+
+    def fetched(self, viewer, number):
+        while True:
+            message = viewer.receive()
+            if isinstance(message, bytes) and message[0] == 4:
+                _, request, failed, length = struct.unpack_from("<BIBI", message)
+                self.assertEqual(request, number)
+                return message[10:10 + length].decode() if failed else message[10:]
+
+    def test_meshes_that_a_robots_file_names_are_fetched_and_no_other_file(self):
+        viewer = self.viewer(self.reader)
+        self.assertIn("assets", viewer.receive()["capabilities"])
+        self.message(viewer, "advertise")
+        self.message(viewer, "advertise")  # the robot's
+        self.assertEqual(self.asset(viewer, 1, "package://pioneer/shell.stl"), self.shell)
+        self.assertEqual(self.asset(viewer, 2, f"file://{self.folder}/pioneer/shell.stl"), self.shell)
+        self.assertEqual(self.asset(viewer, 3, f"file://{self.robot}"), self.robot.read_bytes())
+        for number, uri in enumerate(("package://pioneer/other.stl", "package://pioneer/../pioneer/shell.stl", "shell.stl",
+                                      "package://orca/../../../../etc/passwd", "/etc/shadow", "", "x" * 5000), 4):
+            self.assertIsInstance(self.asset(viewer, number, uri), str, uri)
+        self.assertIn("no mesh", self.asset(viewer, 20, "/etc/passwd"), "the robot's file names it")
+        for number in range(30, 70):  # 40 MiB: more than waits at a time
+            viewer.send(op="fetchAsset", requestId=number, uri="package://pioneer/shell.stl")
+        for number in range(30, 70):
+            self.assertEqual(self.fetched(viewer, number), self.shell)
 
     def test_a_reader_publishes_nothing_and_sets_nothing(self):
         viewer = self.viewer(self.reader)
@@ -121,7 +164,7 @@ class Foxglove(ViewCase):
         self.assertIn("JSON object", self.message(viewer, "status")["message"])
         for text, part in ((b"nonsense", "JSON object"), (b'{"op":"dance"}', "dance"), (b'{"op":"subscribe"}', "missing"),
                            (b'{"op":"subscribe","subscriptions":[{"id":1,"channelId":9999}]}', "no channel 9999"),
-                           (b'{"op":"subscribe","subscriptions":7}', "wrong type")):
+                           (b'{"op":"subscribe","subscriptions":7}', "wrong type"), (b'{"op":"fetchAsset","requestId":1}', "missing")):
             viewer.send_frame(1, text)
             self.assertIn(part, self.message(viewer, "status")["message"])
         viewer.send(op="advertise", channels=[{"id": 1, "topic": "/x", "encoding": "cdr", "schemaName": "std_msgs/msg/String"},
@@ -170,6 +213,10 @@ class Foxglove(ViewCase):
         self.assertEqual(published["/base/OdometryPush"], ["base"])
         self.assertIn("planner", taken["/laser/LaserRangeReadingsPush"])
         self.assertEqual([line for line in seen["status"] if "goal" in line.lower() or "port" in line], [])
+        mesh, other = seen["assets"]
+        self.assertEqual((mesh["id"], mesh["status"], mesh["bytes"], mesh["first"]), (0, 0, len(self.shell), 0x03020100))
+        self.assertEqual((other["id"], other["status"]), (1, 1))
+        self.assertIn("no robot's file of this system names", other["error"])
         goal = seen["messages"]["/planner/GoalPush"]["last"]["pose"]["position"]
         self.assertEqual((goal["x"], goal["y"]), (3, 6))
 

@@ -22,8 +22,10 @@ using nlohmann::json;
 
 constexpr int kWarning = 1;
 constexpr int kError = 2;
-constexpr std::size_t kMostChannels = 64;  // that a viewer publishes
-constexpr double kFrameRate = 30.0;        // [1/s] at which frames follow
+constexpr std::size_t kMostChannels = 64;   // that a viewer publishes
+constexpr std::size_t kMostRequests = 256;  // for files, that wait
+constexpr std::size_t kLongestUri = 4096;   // of a file
+constexpr double kFrameRate = 30.0;         // [1/s] at which frames follow
 
 // Returns what stands before the payload of a message.
 std::string message_head(std::uint32_t subscription, std::uint64_t time_ns) {
@@ -79,10 +81,11 @@ void FoxgloveClient::system_changed(bool is_up) {
 void FoxgloveClient::greet() {
   for (const auto& [look, view] : std::exchange(views_, {})) look_away(look);
   channels_.clear();
+  assets_ = {};
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   say({{"op", "serverInfo"},
        {"name", "Orca: " + desk().link().system()},
-       {"capabilities", {"clientPublish", "parameters", "connectionGraph"}},
+       {"capabilities", {"clientPublish", "parameters", "connectionGraph", "assets"}},
        {"supportedEncodings", {"cdr", "json"}},
        {"metadata", {{"ROS_DISTRO", "jazzy"}}},
        {"sessionId", std::to_string(now)}});
@@ -100,11 +103,12 @@ void FoxgloveClient::take_ports(const json& ports) {
 }
 
 void FoxgloveClient::take_graph(const json& graph) {
-  const std::vector<Channel> robots =
-      robot_descriptions_of(graph, static_cast<std::uint32_t>(channels_.size() + 1));
+  const std::vector<RobotFile> robots = robots_of(graph);
+  assets_ = Assets(robots);
   if (robots.empty()) return;
-  channels_.insert(channels_.end(), robots.begin(), robots.end());
-  say(advertisement_of(robots));
+  const auto descriptions = robot_descriptions_of(robots, static_cast<std::uint32_t>(channels_.size() + 1));
+  channels_.insert(channels_.end(), descriptions.begin(), descriptions.end());
+  say(advertisement_of(descriptions));
 }
 
 void FoxgloveClient::take_text(const std::string& text) {
@@ -119,14 +123,7 @@ void FoxgloveClient::take_text(const std::string& text) {
 
 void FoxgloveClient::carry_out(const std::string& op, const json& message) {
   if (op == "subscribe") {
-    for (const json& one : message.at("subscriptions")) {
-      const auto id = one.at("channelId").get<std::uint32_t>();
-      const auto channel = std::ranges::find(channels_, id, &Channel::id);
-      if (channel == channels_.end())
-        status(kError, "there is no channel " + std::to_string(id));
-      else
-        subscribe(one.at("id").get<std::uint32_t>(), *channel);
-    }
+    subscribe(message);
   } else if (op == "unsubscribe") {
     for (const json& one : message.at("subscriptionIds")) unsubscribe(one.get<std::uint32_t>());
   } else if (op == "advertise") {
@@ -146,8 +143,21 @@ void FoxgloveClient::carry_out(const std::string& op, const json& message) {
     say(connection_graph_of(ports_));
   } else if (op == "unsubscribeConnectionGraph") {
     wants_graph_ = false;
+  } else if (op == "fetchAsset") {
+    fetch_asset(message);
   } else {
     status(kWarning, "this server does not know the op \"" + op + "\"");
+  }
+}
+
+void FoxgloveClient::subscribe(const json& message) {
+  for (const json& one : message.at("subscriptions")) {
+    const auto id = one.at("channelId").get<std::uint32_t>();
+    const auto channel = std::ranges::find(channels_, id, &Channel::id);
+    if (channel == channels_.end())
+      status(kError, "there is no channel " + std::to_string(id));
+    else
+      subscribe(one.at("id").get<std::uint32_t>(), *channel);
   }
 }
 
@@ -215,6 +225,22 @@ void FoxgloveClient::hear(std::uint32_t id, const json& line) {
   if (!message) return;
   const auto* const payload = reinterpret_cast<const char*>(message->payload.data());
   say_bytes(message_head(id, now_ns()) + std::string(payload, message->payload.size()));
+}
+
+void FoxgloveClient::fetch_asset(const json& message) {
+  Request request{message.at("requestId").get<std::uint32_t>(), message.at("uri").get<std::string>()};
+  if (requests_.size() >= kMostRequests || request.uri.size() > kLongestUri)
+    return say_bytes(asset_response(
+        request.id, fail(Code::unavailable, "too many requests wait, or the URI is too long")));
+  requests_.push_back(std::move(request));
+  wake();
+}
+
+void FoxgloveClient::have_room() {
+  if (requests_.empty()) return;
+  const Request request = std::move(requests_.front());
+  requests_.pop_front();
+  say_bytes(asset_response(request.id, assets_.read(request.uri)));
 }
 
 void FoxgloveClient::status(int level, const std::string& text) {

@@ -6,6 +6,7 @@
 
 // after session.hpp, which includes what Boost.Asio lacks
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "foxglove/assets.hpp"
 #include "foxglove/channels.hpp"
 #include "orca/ros/frame_tree.hpp"
 
@@ -39,6 +41,11 @@ class FoxgloveClient final : public Session {
     std::string type;
     std::string encoding;
   };
+  // A file that it has asked for.
+  struct Request {
+    std::uint32_t id = 0;
+    std::string uri;
+  };
   // A port at which it looks, for one subscription.
   struct View {
     std::uint32_t subscription = 0;
@@ -50,17 +57,20 @@ class FoxgloveClient final : public Session {
   std::optional<Packet> pack(const Frame& frame) override;
   void looking(std::uint32_t id, const std::string& port, const std::string& type) override;
   void blind(std::uint32_t id, const Error& why, bool had_seen) override;
+  void have_room() override;
   void say_drops(std::uint64_t dropped, std::size_t waiting) override;
 
   void carry_out(const std::string& op, const nlohmann::json& message);
   void greet();
   void take_ports(const nlohmann::json& ports);
   void take_graph(const nlohmann::json& graph);
+  void subscribe(const nlohmann::json& message);
   void subscribe(std::uint32_t subscription, const Channel& channel);
   void unsubscribe(std::uint32_t subscription);
   void get_parameters(const nlohmann::json& message);
   void set_parameters(const nlohmann::json& message);
   void publish(const std::string& bytes);
+  void fetch_asset(const nlohmann::json& message);
   void status(int level, const std::string& text);
   /// Asks the supervisor, and passes the whole answer on while the viewer is there.
   void ask(std::string command, std::vector<std::string> words,
@@ -72,6 +82,8 @@ class FoxgloveClient final : public Session {
   std::uint32_t last_look_ = 0;
   std::map<std::uint32_t, OwnChannel> own_channels_;
   ros::FrameTree frames_;
+  Assets assets_;
+  std::deque<Request> requests_;  // one is answered at a time, because files are large
   bool wants_graph_ = false;
 };
 
