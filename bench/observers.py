@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much do onlookers cost a running system? Odometry at 100 Hz, on its way between two processes, alone and beside ten pages that
-look at all ports (five of them never read), and a recorder of all ports.
+"""How much do onlookers cost a running system? Odometry at 100 Hz, on its way between two processes: alone, beside a page, beside a
+page that never reads, beside ten pages (five of them never read), and beside these and a recorder. All look at all ports.
 
     bench/observers.py build/release [--rounds 5] [--seconds 10]
 
-Rounds alternate, so that both see the same machine. It prints the ratio of the medians of the 99th percentiles of the age on arrival;
-orcactl echo, which measures it, is an onlooker in both. Nothing else should run on the machine.
+Each round has all cases in turn, so that all see the same machine. It prints for each the median over the rounds of the 99th
+percentiles of the time between two arrivals, whose median is 10 ms, and of the age on arrival. orcactl echo, which measures them, is
+an onlooker in all. Nothing else should run on the machine.
 """
 import argparse
 import json
@@ -26,6 +27,9 @@ from websocket import WebSocket  # noqa: E402
 
 NAME = "scout_goto_processes"
 PORT = "avoid.odometry"
+# Pages that read, pages that never do, whether all is recorded.
+CASES = {"alone": (0, 0, False), "a page": (1, 0, False), "a page that never reads": (0, 1, False), "ten pages": (5, 5, False),
+         "ten pages and a recorder": (5, 5, True)}
 
 
 class System:
@@ -56,11 +60,13 @@ class System:
         return subprocess.run([self.bin / "orcactl", *words], env=self.environment, capture_output=True, text=True, check=False)
 
     def p99(self, seconds):
-        """Returns the 99th percentile of the age of odometry when it arrives [ms]."""
+        """Returns the 99th percentiles of the time between two arrivals of odometry and of its age then [ms]."""
         lines = self.orcactl("--json", "echo", PORT, "--for", f"{seconds}s").stdout.splitlines()
-        ages = sorted(1e3 * (row["passed"] - row["created"]) for row in map(json.loads, lines))
-        assert len(ages) > 90 * seconds, f"only {len(ages)} objects in {seconds} s"
-        return ages[int(0.99 * len(ages))]
+        rows = [json.loads(line) for line in lines]
+        assert len(rows) > 90 * seconds, f"only {len(rows)} objects in {seconds} s"
+        laps = sorted(1e3 * (late["passed"] - early["passed"]) for early, late in zip(rows, rows[1:]))
+        ages = sorted(1e3 * (row["passed"] - row["created"]) for row in rows)
+        return laps[int(0.99 * len(laps))], ages[int(0.99 * len(ages))]
 
     def end(self):
         self.deployer.send_signal(signal.SIGTERM)
@@ -69,23 +75,28 @@ class System:
 
 
 class Onlookers:
-    def __init__(self, system, folder):
-        self.view = subprocess.Popen([system.bin / "orcaview", NAME, "--port", "0"], env=system.environment,
-                                     stdout=subprocess.PIPE, text=True)
-        address = self.view.stdout.readline().strip()
+    def __init__(self, system, folder, readers, stalled, records):
+        self.seen, self.programs, self.pages = 0, [], []
+        if readers + stalled > 0:
+            self.look(system, readers, stalled)
+        if records:
+            self.programs.append(subprocess.Popen([system.bin / "orcactl", "record", pathlib.Path(folder) / f"{time.time()}.mcap"],
+                                                  env=system.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        time.sleep(1.0)
+
+    def look(self, system, readers, stalled):
+        view = subprocess.Popen([system.bin / "orcaview", NAME, "--port", "0"], env=system.environment, stdout=subprocess.PIPE, text=True)
+        self.programs.append(view)
+        address = view.stdout.readline().strip()
         port, token = int(address.split(":")[2].split("/")[0]), address.split("token=")[1]
         ports = [row["port"] for row in json.loads(system.orcactl("--json", "ports").stdout)
                  if (row["pattern"], row["role"]) in (("Push", "Server"), ("Send", "Proxy"))]
-        self.pages = [WebSocket(port, token) for _ in range(10)]
+        self.pages = [WebSocket(port, token) for _ in range(readers + stalled)]
         for page in self.pages:
             for number, name in enumerate(ports, 1):
                 page.send(op="look", id=number, port=name)
-        self.seen = 0
-        for page in self.pages[::2]:
+        for page in self.pages[:readers]:
             threading.Thread(target=self.read, args=(page,), daemon=True).start()
-        self.recorder = subprocess.Popen([system.bin / "orcactl", "record", pathlib.Path(folder) / f"{time.time()}.mcap"],
-                                         env=system.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        time.sleep(1.0)
 
     def read(self, page):
         try:
@@ -95,7 +106,7 @@ class Onlookers:
             pass
 
     def end(self):
-        for process in (self.recorder, self.view):
+        for process in reversed(self.programs):
             process.send_signal(signal.SIGTERM)
             if process.wait(10):
                 raise SystemExit(f"{process.args[0]} has ended with {process.returncode}")
@@ -109,21 +120,27 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=int, default=10)
     call = parser.parse_args()
-    alone, beside, seen = [], [], 0
+    rows, seen = {case: [] for case in CASES}, 0
     with tempfile.TemporaryDirectory(prefix="orca_observers_") as folder:
         system = System(call.build.resolve(), folder)
         try:
             for _ in range(call.rounds):
-                alone.append(system.p99(call.seconds))
-                onlookers = Onlookers(system, folder)
-                beside.append(system.p99(call.seconds))
-                onlookers.end()
-                seen += onlookers.seen
+                for case, onlookers_of_it in CASES.items():
+                    onlookers = Onlookers(system, folder, *onlookers_of_it)
+                    rows[case].append(system.p99(call.seconds))
+                    onlookers.end()
+                    seen += onlookers.seen
         finally:
             said = system.end()
-    a, b = statistics.median(alone), statistics.median(beside)
-    print(f"p99 of the age of odometry: alone {a:.3f} ms {sorted(alone)}, beside onlookers {b:.3f} ms {sorted(beside)}, "
-          f"ratio {b / a:.2f}; pages that read have seen {seen} messages")
+    print(f"{'':28}{'p99 between arrivals':>22}{'of all rounds':>20}{'p99 of age':>14}{'of all rounds':>20}")
+    first = None
+    for case, figures in rows.items():
+        laps, ages = ([pair[n] for pair in figures] for n in (0, 1))
+        lap, age = statistics.median(laps), statistics.median(ages)
+        first = first or lap
+        print(f"{case:28}{lap:9.3f} ms ({100 * (lap / first - 1):+5.1f} %){min(laps):10.3f}..{max(laps):.3f}{age:11.3f} ms"
+              f"{min(ages):12.3f}..{max(ages):.3f}")
+    print(f"pages that read have seen {seen} messages")
     if said:
         print(said, file=sys.stderr)
 
