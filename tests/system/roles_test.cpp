@@ -110,7 +110,8 @@ TEST_CASE("a line for looking takes no objects, so who may look cannot send", "[
     REQUIRE(std::holds_alternative<LineAnswer>(*answer));
     Channel line(std::move(std::get<LineAnswer>(*answer).line));
     REQUIRE(line.send(encode(LineWord(Offer{"no.Type", {}}), 1), 5s).ok());
-    const auto heard = line.wait_for_message(5s);
+    auto heard = line.wait_for_message(5s);
+    while (taps && heard && heard->kind == Kind::tapped) heard = line.wait_for_message(5s);  // on its way
     CHECK(bool(heard) == !taps);  // an outcome, or the end of the line
     if (!heard) CHECK(heard.error().code == orca::Code::unavailable);
   }
