@@ -296,6 +296,7 @@ ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions r
 // Returns the option that is for operators of host processes; "" if there is none.
 const char* option_of_operators(const Options& options) {
   if (options.hold) return "--hold";
+  if (!options.writable.empty()) return "--writable";
   return options.grants.empty() ? "" : "--allow";
 }
 

@@ -76,6 +76,10 @@ std::vector<OptionSpec> running_options() {
        "observe=group:robots; "
        "ROLE: observe, operate (goals, tasks, pauses, emergency stop) or change (everything)",
        true},
+      {"--writable", "FOLDER",
+       "components may write below it; else only to devices, temporary files, and the folders of files that "
+       "their parameters name",
+       true},
       {"--hold", "",
        "nothing moves before orcactl estop --release: for a first motion, and for a deployer that a service "
        "starts"},

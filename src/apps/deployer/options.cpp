@@ -198,6 +198,7 @@ class Reader {
   void take_values() {
     options_.run.log_name = "deployer";
     options_.profiles = call_.all("--profile");
+    options_.writable = call_.all("--writable");
     options_.settings = call_.all("--set");
     options_.plugin_folders = call_.folders("--plugins");
     options_.machine = call_.text("--machine").value_or("");

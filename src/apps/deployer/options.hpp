@@ -28,6 +28,7 @@ struct Options {
   bool stats = false;                       ///< Write what the connections of a run carried.
   bool watch = false;                       ///< Code that is built anew takes the place of the old one.
   std::vector<supervisor::Grant> grants{};  ///< What other users may do.
+  std::vector<std::string> writable{};      ///< Folders in which host processes may write, too.
   bool hold = false;                        ///< Nothing moves before an operator releases it.
   bool view = false;                        ///< orcaview is started beside the system.
   std::optional<double> pace;               ///< Of virtual time, see Pace; nothing: not given.

@@ -2,8 +2,10 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "processes.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <climits>
 #include <cstdio>
 #include <deque>
 #include <filesystem>
@@ -20,13 +22,16 @@
 #include "orca/graph/loader.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/host/last_words.hpp"
+#include "orca/supervisor/confinement_gaps.hpp"
 #include "orca/supervisor/host_process_main.hpp"
+#include "orca/supervisor/host_start.hpp"
 #include "orca/supervisor/outputs.hpp"
 #include "orca/supervisor/own_process.hpp"
 #include "orca/supervisor/supervised_run.hpp"
 #include "orca/supervisor/system_facts.hpp"
 #include "orca/xml/document.hpp"
 #include "orca/xml/names.hpp"
+#include "orca/xml/number.hpp"
 #include "progress.hpp"
 #include "secured/key_needs.hpp"
 #include "streams.hpp"
@@ -40,26 +45,40 @@ constexpr std::string_view kHostProcess = "--host-process";
 
 fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
 
-// Returns the name by which a child of this process reaches a file: "/dev/stdout" is another one for it.
-std::string reachable(const std::string& file) {
-  std::string name = file;
-  for (const auto& [special, number] : {std::pair{"/dev/stdout", "1"}, {"/dev/stderr", "2"}})
-    if (name == special) name = std::string("/dev/fd/") + number;
-  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
-    if (name.starts_with(folder))
-      return "/proc/" + std::to_string(getpid()) + "/fd/" + name.substr(folder.size());
-  return name;
-}
+// Names files as host processes reach them: "/dev/stdout" is another one for them. They get the descriptors that are meant, as many as
+// there is room for.
+class ForChildren {
+ public:
+  host::RunOutputs outputs(const host::RunOutputs& outputs) {
+    host::RunOutputs all = outputs;
+    all.trace_file = file(all.trace_file);
+    all.picture.file = file(all.picture.file);
+    std::erase_if(all.recordings,
+                  [](const host::RecordingOptions& one) { return host::is_bag_file(one.file); });
+    for (host::RecordingOptions& recording : all.recordings) recording.file = file(recording.file);
+    return all;
+  }
+  [[nodiscard]] const std::vector<int>& kept() const { return kept_; }
 
-host::RunOutputs reachable(const host::RunOutputs& outputs) {
-  host::RunOutputs all = outputs;
-  all.trace_file = reachable(all.trace_file);
-  all.picture.file = reachable(all.picture.file);
-  std::erase_if(all.recordings,
-                [](const host::RecordingOptions& one) { return host::is_bag_file(one.file); });
-  for (host::RecordingOptions& recording : all.recordings) recording.file = reachable(recording.file);
-  return all;
-}
+ private:
+  std::string file(const std::string& name) {
+    const std::optional<int> meant = descriptor_of(name);
+    if (!meant || fcntl(*meant, F_GETFD) < 0 || kept_.size() == supervisor::kMostKept) return name;
+    kept_.push_back(*meant);
+    return "/proc/self/fd/" + std::to_string(supervisor::kFirstKept + kept_.size() - 1);
+  }
+  static std::optional<int> descriptor_of(const std::string& name) {
+    if (name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"})
+      if (name.starts_with(folder))
+        if (const auto number = xml::parse_integer(name.substr(folder.size())); number && *number < INT_MAX)
+          return static_cast<int>(*number);
+    return std::nullopt;
+  }
+
+  std::vector<int> kept_;
+};
 
 // Opens a file as the host process will, and closes it as it was. A pipe would be closed for its reader, too.
 Status try_to_open(OutputFile& file, const std::string& path) {
@@ -196,13 +215,19 @@ host::RunResult run_in_processes(const graph::Graph& graph, const std::string& m
   if (options.chooses_executor) supervised.executor = options.run.executive.backend;
   supervised.log_level = options.log_level;
   supervised.log_name = options.run.log_name;
-  supervised.outputs = reachable(options.run);
+  ForChildren for_children;
+  supervised.outputs = for_children.outputs(options.run);
+  supervised.kept_descriptors = for_children.kept();
+  for (const std::string& folder : options.writable)
+    supervised.writable.push_back(fs::absolute(folder).lexically_normal().string());
   supervised.outputs.looks_on = options.progress.value_or(stderr_can_live());
   if (const Status opened = try_to_open(options.run); !opened.ok())
     return refuse(opened.error(), options.run.log_name, listener);
   if (const Status there = check_keys(graph, machine); !there.ok())
     return refuse(there.error(), options.run.log_name, listener);
   const std::optional<apps::ChildProgram> viewer = options.view ? start_viewer(graph.name) : std::nullopt;
+  if (const std::string gaps = supervisor::confinement_gaps(); !gaps.empty())
+    log::info(options.run.log_name, "this kernel does not keep host processes from: " + gaps);
   Recorders recorders;
   if (const Status started = recorders.start(graph, machine, options.run.recordings); !started.ok())
     return refuse(started.error(), options.run.log_name, listener);

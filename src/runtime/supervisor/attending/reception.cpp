@@ -105,7 +105,7 @@ class Reception::Desk {
   const RunIdentity run_;
   const SupervisedOptions options_{};
   Roster roster_{around_.graph_, "", run_.processes};
-  Starter starter_{around_.graph_, options_, run_, roster_};
+  Starter starter_{around_.graph_, options_.facts, options_, run_, roster_};
   Conductor conductor_{[this] { around_.poller_.wake(); }};
   Ledger ledger_;
   RestartPolicy policy_{graph::processes_of(around_.graph_), around_.graph_.supervision};

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "orca/base/exhaustion.hpp"
+#include "processes/confinement.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -29,7 +30,7 @@ constexpr int kAboveAll = 10;        // descriptors from here on are in nobody's
 constexpr int kExecFailed = 127;
 
 // What can fail in the child before the new program runs.
-enum class Step : int { descriptors, data_limit, processors, priority, exec };
+enum class Step : int { descriptors, data_limit, processors, priority, confinement, exec };
 struct StepFault {
   Step step;
   int reason;  // errno
@@ -41,6 +42,7 @@ struct Child {
   Descriptor output;   // its stdout and stderr
   Descriptor channel;  // its end of the control channel
   Descriptor faults;   // takes StepFaults; closed by exec
+  std::vector<Descriptor> kept;
   std::vector<char*> arguments;
   cpu_set_t processors;
 };
@@ -95,10 +97,13 @@ void reset_signals() {
 }
 
 bool arrange_descriptors(const Child& child) {
+  int next = static_cast<int>(kFirstKept);
+  for (const Descriptor& kept : child.kept)
+    if (dup2(kept.number(), next++) < 0) return false;
   return dup2(child.input.number(), STDIN_FILENO) >= 0 && dup2(child.output.number(), STDOUT_FILENO) >= 0 &&
          dup2(child.output.number(), STDERR_FILENO) >= 0 &&
          dup2(child.channel.number(), kChannelNumber) >= 0 &&
-         close_range(kChannelNumber + 1, ~0U, CLOSE_RANGE_CLOEXEC) == 0;
+         close_range(static_cast<unsigned>(next), ~0U, CLOSE_RANGE_CLOEXEC) == 0;
 }
 
 void set_limits(const HostStart& start, const Child& child) {
@@ -112,11 +117,14 @@ void set_limits(const HostStart& start, const Child& child) {
 
 // What no component needs, also where root runs the system: powers over the kernel and the machine's clock. Files, devices, networks and
 // priorities stay with root. So does CAP_SYS_ADMIN, because a pseudo terminal keeps the exclusive mode of a driver that was
-// killed, and CAP_SYS_PTRACE, because a process writes to the supervisor's own output through /proc.
-constexpr int kGivenUp[] = {CAP_SYS_MODULE,    CAP_SYS_BOOT, CAP_SYS_CHROOT, CAP_SYS_TIME,
-                            CAP_MKNOD,         CAP_SETFCAP,  CAP_MAC_ADMIN,  CAP_MAC_OVERRIDE,
-                            CAP_AUDIT_CONTROL, CAP_SYSLOG,   CAP_SETPCAP};  // the last one, without which the others
-                                                                            // could not go
+// killed.
+constexpr int kGivenUp[] = {CAP_SYS_MODULE,   CAP_SYS_PTRACE,
+                            CAP_SYS_BOOT,     CAP_SYS_CHROOT,
+                            CAP_SYS_TIME,     CAP_MKNOD,
+                            CAP_SETFCAP,      CAP_MAC_ADMIN,
+                            CAP_MAC_OVERRIDE, CAP_AUDIT_CONTROL,
+                            CAP_SYSLOG,       CAP_SETPCAP};  // the last one, without which the others
+                                                             // could not go
 
 // The program gets no rights that this one does not have, whatever it runs. A user who is not root has none of these to give up.
 void give_up_rights() {
@@ -124,11 +132,12 @@ void give_up_rights() {
   for (const int capability : kGivenUp) (void)prctl(PR_CAPBSET_DROP, capability, 0, 0, 0);
 }
 
-[[noreturn]] void become(const HostStart& start, const Child& child) {
+[[noreturn]] void become(const HostStart& start, const Child& child, const Confinement& confinement) {
   reset_signals();
   if (arrange_descriptors(child)) {
     set_limits(start, child);
     give_up_rights();
+    if (!confinement.enter()) report(child, Step::confinement);
     execv(start.program.c_str(), child.arguments.data());
     report(child, Step::exec);
   } else {
@@ -138,14 +147,14 @@ void give_up_rights() {
 }
 
 // Signals are blocked meanwhile: none that is sent at once reaches handlers of the supervisor in the child.
-pid_t fork_and_become(const HostStart& start, const Child& child) {
+pid_t fork_and_become(const HostStart& start, const Child& child, const Confinement& confinement) {
   sigset_t all;
   sigset_t before;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   const pid_t pid = fork();
   const int reason = errno;
-  if (pid == 0) become(start, child);
+  if (pid == 0) become(start, child, confinement);
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (pid < 0) throw_system(reason);
   return pid;
@@ -157,6 +166,7 @@ std::string warning(const StepFault& fault) {
     case Step::data_limit: return "the memory limit is not in force: " + reason;
     case Step::processors: return "the processors are not those of the graph: " + reason;
     case Step::priority: return "the priority is not that of the graph: " + reason;
+    case Step::confinement: return "what its components may do is not confined: " + reason;
     case Step::descriptors:
     case Step::exec: break;
   }
@@ -192,6 +202,7 @@ Child make_child(const HostStart& start, const Descriptor& channel) {
     child.arguments.push_back(const_cast<char*>(argument.c_str()));
   child.arguments.push_back(nullptr);
   child.processors = set_of(start.processors);
+  for (const int kept : start.kept) child.kept.push_back(above_all(kept));
   return child;
 }
 
@@ -200,12 +211,13 @@ Child make_child(const HostStart& start, const Descriptor& channel) {
 Result<Launched> launch(const HostStart& start, const Descriptor& channel) {
   signal(SIGCHLD, SIG_DFL);  // if it were ignored, as a parent may have set it, no exit status would be kept
   Child child = make_child(start, channel);
+  const Confinement confinement(start);
   Launched launched;
   std::tie(launched.output, child.output) = make_pipe(O_NONBLOCK);
   fcntl(launched.output.number(), F_SETPIPE_SZ, kPipeBytes);  // refused: then it has the usual size
   Descriptor faults;
   std::tie(faults, child.faults) = make_pipe(0);
-  launched.pid = fork_and_become(start, child);
+  launched.pid = fork_and_become(start, child, confinement);
   child.faults.reset();
   launched.pidfd = Descriptor(static_cast<int>(syscall(SYS_pidfd_open, launched.pid, 0)));
   const int reason = errno;

@@ -62,7 +62,7 @@ class SupervisedRun {
         run_(std::move(beginning.run)),
         inherited_(std::move(beginning.processes)),
         roster_(graph, options.machine, run_.processes),
-        starter_(graph_, options, run_, roster_),
+        starter_(graph_, facts_, options, run_, roster_),
         ledger_(here_, listener, run_.start, options.log_name),
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
         control_(conductor_, graph_, here_, facts_, roster_.all(), ledger_, starter_, renewal_, levers(),

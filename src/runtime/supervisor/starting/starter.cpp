@@ -12,6 +12,7 @@
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/supervisor/outputs.hpp"
+#include "writable_places.hpp"
 
 namespace orca::supervisor {
 namespace {
@@ -20,9 +21,10 @@ constexpr std::uint64_t kReserved = std::uint64_t{1} << 30;  // [bytes] of stack
 
 }  // namespace
 
-Starter::Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
-                 Roster& roster)
+Starter::Starter(const graph::Graph& graph, const SystemFacts& facts, const SupervisedOptions& options,
+                 const RunIdentity& run, Roster& roster)
     : graph_(graph),
+      facts_(facts),
       options_(options),
       run_(run),
       roster_(roster),
@@ -77,7 +79,15 @@ HostStart Starter::host_start(const Member& member) const {
           memory ? std::optional(2 * *memory + kReserved) : std::nullopt,
           member.node().processors,
           member.node().priority.value_or(0),
-          true};
+          true,
+          places_of(member.name()),
+          options_.kept_descriptors};
+}
+
+std::vector<std::string> Starter::places_of(const std::string& process) const {
+  std::vector<std::string> places = writable_places(graph_, process, facts_, options_.outputs);
+  places.insert(places.end(), options_.writable.begin(), options_.writable.end());
+  return places;
 }
 
 HostStart Starter::plain_start(const std::string& name) const {

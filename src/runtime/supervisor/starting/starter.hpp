@@ -36,8 +36,9 @@ class Starter {
   };
 
   /// All of these outlive the object.
-  Starter(const graph::Graph& graph, const SupervisedOptions& options, const RunIdentity& run,
-          Roster& roster);
+  /// @param facts  of the graph, also when it changes.
+  Starter(const graph::Graph& graph, const SystemFacts& facts, const SupervisedOptions& options,
+          const RunIdentity& run, Roster& roster);
 
   /// Starts processes that do not run, all together, and renews the edges to those that do. One that is asleep takes over
   /// the edges that wait for it. They come up when the caller passes the returned setups on.
@@ -89,12 +90,14 @@ class Starter {
 
  private:
   [[nodiscard]] HostStart host_start(const Member& member) const;
+  [[nodiscard]] std::vector<std::string> places_of(const std::string& process) const;
   [[nodiscard]] Setup setup(const Member& member, Wiring::Lots& lots);
   [[nodiscard]] std::vector<StateKept> states_for(const Member& member);
   [[nodiscard]] host::RunOutputs outputs_for(const Member& member);
   void renew_others(const Members& started, Wiring::Lots& lots);
 
   const graph::Graph& graph_;
+  const SystemFacts& facts_;
   const SupervisedOptions& options_;
   const RunIdentity& run_;
   Roster& roster_;

@@ -135,12 +135,21 @@ TEST_CASE("A host process begins with nothing of the supervisor's but what it ne
 #endif
   CHECK(line_of(text, "NoNewPrivs:") == "NoNewPrivs:\t1");
   const std::uint64_t powers = std::stoull("0x" + line_of(text, "CapEff:").substr(8), nullptr, 16);
-  for (const int power : {CAP_SYS_MODULE, CAP_SYS_BOOT, CAP_MKNOD, CAP_SYS_TIME, CAP_SETPCAP})
+  CHECK(line_of(text, "Seccomp:") == "Seccomp:\t2");
+  for (const int power : {CAP_SYS_MODULE, CAP_SYS_PTRACE, CAP_SYS_BOOT, CAP_MKNOD, CAP_SYS_TIME, CAP_SETPCAP})
     CHECK((powers >> power & 1) == 0);
   CHECK(line_of(text, "group") == "group " + std::to_string(getpgrp()));
   CHECK(line_of(text, "data") == "data " + std::to_string(RLIM_INFINITY));
   CHECK(process->warnings().empty());
   CHECK_FALSE(process->exit());
+}
+
+TEST_CASE("A host process gets the descriptors of its supervisor that the start names",
+          "[supervisor][processes]") {
+  HostStart start = start_of("describe");
+  start.kept = {STDOUT_FILENO, STDERR_FILENO};
+  const auto process = started(start);
+  CHECK(line_of(last_words_of(*process), "descriptors") == "descriptors 0 1 2 3 4 5");
 }
 
 TEST_CASE("A host process sees that its supervisor is gone", "[supervisor][processes]") {

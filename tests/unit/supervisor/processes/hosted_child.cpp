@@ -43,7 +43,7 @@ std::string description() {
     if (fcntl(number, F_GETFD) >= 0) text << " " << number;
   text << "\nstdin " << std::filesystem::read_symlink("/proc/self/fd/0").string();
   for (const char* const name :
-       {"Name", "SigBlk", "SigIgn", "SigCgt", "Cpus_allowed_list", "NoNewPrivs", "CapEff"})
+       {"Name", "SigBlk", "SigIgn", "SigCgt", "Cpus_allowed_list", "NoNewPrivs", "Seccomp", "CapEff"})
     text << "\n" << status_line(name);
   rlimit data{};
   getrlimit(RLIMIT_DATA, &data);

@@ -78,7 +78,7 @@ class RenewedRun {
   const SupervisedOptions options_{};
   const RunIdentity run_ = std::move(begin_run(graph_, "")).value();
   Roster roster_{graph_, "", run_.processes};
-  Starter starter_{graph_, options_, run_, roster_};
+  Starter starter_{graph_, options_.facts, options_, run_, roster_};
   RestartPolicy policy_{graph::processes_on(graph_, ""), graph_.supervision};
   const std::string log_name_ = "test";
   Conductor conductor_{[] {}};

@@ -37,7 +37,7 @@ TEST_CASE("a process that the system has no descriptors for has failed to start,
   const RunIdentity run = std::move(begin_run(graph, "")).value();
   Roster roster(graph, "", run.processes);
   const Members& all = roster.all();
-  Starter starter(graph, options, run, roster);
+  Starter starter(graph, options.facts, options, run, roster);
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
   const rlimit none{3, before.rlim_max};

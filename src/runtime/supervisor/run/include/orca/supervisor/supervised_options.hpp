@@ -30,7 +30,9 @@ struct SupervisedOptions {
   std::optional<Backend> executor;  ///< Of all processes; none: as the graph says.
   std::vector<host::PlannedFailure> planned_failures;
   log::Level log_level = log::Level::info;
-  std::string log_name = kLogName;  ///< Name in the log for what concerns the run as a whole.
+  std::string log_name = kLogName;    ///< Name in the log for what concerns the run as a whole.
+  std::vector<std::string> writable;  ///< Folders in which components may write, besides those of HostStart.
+  std::vector<int> kept_descriptors;  ///< Of this process, which host processes get: HostStart::kept.
   host::RunOutputs outputs;  ///< Checked by check_outputs(). A process that is started again writes none.
   SystemFacts facts;         ///< For operators.
   SystemReader read;         ///< Reads graphs that are to be carried out; empty: none are.
