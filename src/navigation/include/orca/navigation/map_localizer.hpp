@@ -52,7 +52,7 @@ struct LocalizerOptions {
   double believed_from =
       0.72;  ///< [1] how well scans fit at a place (Explanation::fit) for it to be believed.
   double believed_at_once =
-      0.9;                 ///< [1] the same for a place that was suggested, before the map was searched.
+      0.9;                  ///< [1] the same for a place that was suggested, before the map was searched.
   double suggested = 10.0;  ///< logarithm of the odds of such a place against others that fit as well.
   double doubted_below =
       0.45;              ///< [1] the same, on the average of the last scans, below which a place is doubted.
