@@ -98,6 +98,13 @@ TEST_CASE("a folder that --writable names is written to, and by it nothing else 
   CHECK(finish(system, Seconds(20)).exit_code() == 0);
 }
 
+TEST_CASE("--writable is for host processes only", "[system][confined]") {
+  const Run run =
+      run_deployer(Words{source_file("graphs/scout_goto.xml"), "--writable", "/var"} + virtual_clock());
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("--writable: only host processes"));
+}
+
 TEST_CASE("what a host process writes for the run reaches the deployer's own output", "[system][confined]") {
   const Run run = run_deployer(Words{system_graph("hooligan.xml"), "--set", "where=work", "--set",
                                      "deed=none", "--trace", "/dev/stdout", "--until", "1 s"} +

@@ -293,11 +293,13 @@ ExitCode run_attended(Loaded& loaded, const Options& options, host::RunOptions r
   return run_here(loaded, options, run, stop, **attendance);
 }
 
-// Returns the option that is for operators of host processes; "" if there is none.
-const char* option_of_operators(const Options& options) {
-  if (options.hold) return "--hold";
-  if (!options.writable.empty()) return "--writable";
-  return options.grants.empty() ? "" : "--allow";
+// Returns what is wrong with an option that is for host processes, where there are none; "" if there is no such option.
+std::string fault_without_processes(const Options& options) {
+  if (!options.writable.empty())
+    return "--writable: only host processes are kept from other folders; leave it out";
+  const std::string option = options.hold ? "--hold" : options.grants.empty() ? "" : "--allow";
+  if (option.empty()) return "";
+  return option + ": orcactl reaches host processes only; leave out --in-process and --clock virtual";
 }
 
 // Runs everything in this process, in steps of virtual time that a program asks for.
@@ -357,11 +359,8 @@ ExitCode run(const Options& options) {
                          fail(Code::invalid_argument,
                               "--view: in real time the page reaches host processes only; leave out "
                               "--in-process"));
-  if (const char* const option = option_of_operators(options); *option != 0)
-    return refuse_option(
-        codes::kExcluding,
-        fail(Code::invalid_argument, std::string(option) + ": orcactl reaches host processes only; leave out "
-                                                           "--in-process and --clock virtual"));
+  if (const std::string fault = fault_without_processes(options); !fault.empty())
+    return refuse_option(codes::kExcluding, fail(Code::invalid_argument, fault));
   if (!options.machine.empty())
     return refuse_option(codes::kExcluding, fail(Code::invalid_argument,
                                                  "--machine: here everything runs in this process; leave it "
