@@ -123,6 +123,8 @@ Duration PushSourceHandle::base_period() const { return edge().base_period(); }
 
 ObjectRef PushSourceHandle::latest_ref() const { return edge().latest(); }
 
+ObjectRef PushSourceHandle::take_ref() const { return edge().take(); }
+
 ObjectRef PushSourceHandle::take_latest_ref() const {
   PushEdge& source = edge();
   while (source.take()) {

@@ -71,7 +71,7 @@ LAYERS = (
     Layer("dds_security", (f"{PATTERNS}/dds/security",), ("orca/dds/",), ("keys", "base"), ("fastdds",), ("fastdds",)),
     Layer("patterns_dds_backend", (f"{PATTERNS}/dds/backend",), (), ("dds_security", "patterns_dds", "patterns_frames", *ENDPOINTS),
           ("fastdds", "fastcdr", "fmt"), module=PATTERNS),
-    Layer("patterns_dds_ros", (f"{PATTERNS}/dds/ros",), (), ("patterns_dds", "patterns_dds_backend", "ros", *ENDPOINTS),
+    Layer("patterns_dds_ros", (f"{PATTERNS}/dds/ros", f"{PATTERNS}/dds/team"), (), ("patterns_dds", "patterns_dds_backend", "ros", *ENDPOINTS),
           ("fastdds", "fastcdr", "fmt"), module=PATTERNS),
     Layer("component_api", ("src/component_api", "cmake/plugin"), ("orca/component.hpp", "orca/component/"),
           ("patterns", "idl", "base"), ("fmt",)),

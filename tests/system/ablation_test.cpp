@@ -140,6 +140,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "replay",
                                        "ros2_pioneer",  // ros2_test
                                        "ros2_robot",
+                                       "team_robot",  // team_test
                                        "intel_log",
                                        "calibrate",
                                        "pioneer_localize",

@@ -122,6 +122,9 @@ std::vector<Command> showing_commands() {
            "clock_ahead_ms is what was measured with the shortest round trip of the last minute; the "
            "truth is at most error_ms away. A clock that certainly differs by more than 20 ms raises the "
            "alarm CLOCKS_DIFFER, and the instants in what comes from there are corrected."},
+      {.name = "team",
+       .watches = true,
+       .text = "the systems of the team that this one has joined, and what they offer"},
       {.name = "ports", .text = "the ports of all components, and what they are connected to"},
       {.name = "plugins",
        .text = "the plugin files, and who uses them",

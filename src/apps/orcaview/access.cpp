@@ -80,9 +80,9 @@ std::string query_value(std::string_view target, std::string_view name) {
 }
 
 bool only_shows(std::string_view command, bool has_words) {
-  static const std::set<std::string_view> shows{"ps",      "graph",   "machines", "ports",
-                                                "plugins", "objects", "names",    "counters",
-                                                "log",     "get",     "missions", "replay"};
+  static const std::set<std::string_view> shows{"ps",       "graph",  "machines", "ports", "plugins",
+                                                "objects",  "names",  "counters", "log",   "get",
+                                                "missions", "replay", "team"};
   return shows.contains(command) || ((command == "alarms" || command == "pace") && !has_words);
 }
 

@@ -5,6 +5,7 @@
 
 #include "orca/patterns/dds/dds_backend.hpp"
 #include "orca/patterns/dds/ros_topics.hpp"
+#include "orca/patterns/dds/team_topics.hpp"
 
 namespace orca {
 namespace {
@@ -34,6 +35,12 @@ Result<std::unique_ptr<DdsBackend>> open_dds(const std::string& library, const D
 Result<std::unique_ptr<RosTopics>> open_ros_topics(const std::string& library, const RosOptions& options) {
   MadeRosTopics made;
   make_part<MakeRosTopics>(library, "orca_make_ros_topics", options, made);
+  return std::move(*made);
+}
+
+Result<std::unique_ptr<TeamTopics>> open_team_topics(const std::string& library, const TeamOptions& options) {
+  MadeTeamTopics made;
+  make_part<MakeTeamTopics>(library, "orca_make_team_topics", options, made);
   return std::move(*made);
 }
 

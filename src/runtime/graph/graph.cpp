@@ -22,9 +22,9 @@ const ComponentNode* Graph::find_component(const std::string& wanted) const {
 
 const GroupNode* Graph::find_group(const std::string& wanted) const { return find(groups, wanted); }
 
-std::string topic_of(const ComponentNode& node, const std::string& port) {
+PortSetting setting_of(const ComponentNode& node, const std::string& port) {
   for (const auto& [name, setting] : node.ports)
-    if ((setting.alias.empty() ? name : setting.alias) == port) return setting.topic;
+    if ((setting.alias.empty() ? name : setting.alias) == port) return setting;
   return {};
 }
 

@@ -48,8 +48,8 @@ using HeadedObjects =
                idl::LogRecord, idl::MachineState, idl::MotionCommand, idl::MovingThings, idl::OccupancyGrid,
                idl::Odometry, idl::Path, idl::Progress, idl::RangeReadings, idl::Robot, idl::RobotPose,
                idl::Route, idl::Sensor, idl::SonarRangeReadings, idl::SonarRing, idl::TaskOrder,
-               idl::TaskState, idl::TripOrder, idl::TripState, idl::TurretAngle, idl::TurretCommand,
-               idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
+               idl::TaskState, idl::TeamObject, idl::Teammate, idl::TeamState, idl::TripOrder, idl::TripState,
+               idl::TurretAngle, idl::TurretCommand, idl::WorldChange, idl::WorldPlan, idl::WorldScene>;
 
 template <class... T>
 std::tuple<Travelling<T>...> with_headers(std::tuple<T...>);

@@ -61,7 +61,7 @@ TEST_CASE("a value of a request's query is found by its name", "[view]") {
 
 TEST_CASE("a reader may ask what is so, and change nothing", "[view]") {
   for (const char* const command :
-       {"ps", "graph", "machines", "ports", "plugins", "counters", "log", "get", "missions", "names"})
+       {"ps", "graph", "machines", "team", "ports", "plugins", "counters", "log", "get", "missions", "names"})
     CHECK(only_shows(command, true));
   CHECK(only_shows("alarms", false));
   CHECK_FALSE(only_shows("alarms", true));  // alarms ack all

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 /// @file
-/// MovingThings. idl/orca/moving.idl gives the meaning of each field.
+/// MovingThings and Teammate. idl/orca/moving.idl gives the meaning of each field.
 #pragma once
 
 #include "orca/base/result.hpp"
 #include "orca/idl/generated/moving.h"
 #include "orca/idl/generated/moving.types.hpp"
 #include "orca/idl/object.hpp"
+#include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca {

@@ -3,82 +3,34 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "dds/backend/outbox.hpp"
-#include "orca/base/mutex.hpp"
-#include "orca/base/strand.hpp"
-#include "orca/patterns/endpoints/endpoint.hpp"
-#include "orca/patterns/endpoints/push_link.hpp"
 #include "orca/patterns/endpoints/request_link.hpp"
 #include "orca/ros/range_ring.hpp"
 #include "orca/ros/twin.hpp"
-#include "ros_frames.hpp"
-#include "ros_participant.hpp"
+#include "topic_ends.hpp"
 
 namespace orca::dds::of_ros {
 
-/// A topic on which a port publishes. Objects become messages on the outbox's thread.
+/// A topic of ROS 2 on which a port publishes.
 ///
 /// Thread contract: as TopicWriter.
-class RosPublication final : public TopicWriter {
+class RosPublication final : public TopicPublication {
  public:
   /// @param twin  of the port's type: what is written.
   RosPublication(std::shared_ptr<RosWriter> writer, const ros::Twin& twin, RosFrames& frames)
-      : writer_(std::move(writer)), twin_(twin), frames_(frames) {}
+      : TopicPublication(std::move(writer)), twin_(twin), frames_(frames) {}
 
+  using TopicPublication::write;
   bool write(const ObjectRef& object, std::size_t size, const Label& label) override;
-  bool write(std::vector<std::byte> messages) override;
-  [[nodiscard]] bool has_readers() const { return writer_->readers() > 0; }
-  [[nodiscard]] bool are_frames_heard() const { return frames_.are_heard(); }
-
-  [[nodiscard]] bool is_latched() const { return twin_.is_latched; }
-
-  /// Lets the outbox write an object. If too much waits there it is dropped, unless readers that come later want it.
-  /// @return whether it will be written.
-  static bool post(const std::shared_ptr<RosPublication>& to, const ObjectRef& object, Outbox& outbox);
+  [[nodiscard]] bool are_frames_heard() const override { return frames_.are_heard(); }
+  [[nodiscard]] bool is_latched() const override { return twin_.is_latched; }
 
  private:
-  const std::shared_ptr<RosWriter> writer_;
   const ros::Twin& twin_;
   RosFrames& frames_;
-};
-
-/// The objects for which a port is subscribed to without readers of its topic.
-enum class Unread {
-  nothing,
-  first,  ///< The first object, which says where a sensor is mounted.
-  moves,  ///< All of them while others hear on /tf how robots move.
-  all     ///< The latest object, for readers that come later.
-};
-
-/// The client of a PushServer that publishes its objects. It is subscribed while somebody reads the topic.
-///
-/// Thread contract: as PushSink and Intake.
-class PushToRos final : public PushSink, public Intake, public LinkEnd {
- public:
-  PushToRos(Strand& strand, PushSource& source, std::shared_ptr<RosPublication> publication, Outbox& outbox,
-            std::shared_ptr<Bell> bell, Unread unread);
-  ~PushToRos() override;
-
-  std::optional<Duration> deliver(ObjectRef&& object) override;
-  void give_up(const ObjectRef& /*object*/) override {}
-  void granted(const UpdateGrant& /*grant*/) override {}
-  void lost(std::uint64_t /*objects*/) override {}
-  bool take_in() override;
-
- private:
-  Strand& strand_;
-  PushSource& source_;
-  const std::shared_ptr<RosPublication> publication_;
-  Outbox& outbox_;
-  const std::shared_ptr<Bell> bell_;
-  std::atomic<Unread> unread_;
-  Mutex mutex_;  // held by whoever subscribes or ends that
-  bool attached_ ORCA_GUARDED_BY(mutex_) = false;
 };
 
 /// The server of a SendProxy that publishes what is sent.
@@ -102,82 +54,43 @@ class SendToRos final : public SendTarget, public LinkEnd {
   Outbox& outbox_;
 };
 
-/// A topic that a port hears. Messages become objects on a thread of DDS, and wait for the port's strand.
+/// A topic of ROS 2 that a port hears.
 ///
-/// Thread contract: as Intake.
-class RosIntake : public Intake {
+/// Thread contract: as TopicIntake.
+class RosIntake : public TopicIntake {
  public:
   /// @param user  the port, for people.
-  RosIntake(Strand& strand, std::string user, std::string topic, const ros::Twin& twin, RosFrames& frames);
-  ~RosIntake() override = default;
-
-  /// Begins to hear.
-  /// @errors  those of make_reader().
-  Status open(RosParticipant& participant, const RosChannel& channel);
-  [[nodiscard]] Gid gid() const { return reader_->gid(); }
-  [[nodiscard]] const std::string& topic() const { return topic_; }
-  bool take_in() override;
-
- protected:
-  /// Ends to hear. Each final class calls it in its destructor.
-  void close();
-  [[nodiscard]] Strand& strand() const { return strand_; }
-  [[nodiscard]] const std::string& user() const { return user_; }
+  RosIntake(Strand& strand, std::string user, std::string topic, const ros::Twin& twin, RosFrames& frames)
+      : TopicIntake(strand, std::move(user), std::move(topic)), twin_(twin), frames_(frames) {}
 
  private:
-  struct Waiting {
-    ObjectRef object;
-    std::size_t size;  // as it came [bytes]
-  };
-
-  virtual void pass_on(ObjectRef object) = 0;
-  virtual void pass_on_losses(std::uint64_t objects) = 0;
-  void hear(std::span<const std::byte> payload);
+  ObjectRef read(std::span<const std::byte> payload, TimePoint now) override;
   [[nodiscard]] std::optional<idl::Frame3D> find_mount(const std::string& frame);
-  void keep(ObjectRef object, std::size_t size);
 
-  Strand& strand_;
-  const std::string user_;
-  const std::string topic_;
   const ros::Twin& twin_;
   RosFrames& frames_;
-  ros::RangeRing ring_;  // used by the reader's callback, as the next three
-  TimePoint opened_{};
+  ros::RangeRing ring_;            // used by the reader's callback, as the rest
   bool is_mount_missing_ = false;  // of the message that is read now
   bool warned_of_mount_ = false;
-  std::atomic<bool> complained_{false};
-  Mutex reading_;  // held by whoever takes in; before mutex_
-  Mutex mutex_;
-  std::deque<Waiting> waiting_ ORCA_GUARDED_BY(mutex_);
-  std::size_t waiting_bytes_ ORCA_GUARDED_BY(mutex_) = 0;  // as they came
-  std::uint64_t lost_ ORCA_GUARDED_BY(mutex_) = 0;
-  std::unique_ptr<RosReader> reader_;  // the last member: its callback uses the others
+  bool complained_ = false;
 };
 
 /// The server of a PushProxy that hears a topic.
 ///
 /// Thread contract: as PushSource and Intake.
-class RosToPush final : public RosIntake, public PushSource, public LinkEnd {
+class RosToPush final : public RosIntake, public LinkEnd {
  public:
-  using RosIntake::RosIntake;
+  RosToPush(Strand& strand, std::string user, const std::string& topic, const ros::Twin& twin,
+            RosFrames& frames)
+      : RosIntake(strand, std::move(user), topic, twin, frames), source_(strand, topic) {}
   ~RosToPush() override { close(); }
-
-  void attach(PushSink& sink, const UpdateRate& rate) override;
-  void detach() override;
-  void change(const UpdateRate& rate) override;
-  void room() override {}
-  [[nodiscard]] Duration base_period() const override { return Duration{0}; }
-  [[nodiscard]] std::string path() const override { return topic(); }
+  [[nodiscard]] PushSource& source() { return source_; }
 
  private:
-  void pass_on(ObjectRef object) override;
-  void pass_on_losses(std::uint64_t objects) override;
+  void pass_on(ObjectRef object) override { source_.pass_on(std::move(object)); }
+  void pass_on_losses(std::uint64_t objects) override { source_.pass_on_losses(objects); }
 
-  Mutex mutex_;
-  PushSink* sink_ ORCA_GUARDED_BY(mutex_) = nullptr;  // null: not subscribed
-  UpdateRate rate_ ORCA_GUARDED_BY(mutex_);
-  TimePoint next_ ORCA_GUARDED_BY(mutex_){};  // with an interval: not before then
-  std::uint64_t count_ ORCA_GUARDED_BY(mutex_) = 0;
+  TopicSource source_;
 };
 
 /// The client of a SendServer that sends it what comes on a topic.

@@ -225,7 +225,8 @@ class FastRosParticipant final : public RosParticipant {
   // One message per topic, as in all of ROS 2.
   Result<fd::Topic*> topic(const RosChannel& channel) {
     const MutexLock lock(mutex_);
-    const std::string type = ros::dds_type_name(channel.message);
+    const bool is_of_ros = channel.message.find("::") == std::string::npos;
+    const std::string type = is_of_ros ? ros::dds_type_name(channel.message) : channel.message;
     if (const auto known = topics_.find(channel.name); known != topics_.end()) {
       if (known->second->get_type_name() == type) return known->second;
       return fail(Code::invalid_argument, "topic " + channel.name + " has another message at another port");
@@ -247,13 +248,13 @@ class FastRosParticipant final : public RosParticipant {
 
 }  // namespace
 
-Result<std::unique_ptr<RosParticipant>> RosParticipant::open(const RosOptions& options) {
+Result<std::unique_ptr<RosParticipant>> RosParticipant::open(const ParticipantOptions& options) {
   prepare_library();
   DdsOptions network;
-  if (!options.only_here) network.address.clear();
+  network.address = options.address;
   fd::DomainParticipantQos qos = participant_qos(network);
-  qos.name("/");
-  qos.user_data().setValue(octets_of("enclave=/;"));
+  qos.name(options.name);
+  qos.user_data().setValue(octets_of(options.user_data));
   fd::DomainParticipant* const made =
       fd::DomainParticipantFactory::get_instance()->create_participant(options.domain, qos);
   if (made == nullptr)

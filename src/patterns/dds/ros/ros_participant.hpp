@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
@@ -20,8 +21,9 @@ using Gid = std::array<std::byte, 16>;
 
 /// A topic as DDS knows it, and how it is spoken on.
 struct RosChannel {
-  std::string name;     ///< "/scan"; without a slash in front a name of DDS itself.
-  std::string message;  ///< "sensor_msgs/msg/LaserScan"
+  std::string name;  ///< "/scan"; without a slash in front a name of DDS itself.
+  std::string
+      message;  ///< "sensor_msgs/msg/LaserScan"; with "::" a name of DDS itself: "orca::idl::TeamObject".
   /// Whether a reader that comes later gets what was written last, and whether this reader wants that.
   bool is_latched = false;
   bool is_reliable = true;  ///< Readers: whether only writers will do that repeat what is lost.
@@ -49,7 +51,15 @@ class RosReader {
   [[nodiscard]] virtual Gid gid() const = 0;
 };
 
-/// This process's participant of DDS among those of ROS 2. Endpoints that cannot speak to each other because of a policy are
+/// Where a participant is, and what it says of itself. Nodes of ROS 2 call themselves as here.
+struct ParticipantOptions {
+  std::uint32_t domain = 0;
+  std::string address{};  ///< The network interface's; empty: all of them.
+  std::string name = "/";
+  std::string user_data = "enclave=/;";
+};
+
+/// This process's participant of DDS among those of ROS 2, or of a team. Endpoints that cannot speak to each other because of a policy are
 /// reported in the log, with topic and policy.
 ///
 /// Thread contract: any thread.
@@ -60,7 +70,7 @@ class RosParticipant {
   using Received = std::function<void(std::span<const std::byte> payload)>;
 
   /// @errors  unavailable if DDS does not start.
-  [[nodiscard]] static Result<std::unique_ptr<RosParticipant>> open(const RosOptions& options);
+  [[nodiscard]] static Result<std::unique_ptr<RosParticipant>> open(const ParticipantOptions& options);
 
   virtual ~RosParticipant() = default;
   /// @param changed  is called when a reader has come or gone. It must not block.

@@ -114,9 +114,9 @@ class FastRosTopics final : public RosTopics {
     if (!publication) return publication.error();
     const Unread unread = unread_of(type_of(server), *twin);
     if (unread == Unread::moves) frames_.add(bell);
-    server.adopt(std::make_unique<PushToRos>(strand, server.connect(topic.name),
-                                             std::move(publication).value(), outbox_, std::move(bell),
-                                             unread));
+    server.adopt(std::make_unique<PushToTopic>(strand, server.connect(topic.name),
+                                               std::move(publication).value(), outbox_, std::move(bell),
+                                               unread));
     return ok();
   }
 
@@ -150,7 +150,7 @@ class FastRosTopics final : public RosTopics {
     if (twin == nullptr) return no_message(client, topic);
     auto end = std::make_unique<RosToPush>(client.home().strand, client.path(), topic.name, *twin, frames_);
     if (Status opened = open_intake(*end, client, topic, *twin); !opened.ok()) return opened;
-    client.connect(*end, policy);
+    client.connect(end->source(), policy);
     client.adopt(std::move(end));
     return ok();
   }
@@ -212,7 +212,8 @@ class FastRosTopics final : public RosTopics {
 
 extern "C" [[gnu::visibility("default")]] void orca_make_ros_topics(const RosOptions& options,
                                                                     MadeRosTopics& made) {
-  Result<std::unique_ptr<RosParticipant>> participant = RosParticipant::open(options);
+  Result<std::unique_ptr<RosParticipant>> participant =
+      RosParticipant::open({.domain = options.domain, .address = options.only_here ? "127.0.0.1" : ""});
   if (!participant) {
     made.emplace(participant.error());
     return;

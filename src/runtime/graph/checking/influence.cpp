@@ -34,10 +34,10 @@ class Influence {
       providers_[user].insert(provider);
       used_.insert(provider);
     }
-    // Whoever reads a topic makes its component work.
+    // Whoever reads a topic, or is in the team, makes its component work.
     for (const CheckedComponent& component : model.components)
       for (const auto& [name, setting] : component.value.ports)
-        if (!setting.topic.empty())
+        if (setting.speaks_outside())
           connected_[component.value.name].insert(setting.alias.empty() ? name : setting.alias);
     find_idle();
   }
@@ -68,8 +68,8 @@ class Influence {
   }
 
   [[nodiscard]] bool works_by_itself(const ComponentNode& node) const {
-    const auto has_topic = [](const auto& port) { return !port.second.topic.empty(); };
-    return node.autonomous.value_or(false) || node.watchable || std::ranges::any_of(node.ports, has_topic) ||
+    const auto speaks = [](const auto& port) { return port.second.speaks_outside(); };
+    return node.autonomous.value_or(false) || node.watchable || std::ranges::any_of(node.ports, speaks) ||
            std::ranges::find(graph_.ends, node.name) != graph_.ends.end();
   }
 

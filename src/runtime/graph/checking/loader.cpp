@@ -16,6 +16,7 @@
 #include "reading/merging/profiles.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
+#include "team.hpp"
 #include "types.hpp"
 
 namespace orca::graph {
@@ -36,6 +37,7 @@ Graph read_root(const Node& root, const LoadOptions& options, Report& report) {
     report.error(codes::kBadName, command_line(), shown_option("--name", options.name) + ": " + *fault);
   const auto domain = read_attribute<std::int64_t>(root, "domain", report);
   graph.domain = options.domain.value_or(static_cast<std::uint32_t>(domain.value_or(0)));
+  graph.team = read_team(root, report);
   graph.default_profile = root.value("default_profile");
   graph.supervision = read_supervision(root, report);
   graph.records_always = read_attribute<std::string>(root, "record", report) == "always";
@@ -91,6 +93,7 @@ Graph check(Assembly assembly, const LoadOptions& options, Catalogue& catalogue,
   assembly.graph.children.clear();  // the parts are copies
   Model model = check_parts(assembly, parts, catalogue, report);
   check_security(graph, model, report);
+  graph.team.ports = check_team(graph, root.place("join"), model, report);
   model.any_link = options.any_link;
   graph.ends = read_ends(root, model, report);
   for (const std::string& name : options.failing)

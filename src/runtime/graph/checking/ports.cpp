@@ -13,6 +13,7 @@
 #include "reading/codes.hpp"
 #include "reading/naming.hpp"
 #include "reading/values.hpp"
+#include "team.hpp"
 
 namespace orca::graph {
 namespace {
@@ -60,7 +61,7 @@ class PortReader {
     PortSetting setting;
     setting.disabled = read_disabled(node, *port);
     if (setting.disabled && node.find("as") == nullptr && node.find("candidates") == nullptr &&
-        node.find("topic") == nullptr) {
+        node.find("topic") == nullptr && node.find("team") == nullptr) {
       disabled_.push_back(port->name);
       checked_.disabled[port->name] = node.position;
     } else if (setting.disabled) {
@@ -71,13 +72,14 @@ class PortReader {
     setting.alias = read_alias(node, *port);
     read_candidates(node, setting.alias.empty() ? port->name : setting.alias, *port);
     read_topic(node, *port, setting);
-    if (setting.disabled || !setting.alias.empty() || !setting.topic.empty())
+    read_team(node, *port, setting);
+    if (setting.disabled || !setting.alias.empty() || setting.speaks_outside())
       checked_.value.ports[port->name] = setting;
   }
 
   // Applies the changes at the end, so that every <port> sees the author's names. Other components of the type keep theirs.
   void apply() {
-    if (disabled_.empty() && checked_.renamed.empty() && wrongly_disabled_.empty() && with_topic_.empty())
+    if (disabled_.empty() && checked_.renamed.empty() && wrongly_disabled_.empty() && outside_.empty())
       return;
     const auto changed = std::make_shared<Contract>(*checked_.contract);
     Contract& contract = *changed;
@@ -85,7 +87,7 @@ class PortReader {
       return std::ranges::find(disabled_, port.name) != disabled_.end();
     });
     for (PortContract& port : contract.ports) {
-      if (with_topic_.contains(port.name)) port.required = false;
+      if (outside_.contains(port.name)) port.required = false;
       const auto renaming = checked_.renamed.find(port.name);
       if (std::ranges::find(wrongly_disabled_, port.name) != wrongly_disabled_.end())
         checked_.wrongly_disabled.insert(renaming == checked_.renamed.end() ? port.name
@@ -185,7 +187,7 @@ class PortReader {
                       title_ + ": message has a meaning only with topic; remove it");
       return;
     }
-    with_topic_.insert(port.name);  // what is wrong with it is reported here
+    outside_.insert(port.name);  // what is wrong with it is reported here
     if (const std::string fault = topic_fault(topic->value); !fault.empty())
       return report_.error(codes::kTopic, topic->position,
                            title_ + ": topic " + in_quotes(topic->value) + ": " + fault);
@@ -209,6 +211,21 @@ class PortReader {
     if (message != nullptr) setting.message = message->value;
   }
 
+  void read_team(const Node& node, const PortContract& port, PortSetting& setting) {
+    const Text* const team = node.known("team");
+    if (team == nullptr) return;
+    outside_.insert(port.name);
+    const bool on_demand = component_.value("start") == "on_demand";
+    const std::string fault = on_demand ? "a component that starts on demand has no ports in a team"
+                              : setting.topic.empty() ? team_fault(team->value, port)
+                                                      : "the port has a topic as well; remove one of the two";
+    if (!fault.empty())
+      return report_.error(
+          codes::kTeam, team->position,
+          title_ + " (" + described(port) + "): team " + in_quotes(team->value) + ": " + fault);
+    setting.team = team->value;
+  }
+
   const Node& component_;
   CheckedComponent& checked_;
   const Catalogue& catalogue_;
@@ -216,7 +233,7 @@ class PortReader {
   std::string title_;
   std::vector<std::string> disabled_;
   std::vector<std::string> wrongly_disabled_;
-  std::set<std::string> with_topic_;
+  std::set<std::string> outside_;  // ports with a topic or in the team
 };
 
 }  // namespace

@@ -237,11 +237,15 @@ class Wiring {
     const Endpoint& proxy = from.port->role == Role::proxy ? from : to;
     if (proxy.port->many) return true;
     const CheckedComponent* const component = model_.component(proxy.ref.component);
-    const std::string topic = component == nullptr ? "" : topic_of(component->value, proxy.ref.port);
-    if (topic.empty()) return single_.add(edge, proxy);
-    report_.error(
-        codes::kTopic, edge.position,
-        described(proxy) + " hears topic " + topic + " already; remove the topic or the connection");
+    const PortSetting setting =
+        component == nullptr ? PortSetting{} : setting_of(component->value, proxy.ref.port);
+    if (!setting.speaks_outside()) return single_.add(edge, proxy);
+    const bool is_topic = !setting.topic.empty();
+    report_.error(is_topic ? codes::kTopic : codes::kTeam, edge.position,
+                  described(proxy) + " hears " +
+                      (is_topic ? "topic " + setting.topic + " already; remove the topic"
+                                : "the team already; remove team=") +
+                      " or the connection");
     return false;
   }
 

@@ -25,13 +25,19 @@ Arguments::Arguments(const Node& bringer, Budget& budget, Report& report)
   }
 }
 
+void Arguments::predefine(const std::string& name, const xml::Attribute& value) {
+  const Text text{value.value, value.value_position, value.intact, value.value_position.file};
+  arguments_[name] = {.value = text, .position = value.position, .used = true, .is_predefined = true};
+}
+
 void Arguments::declare(const Node& arg) {
   const Text* name = arg.known("name");
   if (name == nullptr) return;
   if (const auto fault = name_fault(name->value)) {
     report_.error(codes::kBadName, name->position, arg.title() + ": " + *fault);
   }
-  if (arguments_.contains(name->value)) return report_duplicate(name->value, arg);
+  const auto known = arguments_.find(name->value);
+  if (known != arguments_.end() && !known->second.is_predefined) return report_duplicate(name->value, arg);
   arguments_[name->value] = read(name->value, arg);
   names_.push_back(name->value);
 }

@@ -25,6 +25,9 @@ class Arguments {
   // @param bringer  the <include> or <use>; its <arg>s are the settings.
   Arguments(const Node& bringer, Budget& budget, Report& report);
 
+  // Gives an argument a value, unless the file declares one of that name.
+  void predefine(const std::string& name, const xml::Attribute& value);
+
   // Declares an <arg>. Its default may refer to arguments declared before.
   void declare(const Node& arg);
 
@@ -40,6 +43,7 @@ class Arguments {
     xml::Position position;
     bool without_value = false;  // it has no default and is not set
     bool used = false;
+    bool is_predefined = false;
   };
   struct Setting {
     Text value;

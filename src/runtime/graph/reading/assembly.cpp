@@ -19,16 +19,22 @@ namespace {
 
 // A file that includes itself is a cycle; a chain of different files this long is a mistake as well.
 constexpr std::size_t kDeepest = 50;
+constexpr const char* kSystem = "system";  // an argument that each file has: the name of the whole
 
 class Assembler {
  public:
   Assembler(const FileReader& read, Report& report, xml::Diagnostics& diagnostics)
       : files_(read, diagnostics), report_(report) {}
 
-  std::optional<Assembly> run(const xml::Document& document, const std::vector<std::string>& settings) {
+  // @param name  of the system, in place of the document's; empty: that.
+  std::optional<Assembly> run(const xml::Document& document, const std::vector<std::string>& settings,
+                              const std::string& name) {
+    if (const xml::Attribute* const own = document.root.attribute("name")) system_ = *own;
+    if (!name.empty()) system_.value = name;
     chain_.push_back(std::filesystem::path(document.root.position().file).lexically_normal().string());
     CommandLine line = read_command_line(settings, report_);
     Arguments arguments(line, budget_, report_);
+    predefine(arguments);
     auto structure = read_structure(document, arguments, report_);
     if (!structure) return std::nullopt;
     result_.parameters = std::move(line.parameters);
@@ -44,6 +50,11 @@ class Assembler {
     result_.names_incomplete |= structure.names_incomplete;
     expand(structure.graph);
     return std::move(structure.graph);
+  }
+
+  // A name that is made of arguments is not known yet.
+  void predefine(Arguments& arguments) const {
+    if (system_.value.find('$') == std::string::npos) arguments.predefine(kSystem, system_);
   }
 
   void expand(Node& parent) {
@@ -87,6 +98,7 @@ class Assembler {
 
   std::vector<Node> content(const xml::Document& document, const Node& bringer, const std::string& context) {
     Arguments arguments(bringer, budget_, report_);
+    predefine(arguments);
     auto structure = read_structure(document, arguments, report_);
     if (!structure) return leave_out();
     prefixes_.push_back(prefixes_.empty() ? context : prefixes_.back() + context);
@@ -157,6 +169,7 @@ class Assembler {
   Report& report_;
   Budget budget_;
   Assembly result_;
+  xml::Attribute system_;           // the name of the whole
   std::vector<std::string> chain_;  // the files that are open now, the outermost first
   std::vector<std::string>
       prefixes_;                    // prefixes of the open files except the first; each contains those before
@@ -167,7 +180,7 @@ class Assembler {
 
 std::optional<Assembly> assemble(const xml::Document& document, const LoadOptions& options,
                                  const FileReader& read, Report& report, xml::Diagnostics& diagnostics) {
-  return Assembler(read, report, diagnostics).run(document, options.settings);
+  return Assembler(read, report, diagnostics).run(document, options.settings, options.name);
 }
 
 }  // namespace orca::graph

@@ -79,5 +79,6 @@ inline constexpr const char* kChange = "G074";
 inline constexpr const char* kRight = "G075";
 inline constexpr const char* kTopic = "G076";
 inline constexpr const char* kSecured = "G077";
+inline constexpr const char* kTeam = "G078";
 
 }  // namespace orca::graph::codes

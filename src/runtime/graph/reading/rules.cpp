@@ -68,6 +68,14 @@ constexpr std::array kGraph{
                   "DDS domain in which its processes and machines meet; 0 if not given. Systems of different "
                   "domains see nothing of each other.",
                   integer(0, kMostDomain)},
+    AttributeRule{
+        "join", false,
+        "Team that the system joins, for example lab; none if not given. Its ports with team= speak to "
+        "those of the other systems."},
+    AttributeRule{"team_domain", false, "DDS domain in which the systems of the team meet; 0 if not given.",
+                  integer(0, kMostDomain)},
+    AttributeRule{"team_interface", false,
+                  "Network interface on which they meet, for example wlan0; any if not given."},
     AttributeRule{"machine_wait", false,
                   "Longest time that a machine waits for the others at the start; 60 s if not given.",
                   seconds(0.1)},
@@ -278,7 +286,11 @@ constexpr std::array kPort{
     AttributeRule{"topic", false, "Topic of ROS 2 on which the port speaks as well, for example /scan."},
     AttributeRule{"message", false,
                   "What is said on that topic, for example geometry_msgs/msg/TwistStamped; the usual message "
-                  "for the port's type if not given."}};
+                  "for the port's type if not given."},
+    AttributeRule{
+        "team", false,
+        "Name of what it offers to the team that the system joins, or hears from all others of it, for "
+        "example pose; ports of Push only."}};
 constexpr std::array kInclude{
     AttributeRule{"file", true, "Path of the graph file, relative to the folder of this file."}};
 constexpr std::array kUse{

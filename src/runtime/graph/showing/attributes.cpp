@@ -61,6 +61,9 @@ Attributes attributes_of(const Graph& graph) {
   add(result, "default_profile", graph.default_profile);
   add(result, "plugins", joined(graph.plugin_dirs, ";"));
   if (graph.domain != 0) add(result, "domain", std::to_string(graph.domain));
+  add(result, "join", graph.team.name);
+  if (graph.team.domain != 0) add(result, "team_domain", std::to_string(graph.team.domain));
+  add(result, "team_interface", graph.team.interface);
   add(result, graph.supervision);
   if (graph.records_always) add(result, "record", "always");
   if (graph.record_space != Graph{}.record_space)
@@ -133,6 +136,7 @@ Attributes attributes_of(const PortSetting& setting) {
   add(result, "candidates", joined(candidates, " "));
   add(result, "topic", setting.topic);
   add(result, "message", setting.message);
+  add(result, "team", setting.team);
   return result;
 }
 

@@ -249,6 +249,7 @@ void go_over(Graph& graph, const Graph& wanted) {
   graph.hardware = wanted.hardware;
   graph.groups = wanted.groups;
   graph.edges = wanted.edges;
+  graph.team.ports = wanted.team.ports;
 }
 
 std::string obstacles_of(const GraphPlan& plan) {

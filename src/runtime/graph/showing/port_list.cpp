@@ -26,6 +26,7 @@ ListedPort listed(const ComponentNode& node, const PortContract& contract) {
   port.disabled = found->second.disabled;
   port.candidates = found->second.candidates;
   port.topic = found->second.topic;
+  port.team = found->second.team;
   return port;
 }
 
@@ -51,6 +52,7 @@ std::string connection_text(const ListedPort& port) {
   if (!port.candidates.empty())
     text += (text.empty() ? "one of " : "; one of ") + names(port.candidates) + ", named at run time";
   if (!port.topic.empty()) text += (text.empty() ? "topic " : "; topic ") + port.topic;
+  if (!port.team.empty()) text += (text.empty() ? "team: " : "; team: ") + port.team;
   return text.empty() ? "not connected" : text;
 }
 
@@ -104,6 +106,7 @@ void write(const ListedPort& port, JsonWriter& json) {
   write_values("in_use", in_use, json);
   json.member("candidates", texts(port.candidates));
   if (!port.topic.empty()) json.member("topic", port.topic);
+  if (!port.team.empty()) json.member("team", port.team);
   json.member("text", port.contract.text);
   json.end();
 }

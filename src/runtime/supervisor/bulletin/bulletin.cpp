@@ -95,7 +95,7 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
     }
     participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(
         place.domain, *qos, gate_.get(), dds::StatusMask::none());
-    if (participant_ == nullptr || !open_topic(place.topic))
+    if (participant_ == nullptr || !open_topic(place))
       return fail(Code::unavailable, "the network code cannot be started");
     return ok();
   }
@@ -107,10 +107,11 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
   }
 
  private:
-  bool open_topic(const std::string& name) {
-    const dds::TypeSupport type(new StateType);
+  bool open_topic(const MeetingPlace& place) {
+    const dds::TypeSupport type(new StateType(place.type));
     if (type.register_type(participant_) != ReturnCode_t::RETCODE_OK) return false;
-    dds::Topic* const topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+    dds::Topic* const topic =
+        participant_->create_topic(place.topic, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
     auto* const publisher = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     auto* const subscriber = participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
     if (topic == nullptr || publisher == nullptr || subscriber == nullptr) return false;

@@ -13,8 +13,8 @@ constexpr std::uint32_t kUsual = 4096;                             // [bytes] of
 
 }  // namespace
 
-StateType::StateType() {
-  setName("orca::idl::MachineState");
+StateType::StateType(const std::string& idl_name) {
+  setName(idl_name.c_str());
   m_typeSize = kUsual;
   m_isGetKeyDefined = false;
   auto_fill_type_object(false);

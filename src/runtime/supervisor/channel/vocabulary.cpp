@@ -31,7 +31,7 @@ void fields(auto& archive, OpenLine& m) {
 void fields(auto& archive, TellAlarm& m) { transfer_all(archive, m.process, m.object); }
 void fields(auto& archive, ForgetAlarm& m) { transfer_all(archive, m.kind, m.source, m.process); }
 void fields(auto& archive, Meet& m) {
-  transfer_all(archive, m.topic, m.address, m.interface, m.others, m.domain, m.keys);
+  transfer_all(archive, m.name, m.type, m.topic, m.address, m.interface, m.others, m.domain, m.keys);
 }
 void fields(auto& archive, Say& m) { transfer(archive, m.state); }
 void fields(auto& archive, NoteGraph& m) { transfer(archive, m.graph); }

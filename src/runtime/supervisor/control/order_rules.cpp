@@ -33,6 +33,7 @@ Rule rule_for(const Ask& ask) {
       {"graph", kLook},
       {"file", kLook},
       {"machines", kLook},
+      {"team", kLook},
       {"ports", kLook},
       {"plugins", kLook},
       {"names", kLook},

@@ -71,6 +71,11 @@ void Showing::machines(Reply& reply) const {
   reply.note("the whole system runs on this machine, with one clock");
 }
 
+void Showing::team(Reply& reply) const {
+  if (team_) return team_(reply);
+  reply.note("the system is in no team, or another machine of it speaks to the team");
+}
+
 void Showing::components(Reply& reply, const std::map<std::string, double>& lines_per_s) const {
   const host::Reports reports = ledger_.reports();
   for (const graph::ComponentNode& node : graph_.components) {

@@ -40,6 +40,12 @@ class Showing {
   /// @param machines  answers what is known of all.
   void join(std::function<void(Reply&)> machines) { machines_ = std::move(machines); }
 
+  /// Learns that the system is in a team.
+  /// @param team  answers what is known of it.
+  void join_team(std::function<void(Reply&)> team) { team_ = std::move(team); }
+
+  /// A line for each system of the team.
+  void team(Reply& reply) const;
   /// A line for each machine: how it is, and how its clock differs.
   void machines(Reply& reply) const;
   /// A line for each component: where it runs, how it is, and what it uses up.
@@ -67,6 +73,7 @@ class Showing {
   const Exchanging& exchanging_;
   const std::function<std::vector<const graph::Edge*>()> edges_in_use_;
   std::function<void(Reply&)> machines_;  // empty: there is this one only
+  std::function<void(Reply&)> team_;      // empty: it is in none
 };
 
 }  // namespace orca::supervisor

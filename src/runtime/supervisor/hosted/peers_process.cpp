@@ -56,8 +56,9 @@ Result<std::unique_ptr<Bulletin>> open_bulletin(const Meet& meet, Channel& chann
       (void)channel.post(encode(Report(HeardReport{{state.begin(), state.end()}})));
   };
   Error error;
-  std::unique_ptr<Bulletin> bulletin(opener->open(
-      {meet.topic, meet.address, meet.interface, meet.others, meet.domain, meet.keys}, hear, error));
+  std::unique_ptr<Bulletin> bulletin(
+      opener->open({meet.type, meet.topic, meet.address, meet.interface, meet.others, meet.domain, meet.keys},
+                   hear, error));
   if (bulletin == nullptr) return error;
   return bulletin;
 }
@@ -73,7 +74,7 @@ void wait(const Channel& channel) {
 }  // namespace
 
 Status carry_states(Channel& channel, const Meet& meet, std::uint64_t request) {
-  set_process_name("peers");
+  set_process_name(meet.name);
   std::signal(SIGTERM, SIG_IGN);  // it ends with the supervisor, after the others have heard of its end
   Result<std::unique_ptr<Bulletin>> bulletin = open_bulletin(meet, channel);
   const Status opened = bulletin ? ok() : Status(bulletin.error());

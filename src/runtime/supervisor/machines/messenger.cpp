@@ -9,7 +9,6 @@
 
 #include "members/listening.hpp"
 #include "orca/base/log.hpp"
-#include "orca/idl/object_type.hpp"
 #include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
@@ -18,15 +17,15 @@ namespace {
 constexpr Duration kPause = 500ms;  // from one start to the next, at least
 constexpr Duration kHangLimit =
     2s;  // without an answer; a busy machine takes its time to load the network code
-constexpr const char* kName = "peers";
 
 }  // namespace
 
-Messenger::Messenger(HostStart start, Meet meet, Heard heard)
+Messenger::Messenger(HostStart start, std::string whom, Meet meet, Heard heard)
     : start_(std::move(start)),
+      whom_(std::move(whom)),
       meet_(std::move(meet)),
       heard_(std::move(heard)),
-      member_(graph::ProcessNode{.name = kName}, 0, 0) {}
+      member_(graph::ProcessNode{.name = meet_.name}, 0, 0) {}
 
 void Messenger::turn(Moment now) {
   if (member_.process() == nullptr) {
@@ -49,23 +48,21 @@ void Messenger::start(Moment now) {
   start_at_ = now + std::chrono::duration_cast<Moment::duration>(kPause);
   answered_at_ = now;
   const Status started = member_.start(start_);
-  if (!started.ok()) return log::error(kName, started.error().text());
+  if (!started.ok()) return log::error(meet_.name, started.error().text());
   member_.ask(Meet(meet_), [this](const Status& outcome) {
     if (outcome.ok()) {
       speaks_since_ = Moment::clock::now();
       return last_error_.clear();
     }
-    if (outcome.error().message != last_error_) log::error(kName, outcome.error().text());
+    if (outcome.error().message != last_error_) log::error(meet_.name, outcome.error().text());
     last_error_ = outcome.error().message;
   });
 }
 
 // Answers are signs of life; they come for what say() has asked.
-void Messenger::say(const idl::MachineState& state, Moment now) {
+void Messenger::say(std::vector<std::byte> state, Moment now) {
   if (member_.process() == nullptr) return;
-  std::vector<std::byte> bytes;
-  object_type<idl::MachineState>().serialize(&state, bytes);
-  member_.ask(Say{std::move(bytes)},
+  member_.ask(Say{std::move(state)},
               [this, now](const Status&) { answered_at_ = std::max(answered_at_, now); });
 }
 
@@ -76,17 +73,15 @@ Status Messenger::take(const Report& report) const {
   }
   const auto* heard = std::get_if<HeardReport>(&report);
   if (heard == nullptr) return fail(Code::data_loss, "it reports what only a part of the system can");
-  idl::MachineState state;
-  // Anybody on the network can say anything.
-  if (object_type<idl::MachineState>().deserialize(heard->object, &state).ok()) heard_(state);
+  heard_(heard->object);
   return ok();
 }
 
 void Messenger::report_end(const ExitReason& reason, Moment now) {
   if (ends_ || !last_error_.empty()) return;  // as it was told to, or it has said why
   const std::string words = member_.last_words(now);
-  log::warning(kLogName, "process " + member_.name() + ", which speaks with the other machines, " +
-                             reason.text() + (words.empty() ? "" : ": " + words));
+  log::warning(kLogName, "process " + member_.name() + ", which speaks with " + whom_ + ", " + reason.text() +
+                             (words.empty() ? "" : ": " + words));
 }
 
 void Messenger::end(Moment now) {

@@ -8,6 +8,7 @@
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
 #include "orca/base/text.hpp"
+#include "orca/idl/machines.hpp"
 #include "orca/supervisor/log_name.hpp"
 
 namespace orca::supervisor {
@@ -22,6 +23,8 @@ constexpr auto kListen = 700ms;
 
 Meet meet(const graph::Graph& graph, const std::string& here) {
   Meet meet;
+  meet.name = "peers";
+  meet.type = "orca::idl::MachineState";
   meet.topic = "orca/" + graph.name + "/machines";
   meet.domain = graph.domain;
   for (const graph::MachineNode& node : graph.machines) {
@@ -104,8 +107,11 @@ Neighbours::Neighbours(const graph::Graph& graph, const std::string& here, HostS
       gathering_(graph, here, run_),
       clocks_(here, run_),
       motors_(here, gathering_.missing()),
-      messenger_(std::move(start), meet(graph, here),
-                 [this](const idl::MachineState& state) { hear(state); }),
+      messenger_(std::move(start), "the other machines", meet(graph, here),
+                 [this](std::span<const std::byte> bytes) {
+                   idl::MachineState state;
+                   if (object_type<idl::MachineState>().deserialize(bytes, &state).ok()) hear(state);
+                 }),
       ledger_(ledger),
       page_(page) {
   for (const graph::MachineNode& node : graph.machines) places_.emplace(node.name, places_.size());

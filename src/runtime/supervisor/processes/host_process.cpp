@@ -198,6 +198,11 @@ Descriptor HostProcess::share_output() const {
   return Descriptor(output_ ? fcntl(output_.number(), F_DUPFD_CLOEXEC, 0) : -1);
 }
 
+Duration HostProcess::waited_for_processor() {
+  if (!wait_) wait_.emplace(pid_, find_thread(pid_, "orders"));
+  return wait_->look();
+}
+
 std::optional<std::uint64_t> HostProcess::memory() const {
   std::ifstream statistics("/proc/" + std::to_string(pid_) + "/statm");
   std::uint64_t total = 0, resident = 0, shared = 0;

@@ -155,6 +155,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
          r->add(Record{{"file", d.graph_file_}});
        }},
       {"machines", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.machines(*r); }},
+      {"team", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.team(*r); }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"objects", [](ControlDesk&, const Ask&, const ReplyPtr& r) { Showing::objects(*r); }},

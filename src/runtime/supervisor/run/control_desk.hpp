@@ -62,6 +62,9 @@ class ControlDesk {
     hold_.join(accord);
     showing_.join(std::move(show));
   }
+  /// Learns that the system is in a team.
+  /// @param show  answers what is known of it.
+  void join_team(std::function<void(Reply&)> show) { showing_.join_team(std::move(show)); }
   /// Goes on with what other machines have said. To be called whenever one was heard.
   void hear_machines(Moment now) { hold_.turn(now); }
   /// Stops all motors of the system, and holds them until an operator releases them, those of processes that come up later,

@@ -11,6 +11,7 @@
 #include "control_desk.hpp"
 #include "losses.hpp"
 #include "machines/neighbours.hpp"
+#include "machines/team_presence.hpp"
 #include "machines/trading.hpp"
 #include "members/alarm_relay.hpp"
 #include "members/conductor.hpp"
@@ -22,7 +23,6 @@
 #include "members/recorder_watch.hpp"
 #include "members/roster.hpp"
 #include "orca/base/steady_clock.hpp"
-#include "orca/base/system/processor_wait.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/plan.hpp"
@@ -32,6 +32,7 @@
 #include "orca/supervisor/heartbeats.hpp"
 #include "orca/supervisor/meeting_place.hpp"
 #include "orca/supervisor/restart_policy.hpp"
+#include "refusal.hpp"
 #include "starting/adoption.hpp"
 #include "starting/on_demand.hpp"
 #include "starting/renewal.hpp"
@@ -70,6 +71,11 @@ class SupervisedRun {
     ledger_.relay_to(relay_);
     control_.note_file(options.graph_file);
     if (options.watches) control_.watch(options.graph_files);
+    if (speaks_to_team()) {
+      team_.emplace(graph, starter_.plain_start("team"));
+      control_.join_team([this](Reply& reply) { team_->show(reply); });
+      poll_all();
+    }
     if (graph.machines.size() < 2) return;
     neighbours_.emplace(graph, options.machine, starter_.plain_start("peers"), ledger_, run_.page);
     control_.join(neighbours_->motors(), [this](Reply& reply) { neighbours_->show(reply); });
@@ -142,6 +148,7 @@ class SupervisedRun {
     graph::go_over(graph_, wanted.graph);
     graph::go_over(here_, wanted.graph);
     roster_.go_over(graph_);
+    if (team_) team_->go_over(graph_.team);
     policy_.go_over(graph::processes_on(graph_, options_.machine));
     poll_all();
     starter_.go_over();
@@ -152,6 +159,13 @@ class SupervisedRun {
   void poll_all() {
     polled_ = roster_.all();
     if (neighbours_) polled_.push_back(&neighbours_->member());
+    if (team_) polled_.push_back(&team_->member());
+  }
+
+  // The first machine speaks for all.
+  [[nodiscard]] bool speaks_to_team() const {
+    return !graph_.team.name.empty() &&
+           (graph_.machines.empty() || graph_.machines.front().name == options_.machine);
   }
 
   // ---- Starting
@@ -195,6 +209,7 @@ class SupervisedRun {
     for (Member* const member : Members(roster_.all())) look_after(*member);
     log_relay_.pass_on(roster_.all());
     if (neighbours_) neighbours_->turn(now());
+    if (team_) team_->turn(now());
     control_.hear_machines(now());
     look_at_beats();
     conductor_.go_on(now());
@@ -222,11 +237,8 @@ class SupervisedRun {
   // Returns for how long the thread of a process that beats has waited for a processor.
   Duration waited_of(std::size_t place) {
     const Member* const member = roster_.at_place(place);
-    if (member == nullptr || member->process() == nullptr) return Duration{0};
-    const pid_t pid = member->process()->pid();
-    auto& known = waits_[place];
-    if (known.first != pid) known = {pid, ProcessorWait(pid, find_thread(pid, "orders"))};
-    return known.second->look();
+    return member == nullptr || member->process() == nullptr ? Duration{0}
+                                                             : member->process()->waited_for_processor();
   }
 
   void look_after(Member& member) {
@@ -339,6 +351,7 @@ class SupervisedRun {
     TakingDown all(roster_.all(), stop_);
     all.begin(now());
     while (!all.is_done(now())) turn(now() + kLook);
+    while (team_ && !team_->take_leave(now())) turn(now() + kLook);
     while (neighbours_ && !neighbours_->take_leave(now())) turn(now() + kLook);
   }
 
@@ -386,12 +399,12 @@ class SupervisedRun {
   LogRelay log_relay_;
   RecorderWatch recorders_;
   std::optional<Neighbours> neighbours_;  // if the graph has several machines
+  std::optional<TeamPresence> team_;      // if this supervisor speaks to one
   const host::Reports reports_ = ledger_.reports();
   Trading trading_{graph_, roster_.all(), reports_, neighbours_};
   RestartPolicy policy_;
   Poller poller_;
   Conductor conductor_{[this] { poller_.wake(); }};
-  std::map<std::size_t, std::pair<pid_t, std::optional<ProcessorWait>>> waits_;  // by place
   Heartbeats beats_{run_.page, [this](std::size_t place) { return waited_of(place); }};
   ControlDesk control_;
   host::Conclusion conclusion_{here_, reports_, options_.log_name};
@@ -410,23 +423,6 @@ class SupervisedRun {
   std::optional<TimePoint> began_at_;  // when all machines were there
   TimePoint end_ = called_at_;
 };
-
-host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
-  log::error(log_name, error.text());
-  host::RunResult result;
-  result.outcome = RunOutcome::not_started;
-  result.error = error;
-  listener.ended(result);
-  return result;
-}
-
-// A robot that no emergency stop can reach does not begin to move.
-Error unreachable(Error why) {
-  if (why.code != Code::already_exists)
-    why.message =
-        "nothing is started, because no emergency stop (orcactl estop) could reach it: " + why.message;
-  return why;
-}
 
 }  // namespace
 

@@ -85,3 +85,34 @@ TEST_CASE("a printed <port> reads back the same", "[graph][port]") {
       "");
   CHECK(must_load(print(graph)) == graph);
 }
+
+TEST_CASE("ports offer something to the team of the system, and hear it from the others",
+          "[graph][port][team]") {
+  const std::string text =
+      "<graph name='g' join='lab' team_domain='7' team_interface='wlan0'>"
+      "<component name='a' type='orca.Localizer'><port name='pose' team='where'/></component>"
+      "<component name='b' type='orca.Relay'><port name='in' team='where'/><port name='out' "
+      "team='then'/></component>"
+      "</graph>";
+  const Graph graph = must_load(text);
+  CHECK(graph.team.name == "lab");
+  CHECK(graph.team.domain == 7);
+  CHECK(graph.team.interface == "wlan0");
+  REQUIRE(graph.team.ports.size() == 2);
+  CHECK(graph.team.ports[0].name == "then");
+  CHECK(graph.team.ports[1].name == "where");
+  CHECK(graph.team.ports[1].type == "RobotPose");
+  CHECK(graph.team.ports[1].hash != 0);
+  CHECK(graph.team.ports[1].offers);
+  CHECK(graph.find_component("b")->ports.at("in").team == "where");
+  CHECK(must_load(print(graph)) == graph);
+  CHECK(must_load("<graph name='g' join=''/>").team == Team{});
+}
+
+TEST_CASE("what a system only hears from its team it does not offer", "[graph][port][team]") {
+  const Graph graph = must_load(
+      "<graph name='g' join='lab'><component name='b' type='orca.Relay'><port name='in' "
+      "team='where'/></component></graph>");
+  REQUIRE(graph.team.ports.size() == 1);
+  CHECK_FALSE(graph.team.ports[0].offers);
+}

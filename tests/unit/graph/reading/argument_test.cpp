@@ -35,6 +35,21 @@ TEST_CASE("a default may use the arguments before it", "[graph][arg]") {
   CHECK(label_of("<arg name='a' default='x'/><arg name='b' default='${a}y'/>", "${b}") == "xy");
 }
 
+TEST_CASE("each file knows the name of the system, unless it has an argument of its own that is called so",
+          "[graph][arg]") {
+  CHECK(label_of("", "I am ${system}") == "I am g");
+  LoadOptions options;
+  options.name = "anna";
+  CHECK(label_of("", "I am ${system}", options) == "I am anna");
+  CHECK(label_of("<arg name='system' default='x'/>", "${system}", options) == "x");
+  const Graph graph = must_load(Files{
+      {"main.xml", "<graph name='g'><use graph='robot.xml' prefix='dewey'/></graph>"},
+      {"robot.xml",
+       "<graph name='robot'><component name='a' type='orca.Label'><param name='label' value='${system}'/>"
+       "</component></graph>"}});
+  CHECK(std::get<std::string>(graph.components.at(0).params.at("label")) == "g");
+}
+
 TEST_CASE("an argument at the end of the file counts as well", "[graph][arg]") {
   const Graph graph = must_load(
       "<graph name='${n}'><component name='a' type='orca.Localizer' priority='${p}'/>"

@@ -38,7 +38,7 @@ struct Written {
 }  // namespace
 
 TEST_CASE("what only looks is no order, and may be asked by whoever may look", "[supervisor][audit]") {
-  for (const char* const command : {"ps", "graph", "file", "machines", "ports", "plugins", "names",
+  for (const char* const command : {"ps", "graph", "file", "machines", "team", "ports", "plugins", "names",
                                     "counters", "alarms", "missions", "log", "get", "pace", "sources"}) {
     CAPTURE(command);
     CHECK_FALSE(is_order(ask(command)));

@@ -193,6 +193,7 @@ class PushSourceHandle {
  protected:
   PushSourceHandle(const PushProxyArrayHandle& port, std::size_t index) : port_(&port), index_(index) {}
   [[nodiscard]] ObjectRef latest_ref() const;
+  [[nodiscard]] ObjectRef take_ref() const;
   [[nodiscard]] ObjectRef take_latest_ref() const;
 
  private:
@@ -214,6 +215,8 @@ class PushSourceOf : public PushSourceHandle {
 
   /// Returns the newest object, without taking it; null before the first of this subscription.
   [[nodiscard]] ObjectPtr<T> latest() const { return object_cast<T>(latest_ref()); }
+  /// Takes the oldest new object; null if there is none.
+  [[nodiscard]] ObjectPtr<T> take() const { return object_cast<T>(take_ref()); }
   /// Takes all waiting objects, and returns the newest object, new or not; null before the first.
   [[nodiscard]] ObjectPtr<T> take_latest() const { return object_cast<T>(take_latest_ref()); }
 };

@@ -38,7 +38,8 @@ SystemOptions system_options(const PartOptions& options, PartListener& listener)
           .doorbell = options.doorbell,
           .state_sink = [&listener](const std::string& component,
                                     const KeptState& state) { listener.state_kept(component, state); },
-          .states = options.states};
+          .states = options.states,
+          .run = options.run};
 }
 
 }  // namespace

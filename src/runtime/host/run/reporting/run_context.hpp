@@ -49,6 +49,8 @@ struct RunContext {
   double computing = 1.0;
   /// Whether the processor time of each component's laps is measured.
   bool measures_laps = false;
+  /// The same in all processes of a run, and in no other run; empty: there is this process only.
+  std::string run{};
   /// Cores on which laps compute in virtual time, by process; only of processes whose graph numbers them.
   std::map<std::string, Cores> cores{};
   /// Carries what is under way between components in virtual time.

@@ -41,7 +41,7 @@ std::set<std::string> connected_ports(const graph::Graph& graph, const std::stri
   }
   if (const graph::ComponentNode* const node = graph.find_component(component))
     for (const auto& [name, setting] : node->ports)
-      if (!setting.topic.empty()) ports.insert(setting.alias.empty() ? name : setting.alias);
+      if (setting.speaks_outside()) ports.insert(setting.alias.empty() ? name : setting.alias);
   return ports;
 }
 

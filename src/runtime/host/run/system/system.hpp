@@ -31,7 +31,7 @@ class System {
  public:
   /// @param give_up  called while the system comes up, or an order waits for the end of a lap; true ends the waiting.
   System(const graph::Graph& graph, RunContext& run, std::function<bool()> give_up)
-      : graph_(graph), run_(run), give_up_(std::move(give_up)) {}
+      : graph_(graph), run_(run), give_up_(std::move(give_up)), topics_(graph, run.run) {}
 
   /// Constructs hardware and components and connects them.
   /// @errors  the error of whatever cannot be constructed, with its name.

@@ -6,7 +6,11 @@
 #include <utility>
 
 #include "orca/base/files/own_library.hpp"
+#include "orca/base/hash.hpp"
+#include "orca/base/network_address.hpp"
+#include "orca/base/steady_clock.hpp"
 #include "orca/patterns/dds/ros_topics.hpp"
+#include "orca/patterns/dds/team_topics.hpp"
 #include "orca/patterns/endpoints/push_client_endpoint.hpp"
 #include "orca/patterns/endpoints/send_client_endpoint.hpp"
 
@@ -40,11 +44,11 @@ class Silence final : public PushSource, public SendTarget, public LinkEnd {
   const std::string topic_;
 };
 
-// Calls `connect` for each port that has a topic.
+// Calls `connect` for each port that has a topic or is in the team.
 Status for_each_topic(const graph::ComponentNode& node, ComponentInstance& component,
                       const std::function<Status(Endpoint&, const graph::PortSetting&)>& connect) {
   for (const auto& [name, setting] : node.ports) {
-    if (setting.topic.empty()) continue;
+    if (!setting.speaks_outside()) continue;
     Endpoint* const port = component.endpoint(setting.alias.empty() ? name : setting.alias);
     if (port == nullptr)
       return fail(Code::internal, "port " + node.name + "." + name +
@@ -54,12 +58,32 @@ Status for_each_topic(const graph::ComponentNode& node, ComponentInstance& compo
   return ok();
 }
 
+Status connect_silence(Endpoint& port, const std::string& topic) {
+  auto silence = std::make_unique<Silence>(topic);
+  if (auto* hears = dynamic_cast<PushClientEndpoint*>(&port))
+    hears->connect(*silence, port.contract().queue);
+  else if (auto* sends = dynamic_cast<SendClientEndpoint*>(&port))
+    sends->connect(*silence);
+  else
+    return ok();  // a server waits for nobody
+  port.adopt(std::move(silence));
+  return ok();
+}
+
+// Returns a number for a run that no other run has.
+std::uint64_t number_of(const std::string& run) {
+  if (run.empty()) return static_cast<std::uint64_t>(steady_now().time_since_epoch().count());
+  Fnv1a hash;
+  hash.add_text(run);
+  return hash.value();
+}
+
 }  // namespace
 
-Topics::Topics() = default;
+Topics::Topics(const graph::Graph& graph, std::string run) : graph_(graph), run_(std::move(run)) {}
 Topics::~Topics() = default;
 
-Status Topics::open() {
+Status Topics::open_ros() {
   if (ros_ != nullptr) return ok();
   const Result<RosOptions> options = ros_options_of_environment();
   if (!options) return options.error();
@@ -69,24 +93,38 @@ Status Topics::open() {
   return ok();
 }
 
+Status Topics::open_team() {
+  if (team_ != nullptr) return ok();
+  const graph::Team& team = graph_.team;
+  Result<std::string> address = own_address(team.interface, "");
+  if (!address) return address.error();
+  const TeamOptions options{team.name, graph_.name, number_of(run_), team.domain, std::move(address).value()};
+  Result<std::unique_ptr<TeamTopics>> opened = open_team_topics(beside_own_library(kLibrary), options);
+  if (!opened) return opened.error();
+  team_ = std::move(opened).value();
+  return ok();
+}
+
 Status Topics::connect(const graph::ComponentNode& node, ComponentInstance& component) {
   return for_each_topic(node, component, [this](Endpoint& port, const graph::PortSetting& setting) {
-    if (Status opened = open(); !opened.ok()) return opened;
-    return ros_->connect(port, {setting.topic, setting.message}, port.contract().queue);
+    return connect(port, setting);
   });
+}
+
+Status Topics::connect(Endpoint& port, const graph::PortSetting& setting) {
+  const QueuePolicy& policy = port.contract().queue;
+  if (!setting.topic.empty()) {
+    if (Status opened = open_ros(); !opened.ok()) return opened;
+    return ros_->connect(port, {setting.topic, setting.message}, policy);
+  }
+  if (graph_.team.name.empty()) return connect_silence(port, setting.team);
+  if (Status opened = open_team(); !opened.ok()) return opened;
+  return team_->connect(port, setting.team, policy);
 }
 
 Status connect_silence(const graph::ComponentNode& node, ComponentInstance& component) {
   return for_each_topic(node, component, [](Endpoint& port, const graph::PortSetting& setting) {
-    auto silence = std::make_unique<Silence>(setting.topic);
-    if (auto* hears = dynamic_cast<PushClientEndpoint*>(&port))
-      hears->connect(*silence, port.contract().queue);
-    else if (auto* sends = dynamic_cast<SendClientEndpoint*>(&port))
-      sends->connect(*silence);
-    else
-      return ok();  // a server waits for nobody
-    port.adopt(std::move(silence));
-    return ok();
+    return connect_silence(port, setting.topic.empty() ? setting.team : setting.topic);
   });
 }
 

@@ -30,7 +30,8 @@ WatchedSystem::WatchedSystem(const graph::Graph& graph, const SystemPlace& place
                options.state_sink,
                options.states,
                options.computing,
-               options.measures_laps},
+               options.measures_laps,
+               options.run},
       system_(std::in_place, graph, context_, std::move(give_up)) {
   place_.catalogue.on_alarm([this](const idl::Alarm& alarm) { reporter_.raise(alarm); });
 }

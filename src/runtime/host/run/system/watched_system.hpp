@@ -48,6 +48,7 @@ struct SystemOptions {
   KeptStates states{};         ///< With what components begin.
   double computing = 1.0;      ///< In virtual time laps take this many times as long as the graph says.
   bool measures_laps = false;  ///< Whether the processor time of each component's laps is measured.
+  std::string run{};           ///< As of RunContext.
 };
 
 /// The instances of a graph in this process together with what watches over them: the reporter, the process's

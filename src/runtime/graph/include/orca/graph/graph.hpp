@@ -49,7 +49,11 @@ struct PortSetting {
   std::string topic;                ///< Of ROS 2, on which it speaks as well: "/scan"; empty: none.
   std::string
       message;  ///< What is said there: "sensor_msgs/msg/LaserScan"; empty: what is usual for the port's type.
+  std::string
+      team;  ///< Name of what it offers to the team of the system, or hears from it: "pose"; empty: nothing.
 
+  /// Returns whether it speaks to others than ports of this system.
+  [[nodiscard]] bool speaks_outside() const { return !topic.empty() || !team.empty(); }
   friend bool operator==(const PortSetting&, const PortSetting&) = default;
 };
 
@@ -82,8 +86,8 @@ struct ComponentNode {
   friend bool operator==(const ComponentNode&, const ComponentNode&) = default;
 };
 
-/// Returns the topic of a port by its name in the graph; empty if it has none.
-[[nodiscard]] std::string topic_of(const ComponentNode& node, const std::string& port);
+/// Returns the settings of a port by its name in the graph.
+[[nodiscard]] PortSetting setting_of(const ComponentNode& node, const std::string& port);
 
 /// Components that an operator orders about by one name.
 struct GroupNode {
@@ -145,6 +149,26 @@ struct PlannedChange {
   friend bool operator==(const PlannedChange&, const PlannedChange&) = default;
 };
 
+/// What ports of a system offer to its team, or hear from it.
+struct TeamPort {
+  std::string name;        ///< The same in all systems: "pose".
+  std::string type;        ///< Of the objects.
+  std::uint64_t hash = 0;  ///< Of the layout of that type.
+  bool offers = false;     ///< Whether a port of this system offers it; else ports only hear it.
+
+  friend bool operator==(const TeamPort&, const TeamPort&) = default;
+};
+
+/// The team that a system joins: systems of one network, each with a graph of its own, that tell each other what they offer.
+struct Team {
+  std::string name;             ///< Empty: it joins none.
+  std::uint32_t domain = 0;     ///< DDS domain in which they meet.
+  std::string interface {};     ///< Network interface, "wlan0"; empty: any.
+  std::vector<TeamPort> ports;  ///< By name.
+
+  friend bool operator==(const Team&, const Team&) = default;
+};
+
 /// A system graph that was checked against the contracts of its plugins. Every name in it exists, every edge
 /// fits, and every parameter is in range. A plain value.
 struct Graph {
@@ -157,6 +181,7 @@ struct Graph {
   bool records_always = false;               ///< A recording of the system is always made.
   std::uint64_t record_space = 500'000'000;  ///< Most room for it on the disk [byte].
   bool secured = false;  ///< Processes that speak over the network prove who they are, and encrypt.
+  Team team;
   std::vector<MachineNode> machines;
   std::vector<ProcessNode> processes;  ///< Those that the graph declares; processes_of() returns all.
   std::vector<HardwareNode> hardware;

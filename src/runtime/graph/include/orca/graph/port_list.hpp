@@ -30,6 +30,7 @@ struct ListedPort {
   std::vector<PortRef> candidates;  ///< Ports that it may be connected to at run time.
   std::string process{};            ///< Of its component.
   std::string topic{};              ///< Of ROS 2, on which it speaks as well; empty: none.
+  std::string team{};               ///< What it offers to the team or hears from it; empty: nothing.
 };
 
 /// Returns all ports of all components of a checked graph, in its order.

@@ -12,8 +12,8 @@
 
 namespace orca::supervisor {
 
-/// A place in the network at which the machines of a system say what they have to say, and hear what the others do. What is
-/// said may be lost, doubled or late, and anybody may say anything.
+/// A place in the network at which the machines of a system, or the systems of a team, say what they have to say, and hear what the
+/// others do. What is said may be lost, doubled or late, and anybody may say anything.
 ///
 /// Thread contract: one thread.
 class Bulletin {
@@ -24,12 +24,13 @@ class Bulletin {
   Bulletin& operator=(const Bulletin&) = delete;
 
   /// Says something to all who listen now.
-  /// @param state  an idl::MachineState as XCDR1, without encapsulation header.
+  /// @param state  an object of the bulletin's type as XCDR1, without encapsulation header.
   virtual void say(std::span<const std::byte> state) = 0;
 };
 
 /// Where to meet the others.
 struct MeetingPlace {
+  std::string type;                 ///< IDL name of what is said: "orca::idl::MachineState".
   std::string topic;                ///< The same on all machines.
   std::string address;              ///< Of this machine; empty: any.
   std::string interface {};         ///< Network interface of this machine; empty: any.

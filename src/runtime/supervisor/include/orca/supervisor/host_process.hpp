@@ -11,6 +11,7 @@
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
+#include "orca/base/system/processor_wait.hpp"
 #include "orca/base/time.hpp"
 #include "orca/supervisor/channel.hpp"
 #include "orca/supervisor/exit_reason.hpp"
@@ -107,6 +108,8 @@ class HostProcess {
   [[nodiscard]] bool is_dying() const;
   /// Returns its private memory in use [bytes]; nothing if it has ended.
   [[nodiscard]] std::optional<std::uint64_t> memory() const;
+  /// Returns for how long [s] its thread that takes orders has waited for a processor.
+  [[nodiscard]] Duration waited_for_processor();
 
  private:
   struct Parts;
@@ -129,6 +132,7 @@ class HostProcess {
   Force force_ = Force::none;
   bool is_leaving_ = false;
   std::optional<ExitReason> exit_;
+  std::optional<ProcessorWait> wait_;  // nothing: nobody has asked yet
 };
 
 }  // namespace orca::supervisor

@@ -143,20 +143,23 @@ struct ForgetAlarm {
   std::string process;
 };
 
-/// Tells a new process that it is the one that speaks with the other machines, and where. The first order, instead of Setup.
+/// Tells a new process that it is the one that speaks with the other machines, or with a team, and where. The first order, instead of
+/// Setup.
 struct Meet {
   static constexpr Kind kKind = Kind::meet;
-  std::string topic;                ///< What all machines of the system speak on.
+  std::string name;                 ///< Of the process, for people.
+  std::string type;                 ///< IDL name of what is said: "orca::idl::MachineState".
+  std::string topic;                ///< What all of them speak on.
   std::string address;              ///< Of this machine; empty: any.
   std::string interface {};         ///< Network interface of this machine; empty: any.
   std::vector<std::string> others;  ///< Addresses of the other machines, as far as they are known.
   std::uint32_t domain = 0;         ///< Of DDS.
   std::string keys{};               ///< Folder with the keys of this machine; empty: everything is plain.
 };
-/// Asks to say something to all other machines. The answer says that the process is well.
+/// Asks to say something to all others. The answer says that the process is well.
 struct Say {
   static constexpr Kind kKind = Kind::say;
-  std::vector<std::byte> state;  ///< An idl::MachineState, encoded as XCDR1.
+  std::vector<std::byte> state;  ///< Of the type of Meet, encoded as XCDR1.
 };
 
 /// Asks to go on if the supervisor is gone, and to wait for another one at a meeting place

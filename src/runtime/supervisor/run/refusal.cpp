@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "refusal.hpp"
+
+#include "orca/base/log.hpp"
+
+namespace orca::supervisor {
+
+host::RunResult refuse(const Error& error, const std::string& log_name, host::RunListener& listener) {
+  log::error(log_name, error.text());
+  host::RunResult result;
+  result.outcome = host::RunOutcome::not_started;
+  result.error = error;
+  listener.ended(result);
+  return result;
+}
+
+Error unreachable(Error why) {
+  if (why.code != Code::already_exists)
+    why.message =
+        "nothing is started, because no emergency stop (orcactl estop) could reach it: " + why.message;
+  return why;
+}
+
+}  // namespace orca::supervisor
