@@ -41,6 +41,7 @@ bool TeamPublication::write(const ObjectRef& object, std::size_t /*size*/, const
 // --- In ---------------------------------------------------------------------------------------------------
 
 ObjectRef TeamToPush::read(std::span<const std::byte> payload, TimePoint now) {
+  if (payload.size() < ros::kEncapsulation) return {};
   const Status whole =
       object_type<idl::TeamObject>().deserialize(payload.subspan(ros::kEncapsulation), &sent_);
   if (!whole.ok()) return complain("somebody", whole.error().message), ObjectRef{};
