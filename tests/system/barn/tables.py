@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the runs of sim/experiments/barn.xml at one level of realism with one kind of pose, and writes their table.
 
-    tests/system/barn/tables.py LEVEL POSE [--tuned DIR] [--build DIR] [--out DIR] [--jobs N] [--to FILE.md] [--numbers "1-20 25"]
+    tests/system/barn/tables.py LEVEL POSE [--tuned DIR] [--build DIR] [--out DIR] [--jobs N] [--to FILE.md] [--numbers "1-20 25"] [--variants A,B]
 
 With --tuned it runs those variants only for which DIR holds settings, NAME.xml, as `simbatch tune sim/experiments/barn.xml` writes them. Where
 the declared values were the best there are none, and the row is that of the table without --tuned.
@@ -43,7 +43,7 @@ def take_settings(root, folder):
             root.remove(variant)
 
 
-def experiment(level, pose, numbers, tuned):
+def experiment(level, pose, numbers, tuned, variants):
     """Returns the text of barn.xml at that level and pose. Its paths are absolute, so that it may lie anywhere."""
     root = ElementTree.parse(EXPERIMENT).getroot()
     root.set("name", f"barn_{level}_{pose}{'_tuned' if tuned else ''}")
@@ -53,6 +53,8 @@ def experiment(level, pose, numbers, tuned):
         take_settings(root, tuned)
     for control in [variant for variant in root.findall("variant") if variant.get("name").endswith("_truth")]:
         root.remove(control)  # here the pose is the table's
+    for other in [variant for variant in root.findall("variant") if variants and variant.get("name") not in variants]:
+        root.remove(other)
     for element in root.iter():
         absolute(element.attrib, "graph")
     root.remove(root.find("tuning"))
@@ -84,6 +86,16 @@ def line(variant, rows):
             f"| {total(rows, 'claimed_wrongly')} | {total(rows, 'not_claimed')} | {', '.join(failures) or '-'} |")
 
 
+def command(args):
+    """Returns the command that makes the same table."""
+    words = ["tests/system/barn/tables.py", args.level, args.pose]
+    if args.tuned:
+        words += ["--tuned", os.path.relpath(args.tuned, TREE)]
+    if args.variants:
+        words += ["--variants", ",".join(args.variants)]
+    return " ".join(words)
+
+
 def table(args, rows, commit):
     variants = {}
     for row in rows:
@@ -94,7 +106,7 @@ def table(args, rows, commit):
         "<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->",
         f"# BARN, level {args.level}, pose by {args.pose}{', tuned' if args.tuned else ''}",
         "",
-        f"Made by `tests/system/barn/tables.py {args.level} {args.pose}{f' --tuned {os.path.relpath(args.tuned, TREE)}' if args.tuned else ''}` on {time.strftime('%Y-%m-%d', time.gmtime())} with commit {commit}: "
+        f"Made by `{command(args)}` on {time.strftime('%Y-%m-%d', time.gmtime())} with commit {commit}: "
         f"{len(rows)} runs, each behaviour once in each of {worlds} worlds,",
         "judged by the referee. [many-runs.md](../many-runs.md#barn) says what the columns mean.",
         "",
@@ -117,6 +129,7 @@ def options():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."))
     parser.add_argument("--to", type=pathlib.Path, help="the table; default: LEVEL_POSE.md in OUT")
     parser.add_argument("--numbers", default="", help="worlds, e.g. 1-20; default: all of the benchmark's table")
+    parser.add_argument("--variants", type=lambda text: text.split(","), default=[], help="e.g. GridPlanner; default: all")
     parser.add_argument("--jobs", type=int, default=2)
     return parser.parse_args()
 
@@ -129,7 +142,7 @@ def main():
     name = f"{args.level}_{args.pose}{'_tuned' if args.tuned else ''}"
     args.out.mkdir(parents=True, exist_ok=True)
     file = args.out / f"{name}.xml"
-    file.write_text(experiment(args.level, args.pose, args.numbers, args.tuned), encoding="utf-8")
+    file.write_text(experiment(args.level, args.pose, args.numbers, args.tuned, args.variants), encoding="utf-8")
     simbatch = str(args.build / "bin/simbatch")
     folder = args.out / f"{name}.batch"
     made = subprocess.run([simbatch, str(file), "--out", str(folder), "--resume", "--jobs", str(args.jobs)],
