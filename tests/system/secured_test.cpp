@@ -254,7 +254,8 @@ TEST_CASE("a machine with keys speaks for itself, and for no other machine", "[s
       reinterpret_cast<decltype(&supervisor::orca_open_bulletin)>(dlsym(library, "orca_open_bulletin"));
   const auto opened = [&](const std::string& machine, const supervisor::HearState& hear) {
     Error error;
-    std::unique_ptr<supervisor::Bulletin> made(open_one({"orca/two_machines/machines",
+    std::unique_ptr<supervisor::Bulletin> made(open_one({"orca::idl::MachineState",
+                                                         "orca/two_machines/machines",
                                                          "127.0.0.1",
                                                          "",
                                                          {},

@@ -22,8 +22,8 @@ Contract with_param(const std::string& name, bool is_file) {
 }
 
 // A component in each of two processes, and hardware in the first.
-struct System {
-  System() {
+struct WritingSystem {
+  WritingSystem() {
     add("log", "one", "file", std::string("/var/log/robot/run.log"), true);
     add("title", "one", "text", std::string("/opt/robot/title"), false);
     add("maps", "two", "maps", Names{"/srv/maps/a.yaml", "b.yaml"}, true);
@@ -55,7 +55,7 @@ struct System {
 
 TEST_CASE("a process writes in the folders of files that its own parameters name, and of no other texts",
           "[supervisor][starter]") {
-  const System system;
+  const WritingSystem system;
   CHECK(system.places("one") == Names{"/usr/share", "/var/log/robot"});
   CHECK_THAT(system.places("two"),
              Catch::UnorderedEquals(Names{std::filesystem::current_path().string(), "/srv/maps"}));
@@ -66,5 +66,5 @@ TEST_CASE("a process writes in the folders of the run's outputs", "[supervisor][
   host::RunOutputs outputs;
   outputs.trace_file = "/data/traces/run.trace";
   outputs.recordings.push_back({"/data/run.csv", {"base.odometry"}});
-  CHECK(System().places("three", outputs) == Names{"/data", "/data/traces"});
+  CHECK(WritingSystem().places("three", outputs) == Names{"/data", "/data/traces"});
 }
