@@ -125,3 +125,15 @@ TEST_CASE("lines of emulated devices and meeting places need no temporary folder
   CHECK(run.exit_code() == 0);
   CHECK(fs::exists(precious.path() + "/orca/emulated"));
 }
+
+TEST_CASE("what a component keeps from one run to the next can be written", "[system][confined]") {
+  const Precious precious;
+  fs::permissions(precious.path(), fs::perms::owner_all);
+  Subprocess system(Words{"/usr/bin/env", "XDG_STATE_HOME=" + precious.path()} +
+                    deployer({source_file("graphs/pioneer_localize.xml"), "--set",
+                              "localizer.keeps_pose=here", "--until", "6 s"}));
+  const Run run = finish(system, Seconds(40));
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(fs::exists(precious.path() + "/orca/kept/here.pose"));
+}

@@ -338,7 +338,7 @@ TEST_CASE("a robot that is switched on where it was switched off knows at once w
   CHECK(carried.place.size() > carried.unknown);
 
   // Programs that a test starts have a state folder of their own.
-  const std::string file = std::string(std::getenv("XDG_STATE_HOME")) + "/orca/office.pose";
+  const std::string file = std::string(std::getenv("XDG_STATE_HOME")) + "/orca/kept/office.pose";
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
   const auto [damaged, poses] = run_from("bed", asks_nobody);
   CHECK(damaged.says("what was kept of where the robot was is not used"));

@@ -148,4 +148,12 @@ Result<OwnFolder> OwnFolder::make_for_state() {
   return OwnFolder(std::move(folder).value(), std::move(path));
 }
 
+Result<OwnFolder> OwnFolder::make_for_components() {
+  if (const Result<OwnFolder> state = make_for_state(); !state) return state.error();
+  std::string path = path_for_state() + "/kept";
+  Result<Descriptor> folder = open_place({path_for_state(), "kept"}, path, true);
+  if (!folder) return folder.error();
+  return OwnFolder(std::move(folder).value(), std::move(path));
+}
+
 }  // namespace orca

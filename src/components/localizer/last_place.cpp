@@ -47,7 +47,7 @@ Status LastPlace::open(const std::string& name) {
   if (folder.empty())
     return fail(Code::unavailable,
                 "there is no folder in which it could be kept: neither XDG_STATE_HOME nor HOME is set");
-  file_.emplace(folder + "/" + name + ".pose", "localizer_pose");
+  file_.emplace(folder + "/kept/" + name + ".pose", "localizer_pose");
   const auto bytes = file_->read();
   if (!bytes) return bytes.error();
   if (!*bytes) return ok();
@@ -89,7 +89,7 @@ Status LastPlace::write(const planning::Floor& floor) {
   written_ = latest_;
   StateWriter writer;
   writer.write(Kept{floor.name(), map_of(floor), *latest_});
-  const Result<OwnFolder> folder = OwnFolder::make_for_state();
+  const Result<OwnFolder> folder = OwnFolder::make_for_components();
   const Status done = folder ? file_->write(writer.bytes()) : Status(folder.error());
   return std::exchange(fails_, !done.ok()) ? ok() : done;
 }

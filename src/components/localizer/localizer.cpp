@@ -405,7 +405,7 @@ class Localizer final : public orca::Component {
       "",
       {.fixed = true,
        .text = "Name under which the last pose is kept from one run to the next, to be checked by the first "
-               "scan: NAME.pose in ~/.local/state/orca; empty: it is not kept."}};
+               "scan: NAME.pose in ~/.local/state/orca/kept; empty: it is not kept."}};
   orca::Param<double> range_{
       *this,
       "map_range",

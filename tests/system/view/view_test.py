@@ -181,7 +181,7 @@ class Page(PageCase):
         before = self.pose()
         self.click("#dialog .end button:nth-child(2)")
         self.verdict("runs the code")
-        self.assertGreater(math.dist(before, self.pose()), 0.2, "it drove meanwhile")
+        wait_for("it drives on", lambda: math.dist(before, self.pose()) > 0.2)
         self.picture("swap")
         self.assertEqual(swaps(), 1)
         self.click("#dialog .end button:last-child")

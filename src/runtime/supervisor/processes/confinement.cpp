@@ -169,6 +169,7 @@ Descriptor landlock_rules(const HostStart& start) {
   if (const char* const temporary = std::getenv("TMPDIR")) rules.allow(temporary, kEverything);
   // Meeting places and lines of emulated devices.
   if (const Result<OwnFolder> own = OwnFolder::open()) rules.allow(own->path(), kEverything);
+  if (const Result<OwnFolder> kept = OwnFolder::make_for_components()) rules.allow(kept->path(), kEverything);
   for (const std::string& place : start.writable) rules.allow(place, kEverything);
   for (const int descriptor : start.kept) rules.allow(descriptor, kWrite);
   return rules.take();

@@ -34,6 +34,10 @@ class OwnFolder {
   [[nodiscard]] static Result<OwnFolder> make_for_state();
   /// Returns the path of that folder; empty: there is no home.
   [[nodiscard]] static std::string path_for_state();
+  /// The same of the folder `kept` in it, in which components keep things from one run to the next. It is all that their processes may
+  /// write there.
+  /// @errors  as make_for_state().
+  [[nodiscard]] static Result<OwnFolder> make_for_components();
   /// Returns the number of the open folder, for openat() and its like.
   [[nodiscard]] int descriptor() const { return folder_.number(); }
   [[nodiscard]] const std::string& path() const { return path_; }
