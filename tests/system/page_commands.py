@@ -35,7 +35,7 @@ ONLY_CHECKED = {
     "it needs the reader's component, which debugging.md has from a lesson, and an instrumented build": ("cmake -G Ninja *", "cmake --build build*", "ORCA/*"),
     "it needs a device": ("*--profile real*", "hwprobe", "hwprobe /dev/tty*"),
     "it needs a drive with a laser; calibrate_test.cpp makes one": ("orcactl calibrate *",),
-    "it needs another machine or user": ("*--machine *", "rsync *", "orcactl --of *", "*--allow *", "orcactl machines"),
+    "it needs another machine or user": ("*--machine *", "rsync *", "orcactl --of *", "*--allow *", "orcactl machines", "orcactl team"),
     "it needs a cluster; slurm_test.py makes one": ("simbatch submit *",),
     "it answers a question, and nothing is asked": ("orcactl tasks yes",),
     "it needs a batch that was begun": ("orcaview --batch *",),

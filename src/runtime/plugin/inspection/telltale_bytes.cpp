@@ -56,10 +56,18 @@ bool is_followed(std::string_view code, std::size_t end, Follows follows) {
   return false;
 }
 
+// Returns whether the bytes from a place on are the way back to a constant (%rip) or a function (call, jmp), as far as 16 MB.
+bool is_way_back(std::string_view code, std::size_t place) {
+  const std::uint8_t before = place == 0 ? 0 : at(code, place - 1);
+  const bool is_relative = (before & 0xc7) == 0x05 || before == 0xe8 || before == 0xe9;
+  return is_relative && at(code, place + 3) == 0xff;
+}
+
 // Returns the instruction that begins at the byte 0x0f; empty: none of those.
 std::string_view instruction_at(std::string_view code, std::size_t place) {
   const std::uint8_t second = at(code, place + 1);
   const std::uint8_t third = at(code, place + 2);
+  if (is_way_back(code, place)) return "";
   if (second == 0x31) return is_followed(code, place + 2, is_shift_by_32) ? "rdtsc" : "";
   if (second == 0x01 && third == 0xf9) return is_followed(code, place + 3, is_shift_by_32) ? "rdtscp" : "";
   if (second == 0xc7 && third >= 0xf0 && is_followed(code, place + 3, asks_for_carry))

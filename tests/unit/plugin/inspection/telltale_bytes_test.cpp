@@ -55,6 +55,10 @@ TEST_CASE("bytes that look like such an instruction by chance are not taken for 
   CHECK(found(seed + std::string("\x83\xc0\x00", 3)).empty());    // add eax, 0
   CHECK(found(seed + std::string("\x83\xd0", 2)).empty());        // cut off
   CHECK(found(std::string("\x0f\x01\xf8", 3) + kShift).empty());  // swapgs
+  // The way back to a constant or a function.
+  CHECK(found(std::string("\xf2\x0f\x10\x3d\x0f\xc7\xfe\xff", 8) + kSetCarry).empty());
+  CHECK(found(std::string("\xe8\x0f\xc7\xfe\xff", 5) + kSetCarry).empty());
+  CHECK(found(std::string("\x48\x8d\x05\x0f\x31\xfe\xff", 7) + kShift).empty());
 }
 #endif
 
