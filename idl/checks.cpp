@@ -128,6 +128,15 @@ Status check_reading(const idl::Odometry& odometry) {
                       odometry.covariance());
 }
 
+Status check_reading(const idl::Teammate& mate) {
+  return check_motion({{"x", mate.pose().x()},
+                       {"y", mate.pose().y()},
+                       {"orientation", mate.pose().orientation()},
+                       {"translational_velocity", mate.translational_velocity()},
+                       {"sideways_velocity", mate.sideways_velocity()}},
+                      mate.pose().covariance());
+}
+
 std::optional<std::string> doubt_about(const idl::MotionCommand& command) {
   if (command.kind() != idl::NORMAL) return std::nullopt;
   if (auto doubt = doubt_about_speed(command.speed())) return doubt;

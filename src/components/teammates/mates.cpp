@@ -16,21 +16,21 @@ constexpr double kChange = 0.1;                    // [m/s] by which a robot may
 }  // namespace
 
 void Mates::hear(const idl::Teammate& mate, TimePoint now) {
-  if (is_anywhere(mate.covariance())) return;
+  if (is_anywhere(mate.pose().covariance())) return;
   if (!mates_.contains(mate.origin())) {
     if (mates_.size() >= kMost) return;
     mates_[mate.origin()].number = kFirstNumber + last_number_++;
   }
   Mate& known = mates_.at(mate.origin());
-  const Pose2 X_MB = plane_pose(mate);
+  const Pose2 X_MB = plane_pose(mate.pose());
   known.name = mate.name();
-  known.stamp = to_time_point(mate.stamp());
+  known.stamp = to_time_point(mate.pose().stamp());
   known.heard = now;
   known.map = mate.map_name();
   known.place = X_MB.position();
   known.velocity = rotated(Vec2{mate.translational_velocity(), mate.sideways_velocity()}, X_MB.yaw);
   known.radius = mate.radius();
-  known.place_error = position_deviation(mate.covariance());
+  known.place_error = position_deviation(mate.pose().covariance());
   known.hears = mate.hears();
 }
 

@@ -137,9 +137,16 @@ class Teammates final : public orca::Component {
     told_ = pose_;
     told_at_ = now();
     auto mate = mate_.loan();
-    static_cast<orca::idl::RobotPose&>(*mate) = *pose_;
     mate->name(*name_);
     mate->map_name(*map_);
+    orca::idl::Pose2D& there = mate->pose();
+    there.x(pose_->x());
+    there.y(pose_->y());
+    there.orientation(pose_->orientation());
+    there.stamp(pose_->stamp());
+    there.covariance(pose_->covariance());
+    mate->translational_velocity(pose_->translational_velocity());
+    mate->sideways_velocity(pose_->sideways_velocity());
     mate->radius(own_radius_.value_or(*radius_));
     mate->hears(mates_.names());
     mate_.push(std::move(mate));

@@ -23,12 +23,12 @@ idl::Teammate mate(const std::string& name, double x, double y, double yaw, doub
   mate.origin(name);
   mate.name(name);
   mate.map_name("building");
-  mate.x(x);
-  mate.y(y);
-  mate.orientation(yaw);
+  mate.pose().x(x);
+  mate.pose().y(y);
+  mate.pose().orientation(yaw);
   mate.translational_velocity(speed);
   mate.radius(0.3);
-  mate.stamp(to_time_value(kNow));
+  mate.pose().stamp(to_time_value(kNow));
   return mate;
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("robots of another map, and those that do not know where they are, are
   CHECK(mates.names().size() == 1);
   CHECK(seen_by(mates, "bert").empty());
   idl::Teammate lost = mate("carl", 1.0, 0.0, 0.0, 0.5);
-  lost.covariance(anywhere());
+  lost.pose().covariance(anywhere());
   mates.hear(lost, kNow);
   CHECK(mates.names().size() == 1);
 }

@@ -6,8 +6,8 @@
 #include "orca/base/result.hpp"
 #include "orca/idl/generated/moving.h"
 #include "orca/idl/generated/moving.types.hpp"
+#include "orca/idl/geometry.hpp"
 #include "orca/idl/object.hpp"
-#include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca {
@@ -16,5 +16,9 @@ namespace orca {
 /// @errors  invalid_argument that names the first that is not.
 /// @thread  pure function; any thread.
 [[nodiscard]] Status check_reading(const idl::MovingThings& moving);
+/// Returns whether the numbers of its pose and velocity are finite and possible.
+/// @errors  invalid_argument that names the first that is not.
+/// @thread  pure function; any thread.
+[[nodiscard]] Status check_reading(const idl::Teammate& mate);
 
 }  // namespace orca
