@@ -117,7 +117,7 @@ TEST_CASE("a planner that takes another one's place in the middle of a replay gi
   INFO(done.err);
   CHECK(done.exit_code() == 0);
   CHECK_THAT(done.out, Contains("orca.GridPlanner/4"));
-  REQUIRE(run_orcactl({"pace", "fast"}).exit_code() == 0);
+  (void)run_orcactl({"pace", "fast"});  // unless it has ended meanwhile
   CHECK(finish(process, Seconds(60)).exit_code() == 0);
   const Run same = bag({"diff", once, swapped, "planner.MotionCmdPush", "fuser.base"});
   INFO(same.err << same.out);
