@@ -7,6 +7,7 @@
 #include <openssl/rand.h>
 #include <openssl/x509v3.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace orca::keys {
@@ -65,25 +66,36 @@ std::int64_t to_seconds(const ASN1_TIME& time) {
   return std::int64_t{days} * 86'400 + seconds;
 }
 
+// Asks nobody at the terminal.
+int no_password(char*, int, int, void*) { return -1; }
+
 }  // namespace
 
 Result<KeyPair> make_pair(const std::string& subject, const Span& span, const KeyPair* authority) {
+  return make_pair(
+      subject, span, authority,
+      {{NID_basic_constraints, authority == nullptr ? "critical,CA:TRUE" : "critical,CA:FALSE"}});
+}
+
+Result<KeyPair> make_pair(const std::string& subject, const Span& span, const KeyPair* authority,
+                          const Extensions& extensions) {
   KeyPair pair{Key(EVP_EC_gen("P-256")), X509Ptr(X509_new())};
   if (pair.key == nullptr || pair.certificate == nullptr) return failed(Code::internal, "no key can be made");
   X509& made = *pair.certificate;
   const KeyPair& issuer = authority == nullptr ? pair : *authority;
   const Name name = name_of(subject);
   constexpr long kVersion3 = 2;
-  const bool is_authority = authority == nullptr;
-  const bool is_made =
-      X509_set_version(&made, kVersion3) == 1 && set_serial(made) &&
-      ASN1_TIME_set(X509_getm_notBefore(&made), span.from) != nullptr &&
-      ASN1_TIME_set(X509_getm_notAfter(&made), span.until) != nullptr &&
-      X509_set_subject_name(&made, name.get()) == 1 &&
-      X509_set_issuer_name(&made, X509_get_subject_name(issuer.certificate.get())) == 1 &&
-      X509_set_pubkey(&made, pair.key.get()) == 1 &&
-      add_extension(made, NID_basic_constraints, is_authority ? "critical,CA:TRUE" : "critical,CA:FALSE") &&
-      X509_sign(&made, issuer.key.get(), EVP_sha256()) != 0;
+  const bool is_made = X509_set_version(&made, kVersion3) == 1 && set_serial(made) &&
+                       ASN1_TIME_set(X509_getm_notBefore(&made), span.from) != nullptr &&
+                       ASN1_TIME_set(X509_getm_notAfter(&made), span.until) != nullptr &&
+                       X509_set_subject_name(&made, name.get()) == 1 &&
+                       X509_set_issuer_name(&made, X509_get_subject_name(issuer.certificate.get())) == 1 &&
+                       X509_set_pubkey(&made, pair.key.get()) == 1 &&
+                       std::ranges::all_of(extensions,
+                                           [&](const auto& each) {
+                                             return add_extension(made, each.first, each.second.c_str());
+                                           }) &&
+                       X509_sign(&made, issuer.key.get(), EVP_sha256()) != 0;
   if (!is_made) return failed(Code::internal, "no certificate can be made");
   return pair;
 }
@@ -101,8 +113,8 @@ std::string to_pem(const X509& certificate) {
 }
 
 Result<Key> key_of_pem(std::string_view text) {
-  Key key(PEM_read_bio_PrivateKey(reading(text).get(), nullptr, nullptr, nullptr));
-  if (key == nullptr) return failed(Code::data_loss, "it is no private key");
+  Key key(PEM_read_bio_PrivateKey(reading(text).get(), nullptr, &no_password, nullptr));
+  if (key == nullptr) return failed(Code::data_loss, "it has no private key without a password");
   return key;
 }
 

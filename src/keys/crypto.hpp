@@ -10,6 +10,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "orca/base/result.hpp"
 
@@ -42,8 +44,14 @@ struct Span {
 [[nodiscard]] Result<KeyPair> make_pair(const std::string& subject, const Span& span,
                                         const KeyPair* authority);
 
+/// Extensions of a certificate: OpenSSL's number of each, and its value as OpenSSL's configuration writes it.
+using Extensions = std::vector<std::pair<int, std::string>>;
+/// The same with extensions of one's own.
+[[nodiscard]] Result<KeyPair> make_pair(const std::string& subject, const Span& span,
+                                        const KeyPair* authority, const Extensions& extensions);
+
 /// Return keys and certificates as PEM, and read them.
-/// @errors  data_loss.
+/// @errors  data_loss; a key behind a password is none.
 [[nodiscard]] std::string to_pem(const EVP_PKEY& key);
 [[nodiscard]] std::string to_pem(const X509& certificate);
 [[nodiscard]] Result<Key> key_of_pem(std::string_view text);

@@ -12,7 +12,7 @@ std::string as_file_name(std::string name) {
   return name;
 }
 
-Result<std::string> keys_of_system(const std::string& system) {
+Result<std::string> config_folder() {
   const char* const configured = std::getenv("XDG_CONFIG_HOME");
   const char* const home = std::getenv("HOME");
   std::string folder;
@@ -23,7 +23,13 @@ Result<std::string> keys_of_system(const std::string& system) {
   else
     return fail(Code::not_found,
                 "there is no folder for keys: neither XDG_CONFIG_HOME nor HOME names one; set one of them");
-  return folder + "/orca/keys/" + as_file_name(system);
+  return folder + "/orca";
+}
+
+Result<std::string> keys_of_system(const std::string& system) {
+  Result<std::string> folder = config_folder();
+  if (!folder) return folder;
+  return std::move(folder).value() + "/keys/" + as_file_name(system);
 }
 
 std::string key_folder_name(const std::string& machine) {

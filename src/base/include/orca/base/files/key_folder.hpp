@@ -11,10 +11,13 @@ namespace orca {
 /// no name has.
 [[nodiscard]] std::string as_file_name(std::string name);
 
-/// Returns the folder in which the keys of a secured system are made: `$XDG_CONFIG_HOME/orca/keys/SYSTEM`, or
-/// `~/.config/orca/keys/SYSTEM`.
+/// Returns the folder of Orca's settings and keys of this user: `$XDG_CONFIG_HOME/orca`, or `~/.config/orca`.
 /// @errors  not_found if there is no home.
 /// @thread  any that may read the environment.
+[[nodiscard]] Result<std::string> config_folder();
+
+/// Returns the folder in which the keys of a secured system are made: keys/SYSTEM in config_folder().
+/// @errors  as config_folder().
 [[nodiscard]] Result<std::string> keys_of_system(const std::string& system);
 
 /// Returns the name of the folder in it that belongs to a machine.
