@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any message of a page is a wish or an error, and any request's head is let in only by the name of this machine.
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -16,8 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (wish ? wish->id != id : wish.error().message.empty()) std::abort();
   if (wish && !(wish->rate >= 0.0 && wish->rate <= 1000.0)) std::abort();
   (void)orca::view::query_value(text, "token");
-  if (orca::view::is_own_host(text) && !text.starts_with("127.0.0.1") && !text.starts_with("localhost") &&
-      !text.starts_with("[::1]"))
+  std::string host = text;
+  std::ranges::transform(host, host.begin(), [](unsigned char each) { return std::tolower(each); });
+  if (orca::view::is_own_host(text) && !host.starts_with("127.0.0.1") && !host.starts_with("localhost") &&
+      !host.starts_with("[::1]"))
     std::abort();
   if (orca::view::is_own_origin(text, "localhost") && !text.empty() && text != "http://localhost")
     std::abort();

@@ -222,8 +222,8 @@ LAYERS = (
           "supervisor_run", "supervisor_starting", "supervisor_hosted", "supervisor_agreed", "supervisor_processes", "supervisor_channel",
           "host_run", "host", "host_containment", "host_picture", "graph", "plugin", "navigation", "recording_objects", "recording",
           "robot_file", "geometry_objects", "keys", "patterns_dds", "ros", "maps", "text", "xml", "hw_link", *DEVICE), ("fmt",), module="src/apps"),
-    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "recording_objects", "recording", "robot_file", "ros", "text", "xml", *DEVICE),
-          ("boost", "nlohmann")),
+    Layer("view", ("src/apps/orcaview",), (), ("apps", "supervisor_processes", "supervisor_channel", "recording_objects", "recording", "robot_file", "ros", "keys", "text", "xml", *DEVICE),
+          ("boost", "nlohmann", "openssl")),
 )
 graphlib.TopologicalSorter({layer.name: layer.may for layer in LAYERS}).prepare()  # raises CycleError for a circle
 

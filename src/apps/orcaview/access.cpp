@@ -6,13 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <set>
 
 namespace orca::view {
 namespace {
-
-constexpr std::array<std::string_view, 3> kOwnNames{"127.0.0.1", "localhost", "[::1]"};
 
 Result<std::string> draw_token() {
   std::array<unsigned char, 16> bytes{};
@@ -36,6 +35,12 @@ bool is_equal(std::string_view given, std::string_view token) {
   return difference == 0;
 }
 
+bool is_called(std::string_view own, std::string_view name) {
+  if (!own.starts_with("*.")) return own == name;
+  const std::size_t dot = name.find('.');
+  return dot != std::string_view::npos && dot > 0 && name.substr(dot) == own.substr(1);
+}
+
 }  // namespace
 
 Result<Tokens> Tokens::draw() {
@@ -54,17 +59,19 @@ std::optional<Role> Tokens::role_of(std::string_view token) const {
   return std::nullopt;
 }
 
-bool is_own_host(std::string_view host) {
-  return std::ranges::any_of(kOwnNames, [&](std::string_view name) {
-    if (!host.starts_with(name)) return false;
-    const std::string_view port = host.substr(name.size());
-    return port.empty() || (port.size() > 1 && port[0] == ':' &&
-                            port.find_first_not_of("0123456789", 1) == std::string_view::npos);
-  });
+bool is_own_host(std::string_view host, const Calling& calling) {
+  const std::size_t end = host.starts_with('[') ? host.find(']') : 0;  // of an address of IPv6
+  if (end == std::string_view::npos) return false;
+  const std::size_t colon = host.find(':', end);
+  const std::string_view port = colon == std::string_view::npos ? "" : host.substr(colon);
+  if (port == ":" || port.find_first_not_of("0123456789", 1) != std::string_view::npos) return false;
+  std::string name(host.substr(0, colon));
+  std::ranges::transform(name, name.begin(), [](unsigned char each) { return std::tolower(each); });
+  return std::ranges::any_of(calling.names, [&](const std::string& own) { return is_called(own, name); });
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  return origin.empty() || origin == "http://" + std::string(host);
+bool is_own_origin(std::string_view origin, std::string_view host, const Calling& calling) {
+  return origin.empty() || origin == calling.scheme + "://" + std::string(host);
 }
 
 std::string query_value(std::string_view target, std::string_view name) {

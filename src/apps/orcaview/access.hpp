@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "orca/base/result.hpp"
 
@@ -37,14 +38,21 @@ class Tokens {
   std::string operator_;
 };
 
-/// Returns whether a request names this machine as its host, at whatever port: ssh -L may have another one than this server. A
-/// page of somebody else that lets its own name point here (DNS rebinding) names that.
+/// How browsers call this server at one of its doors. A plain value.
+struct Calling {
+  std::string scheme = "http";
+  /// Hosts in small letters, IPv6 in brackets; "*.lab.org" stands for each name with one part more than lab.org.
+  std::vector<std::string> names{"127.0.0.1", "localhost", "[::1]"};
+};
+
+/// Returns whether a request calls this server by one of its names, at whatever port: ssh -L may have another one than this
+/// server. A page of somebody else that lets its own name point here (DNS rebinding) names that.
 /// @param host  header Host.
-[[nodiscard]] bool is_own_host(std::string_view host);
+[[nodiscard]] bool is_own_host(std::string_view host, const Calling& calling = {});
 
 /// Returns whether a request comes from a page of this server, or from no page at all.
 /// @param origin  header Origin; empty: there is none, so that it is no browser.
-[[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host);
+[[nodiscard]] bool is_own_origin(std::string_view origin, std::string_view host, const Calling& calling = {});
 
 /// Returns the value of a name in the query of a request's target, such as token in "/ws?token=1f"; empty: there is none.
 [[nodiscard]] std::string query_value(std::string_view target, std::string_view name);

@@ -15,6 +15,7 @@
 #include "common/command_line.hpp"
 #include "common/manual.hpp"
 #include "common/output.hpp"
+#include "doors/listening.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
@@ -41,7 +42,11 @@ constexpr std::string_view kDetails =
     "one, people may only look. Both hold until orcaview ends. They are also in the file GRAPH.PORT.view "
     "beside "
     "the\n"
-    "system's socket, which only you can read. If orcaview ends, nothing else notices.\n";
+    "system's socket, which only you can read. If orcaview ends, nothing else notices.\n"
+    "\n"
+    "With --listen there are two more addresses, for other machines, and the SHA-256 of the certificate: "
+    "compare it\n"
+    "with the one that the browser shows when it warns of a certificate that it does not know.\n";
 
 const apps::Program& program() {
   static const apps::Program all{
@@ -50,13 +55,20 @@ const apps::Program& program() {
       .text = "a page in the browser that shows a running system, and commands it",
       .details = kDetails,
       .arguments = {{"SYSTEM|FILE.mcap", apps::Names::system, true}},
-      .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
-                   false, "Options", 0, 65535},
-                  {"--batch", "DIR", "show a folder of simbatch, and no system"},
-                  {"--plugins", "FOLDER",
-                   "where the libraries of object types of a recording lie that are not Orca's own", true},
-                  {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
-      .exits = {"0 ended by a signal", "1 the address is in use, or the page's files are missing",
+      .options =
+          {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)", false,
+            "Options", 0, 65535},
+           {"--listen", "ADDRESS[:PORT]",
+            "also an address for other machines, encrypted by TLS; 0.0.0.0: all of this machine "
+            "(port: 8443, or any that is free if somebody has it)"},
+           {"--certificate", "FILE",
+            "PEM with certificate and key for --listen (default: one of its own, which it makes once)"},
+           {"--batch", "DIR", "show a folder of simbatch, and no system"},
+           {"--plugins", "FOLDER",
+            "where the libraries of object types of a recording lie that are not Orca's own", true},
+           {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
+      .exits = {"0 ended by a signal",
+                "1 the address is in use, or the page's files or the certificate are missing",
                 "2 the command line is wrong", "3 no system runs, and none is named"},
       .notes =
           "\nSYSTEM is the name of a graph, or a recording. It need not run yet; when it ends, the page "
@@ -119,8 +131,30 @@ class AddressFile {
   std::string path_;
 };
 
-std::string address_of(const ViewServer& server, const Tokens& tokens, Role role, const std::string& page) {
-  return "http://127.0.0.1:" + std::to_string(server.port()) + "/" + page + "#token=" + tokens.of(role);
+// Returns the addresses of a page, a line for each role.
+std::string addresses_of(const std::string& server, const Tokens& tokens, const std::string& page) {
+  std::string lines;
+  for (const Role role : {Role::operator_, Role::reader})
+    lines += server + page + "#token=" + tokens.of(role) + "\n";
+  return lines;
+}
+
+// Listens for other machines if that is wished, and returns what to print of it.
+std::variant<std::string, ExitCode> listen_far(const apps::Call& call, ViewServer& server,
+                                               const Tokens& tokens, const std::string& page) {
+  const std::optional<std::string> wish = call.text("--listen");
+  const std::optional<std::string> file = call.text("--certificate");
+  if (!wish && !file) return std::string();
+  if (!wish)
+    return report(fail(Code::invalid_argument, "--certificate is for --listen ADDRESS"), ExitCode::usage);
+  const Result<Listening> there = parse_listening(*wish);
+  if (!there) return report(there.error(), ExitCode::usage);
+  const Result<keys::ServerCertificate> certificate = certificate_for(*there, file);
+  if (!certificate) return report(certificate.error(), ExitCode::refused);
+  if (const Status listens = server.listen(*there, *certificate); !listens.ok())
+    return report(listens.error(), ExitCode::refused);
+  return addresses_of(server.far_address(), tokens, page) +
+         "SHA-256 of the certificate: " + certificate->fingerprint + "\n";
 }
 
 /// The event loop. What waits in it - connections, above all - uses the desk and the server, so it goes before they do.
@@ -149,17 +183,21 @@ ExitCode serve(
   Status listens = server.listen(wanted ? static_cast<std::uint16_t>(*wanted) : kDefaultPort);
   if (!wanted && !listens.ok()) listens = server.listen(0);
   if (!listens.ok()) return report(listens.error(), ExitCode::refused);
-  const std::string addresses = address_of(server, tokens, Role::operator_, page) + "\n" +
-                                address_of(server, tokens, Role::reader, page) + "\n";
+  const std::variant<std::string, ExitCode> far = listen_far(call, server, tokens, page);
+  if (const auto* const code = std::get_if<ExitCode>(&far)) return *code;
+  const std::string addresses =
+      addresses_of("http://127.0.0.1:" + std::to_string(server.port()) + "/", tokens, page) +
+      std::get<std::string>(far);
   const Result<AddressFile> file =
       AddressFile::write(name + "." + std::to_string(server.port()) + ".view", addresses);
   if (!file) return report(file.error(), ExitCode::refused);
+  // Before anybody reads the addresses, who may end it at once.
+  boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
+  stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
   std::printf("%s", addresses.c_str());
   std::fflush(stdout);
 
   begin();
-  boost::asio::signal_set stops(loop, SIGINT, SIGTERM);
-  stops.async_wait([&](const boost::system::error_code&, int) { loop.stop(); });
   while (!loop.stopped()) run_contained(loop);
   end();
   loop.clear();

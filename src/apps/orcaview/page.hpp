@@ -21,8 +21,7 @@ class Page final : public Session {
  public:
   static constexpr const char* kProtocol = "orca.view.v1";
 
-  Page(boost::beast::tcp_stream stream, Role role, Desk& desk)
-      : Session(std::move(stream), role, desk, kProtocol) {}
+  Page(Stream stream, Role role, Desk& desk) : Session(std::move(stream), role, desk, kProtocol) {}
 
   void system_changed(bool is_up) override;
   void time_moved() override;

@@ -57,7 +57,7 @@ class Session::Look final : public Onlooker {
   const std::string port_;
 };
 
-Session::Session(beast::tcp_stream stream, Role role, Desk& desk, std::string protocol)
+Session::Session(Stream stream, Role role, Desk& desk, std::string protocol)
     : socket_(std::move(stream)),
       role_(role),
       desk_(desk),

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "access.hpp"
+#include "doors/stream.hpp"
 #include "outbox.hpp"
 
 namespace orca::view {
@@ -37,7 +38,7 @@ struct Packet {
 /// Thread contract: the loop's thread.
 class Session : public std::enable_shared_from_this<Session> {
  public:
-  using Socket = boost::beast::websocket::stream<boost::beast::tcp_stream>;
+  using Socket = boost::beast::websocket::stream<Stream>;
   using Request = boost::beast::http::request<boost::beast::http::string_body>;
   static constexpr std::size_t kLongest = std::size_t{1} << 20;  ///< [bytes] of a message.
   static constexpr std::size_t kMostLooks = 256;                 ///< At a time.
@@ -59,7 +60,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
  protected:
   /// @param protocol  the sub-protocol that was chosen.
-  Session(boost::beast::tcp_stream stream, Role role, Desk& desk, std::string protocol);
+  Session(Stream stream, Role role, Desk& desk, std::string protocol);
 
   virtual void take_text(const std::string& text) = 0;
   virtual void take_bytes(const std::string& bytes) = 0;

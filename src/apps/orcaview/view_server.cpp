@@ -2,6 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "view_server.hpp"
 
+#include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/redirect_error.hpp>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "foxglove/client.hpp"
+#include "orca/base/text.hpp"
 #include "page.hpp"
 
 namespace orca::view {
@@ -67,62 +69,83 @@ std::string_view view_of(boost::beast::string_view text) { return {text.data(), 
 }  // namespace
 
 Status ViewServer::listen(std::uint16_t port) {
-  const tcp::endpoint here(asio::ip::make_address("127.0.0.1"), port);
-  error_code error;
-  acceptor_.close(error);
-  acceptor_.open(here.protocol(), error);
-  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
-  if (!error) acceptor_.bind(here, error);
-  if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
-  if (error)
-    return fail(Code::unavailable, "cannot listen at 127.0.0.1:" + std::to_string(port) + ": " +
-                                       error.message() + "; take another port, or 0 for any: --port 0");
-  port_ = acceptor_.local_endpoint().port();
-  asio::co_spawn(acceptor_.get_executor(), accept_all(), asio::detached);
+  if (const Status is_open = near_.open({asio::ip::make_address("127.0.0.1"), port}); !is_open.ok())
+    return fail(Code::unavailable, is_open.error().message + "; take another port, or 0 for any: --port 0");
+  begin(near_);
   return ok();
 }
 
-awaitable<void> ViewServer::accept_all() {
+Status ViewServer::listen(const Listening& there, const keys::ServerCertificate& certificate) {
+  constexpr std::uint16_t kUsualPort = 8443;
+  if (const Status secured = far_.secure(certificate); !secured.ok()) return secured;
+  Status is_open = far_.open({there.address, there.port.value_or(kUsualPort)});
+  if (!is_open.ok() && !there.port) is_open = far_.open({there.address, 0});
+  if (!is_open.ok())
+    return fail(Code::unavailable, is_open.error().message +
+                                       "; choose another port, or 0 for any, or another "
+                                       "address of this machine: --listen ADDRESS:0");
+  const std::string address =
+      there.address.is_v6() ? "[" + there.address.to_string() + "]" : there.address.to_string();
+  Calling calling{"https", certificate.names};
+  if (!there.address.is_unspecified()) calling.names.push_back(address);
+  const auto name =
+      std::ranges::find_if(calling.names, [](const auto& each) { return !each.starts_with('*'); });
+  const std::string& shown = name == calling.names.end() ? address : *name;
+  far_address_ = "https://" + shown + ":" + std::to_string(far_.port()) + "/";
+  far_.set_calling(std::move(calling));
+  begin(far_);
+  return ok();
+}
+
+void ViewServer::begin(Door& door) {
+  asio::co_spawn(door.acceptor().get_executor(), accept_all(door), asio::detached);
+}
+
+awaitable<void> ViewServer::accept_all(Door& door) {
   for (;;) {
     error_code error;
-    tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(use_awaitable, error));
+    tcp::socket socket = co_await door.acceptor().async_accept(asio::redirect_error(use_awaitable, error));
     if (error == asio::error::operation_aborted) co_return;
     if (error) {  // no descriptors are left
-      asio::steady_timer pause(acceptor_.get_executor(), kPause);
+      asio::steady_timer pause(door.acceptor().get_executor(), kPause);
       co_await pause.async_wait(asio::redirect_error(use_awaitable, error));
       continue;
     }
-    if (connections_ >= kMostConnections) continue;  // the socket closes
-    asio::co_spawn(acceptor_.get_executor(), serve(std::move(socket)), asio::detached);
+    asio::co_spawn(door.acceptor().get_executor(), serve(door, std::move(socket)), asio::detached);
   }
 }
 
-awaitable<void> ViewServer::serve(tcp::socket socket) {
-  ++connections_;
+awaitable<void> ViewServer::serve(Door& door, tcp::socket socket) {
   try {
-    co_await serve_requests(std::move(socket));
+    co_await serve_requests(door, std::move(socket));
   } catch (const std::exception&) {  // such as lack of memory: this connection ends, the others go on
   }
-  --connections_;
 }
 
-awaitable<void> ViewServer::serve_requests(tcp::socket socket) {
-  beast::tcp_stream stream(std::move(socket));
+awaitable<void> ViewServer::serve_requests(Door& door, tcp::socket socket) {
+  Stream stream = door.stream_of(std::move(socket));
+  std::optional<Door::Stranger> stranger(std::in_place, door, stream.next_layer());
+  error_code error;
+  stream.next_layer().expires_after(kPatience);
+  if (door.has_tls()) co_await stream.shake_hands(asio::redirect_error(use_awaitable, error));
+  if (error) co_return;
   beast::flat_buffer buffer;
   for (;;) {
     http::request_parser<http::string_body> parser;
     parser.header_limit(kLongestHead);
     parser.body_limit(0);
-    stream.expires_after(kPatience);
-    error_code error;
+    stream.next_layer().expires_after(kPatience);
     co_await http::async_read(stream, buffer, parser, asio::redirect_error(use_awaitable, error));
     if (error) co_return;
     Session::Request request = parser.release();
-    const std::string why = refusal(request);
+    const std::string why = refusal(request, door);
     const std::string_view target = view_of(request.target());
     const std::optional<Role> role = tokens_.role_of(query_value(target, "token"));
     if (why.empty() && desk_ != nullptr && beast::websocket::is_upgrade(request)) {
-      stream.expires_never();
+      if (door.is_full()) co_return;
+      const Door::Guest guest(door);
+      stranger.reset();
+      stream.next_layer().expires_never();
       const std::shared_ptr<Session> session = session_for(request, std::move(stream), *role);
       co_return co_await session->serve(std::move(request));
     }
@@ -152,8 +175,7 @@ awaitable<ViewServer::Response> ViewServer::answer_of_batch(const Session::Reque
 }
 
 // Viewers that speak several protocols get the first that they share with this server.
-std::shared_ptr<Session> ViewServer::session_for(const Session::Request& request, beast::tcp_stream stream,
-                                                 Role role) {
+std::shared_ptr<Session> ViewServer::session_for(const Session::Request& request, Stream stream, Role role) {
   const std::string offered(view_of(request[http::field::sec_websocket_protocol]));
   for (const char* const protocol : FoxgloveClient::kProtocols)
     if (http::token_list(offered).exists(protocol))
@@ -169,10 +191,11 @@ bool ViewServer::is_for_batch(const Session::Request& request) const {
 }
 
 // Returns why a request is refused; empty: it is not.
-std::string ViewServer::refusal(const Session::Request& request) const {
+std::string ViewServer::refusal(const Session::Request& request, const Door& door) const {
   const std::string_view host = view_of(request[http::field::host]);
-  if (!is_own_host(host)) return "this server is 127.0.0.1 or localhost, by no other name";
-  if (!is_own_origin(view_of(request[http::field::origin]), host))
+  if (!is_own_host(host, door.calling()))
+    return "this server is " + listed(door.calling().names) + ", by no other name";
+  if (!is_own_origin(view_of(request[http::field::origin]), host, door.calling()))
     return "pages of other servers have no access";
   const bool is_for_batch = this->is_for_batch(request);
   if (request.method() != http::verb::get && !is_for_batch) return "this server knows GET only";

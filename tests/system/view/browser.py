@@ -26,13 +26,13 @@ def skip(package):
     sys.exit(SKIPPED)
 
 
-def start_browser(width, height, profile):
+def start_browser(width, height, profile, *switches):
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
     options = webdriver.ChromeOptions()
     options.binary_location = shutil.which("chromium")
     for switch in ("--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--force-device-scale-factor=1",
-                   "--disable-dev-shm-usage", f"--window-size={width},{height}", f"--user-data-dir={profile}"):
+                   "--disable-dev-shm-usage", f"--window-size={width},{height}", f"--user-data-dir={profile}", *switches):
         options.add_argument(switch)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     browser = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)

@@ -41,15 +41,18 @@ def wait_for(what, condition, seconds=20):
 class PageCase(ViewCase):
     """One system and one browser serve all cases of a class, in the order of their names. Each case works alone, too."""
 
+    ADDRESS = 0  # of those that orcaview prints, the one that the browser opens
+    SWITCHES = ()  # of the browser
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         profile = tempfile.TemporaryDirectory(prefix="orca_chromium_")
         cls.addClassCleanup(profile.cleanup)
         width, height = (1120, 700) if PICTURES else (1280, 800)
-        cls.browser = chromium.start_browser(width, height, profile.name)
+        cls.browser = chromium.start_browser(width, height, profile.name, *cls.SWITCHES)
         cls.addClassCleanup(cls.browser.quit)
-        cls.browser.get(cls.addresses[0])
+        cls.browser.get(cls.addresses[cls.ADDRESS])
 
     def tearDown(self):
         self.assertEqual((self.system.poll(), self.view.poll()), (None, None), "deployer and orcaview run")

@@ -29,22 +29,23 @@ class ViewCase(unittest.TestCase):
     NAME = "scout_goto_processes"
     OPTIONS = ("--set", "command.rounds=0")
     COMPONENTS = 6
+    VIEW_OPTIONS = ()
 
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="orca_view_")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name}
+        cls.environment = os.environ | {"XDG_RUNTIME_DIR": folder.name, "XDG_CONFIG_HOME": f"{folder.name}/config"}
         cls.graph = cls.copy_of_tree() / "graphs" / f"{cls.NAME}.xml"
         (cls.folder / "plugins").mkdir()
         cls.system = cls.start_system()
-        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.shown(), "--port", "0", "--web", TREE / "web"], env=cls.environment,
-                                    stdout=subprocess.PIPE, text=True)
+        cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.shown(), "--port", "0", "--web", TREE / "web", *cls.VIEW_OPTIONS],
+                                    env=cls.environment, stdout=subprocess.PIPE, text=True)
         cls.addClassCleanup(cls.end, cls.view)
-        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
+        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(4 if "--listen" in cls.VIEW_OPTIONS else 2)]
         cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
-        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
+        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses[:2])
 
     @classmethod
     def copy_of_tree(cls):

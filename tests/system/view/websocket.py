@@ -10,13 +10,16 @@ TEXT, PONG, PING = 1, 10, 9
 
 
 class WebSocket:
-    """A connection; `head` is the answer, `status` its first line. Header fields are replaced by those given."""
+    """A connection; `head` is the answer, `status` its first line. Header fields are replaced by those given. With a context of TLS
+    it is encrypted."""
 
-    def __init__(self, port, token, limit=10.0, **fields):
-        self.socket = socket.create_connection(("127.0.0.1", port))
+    def __init__(self, port, token, limit=10.0, address="127.0.0.1", tls=None, **fields):
+        self.socket = socket.create_connection((address, port))
         self.socket.settimeout(limit)
+        if tls:
+            self.socket = tls.wrap_socket(self.socket, server_hostname=address)
         head = {
-            "Host": f"127.0.0.1:{port}",
+            "Host": f"{address}:{port}",
             "Upgrade": "websocket",
             "Connection": "Upgrade",
             "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(),

@@ -50,6 +50,21 @@ TEST_CASE("a request may come from a page of this server, or from no page", "[vi
     CHECK_FALSE(is_own_origin(origin, "127.0.0.1:8080"));
 }
 
+TEST_CASE("each door knows its own names and its own origins only", "[view]") {
+  const Calling far{"https", {"robot", "*.lab.org", "10.0.0.7", "[fd00::7]"}};
+  for (const char* const host :
+       {"robot", "robot:8443", "Robot:8443", "scout.lab.org", "10.0.0.7:8443", "[fd00::7]:8443", "[fd00::7]"})
+    CHECK(is_own_host(host, far));
+  for (const char* const host : {"127.0.0.1:8443", "localhost:8443", "[::1]:8443", "lab.org", ".lab.org",
+                                 "a.b.lab.org", "xlab.org", "*.lab.org.evil.org", "robot.evil.org",
+                                 "robot:", "robot:8443:1", "fd00::7", "[fd00::7", "[fd00::7]x:1", ""})
+    CHECK_FALSE(is_own_host(host, far));
+  CHECK(is_own_origin("https://robot:8443", "robot:8443", far));
+  CHECK_FALSE(is_own_origin("http://robot:8443", "robot:8443", far));
+  for (const char* const host : {"robot:8080", "10.0.0.7:8080", "[fd00::7]:8080"})
+    CHECK_FALSE(is_own_host(host));
+}
+
 TEST_CASE("a value of a request's query is found by its name", "[view]") {
   CHECK(query_value("/ws?token=1f", "token") == "1f");
   CHECK(query_value("/ws?a=b&token=1f&c=d", "token") == "1f");

@@ -29,7 +29,7 @@ class FoxgloveClient final : public Session {
  public:
   static constexpr const char* kProtocols[] = {"foxglove.sdk.v1", "foxglove.websocket.v1"};
 
-  FoxgloveClient(boost::beast::tcp_stream stream, Role role, Desk& desk, std::string protocol)
+  FoxgloveClient(Stream stream, Role role, Desk& desk, std::string protocol)
       : Session(std::move(stream), role, desk, std::move(protocol)) {}
 
   void system_changed(bool is_up) override;
