@@ -154,7 +154,7 @@ class Tls(ViewCase):
         self.greeted()
         with WebSocket(self.port, self.operator) as near:
             self.assertIn("101", near.status)
-        self.assertLess(time.monotonic() - begin, 2.0)
+        self.assertLess(time.monotonic() - begin, 5.0)  # silent ones have 10 s
         self.assertLess(self.memory() - before, 50_000)
         for one in silent[:100]:  # the oldest were closed at once
             one.settimeout(1.0)
