@@ -30,7 +30,7 @@ byId("graph-apply").addEventListener("click", () => askApply(connection, system)
 byId("graph-undo").addEventListener("click", () => askUndo(connection, system));
 system.addEventListener("figures", showUndo);
 connection.addEventListener("gone", showUndo);
-new Teleoperation(connection, system);
+const teleoperation = new Teleoperation(connection, system);
 new Pacing(connection, system);
 new ReplayBar(connection);
 
@@ -51,7 +51,10 @@ function open(name) {
 function listenToTabs() {
   const names = Object.keys(views);
   names.forEach((name, i) => {
-    byId(`tab-${name}`).addEventListener("click", () => open(name));
+    byId(`tab-${name}`).addEventListener("click", (event) => {
+      open(name);
+      if (event.detail > 0) byId(`tab-${name}`).blur();  // a pointer was here: arrow keys are for driving
+    });
     byId(`tab-${name}`).addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
       if (step === undefined) return;
@@ -66,6 +69,7 @@ function listenToTabs() {
 function stop() {
   const began = performance.now();
   const answer = connection.ask("estop");
+  teleoperation.letGo();
   byId("stop").classList.add("pressed");
   answer.then(({ ok, error }) => {
     byId("stop").classList.remove("pressed");
@@ -88,7 +92,9 @@ function listenToStop() {
     if (event.detail === 0) stop();  // by keyboard: no pointer was down
   });
   addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !event.repeat && connection.steers) stop();
+    if (event.key !== "Escape" || event.repeat) return;
+    if (connection.steers) stop();
+    /** @type {HTMLDialogElement} */ (byId("dialog")).close();
   }, { capture: true });
   byId("release").addEventListener("click", release);
 }

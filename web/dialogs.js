@@ -39,7 +39,7 @@ function ask(title, content, orders) {
   enable();
   dialog.oninput = enable;
   dialog.close();
-  dialog.replaceChildren(el("h2", {}, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
+  dialog.replaceChildren(el("h2", { id: "dialog-title" }, title), ...content, verdict, el("div", { class: "row end" }, ...buttons, close));
   dialog.show();  // not modal: STOP stays in reach
   dialog.querySelector("input")?.focus();
   return { say, enable };

@@ -25,7 +25,7 @@ const ABOVE = 46;  // pixels that the buttons take
 const BELOW = 32;
 const FEW = 30;  // components up to which ports without a connection are shown at first
 /** @type {Record<string, string>} a mark and a class for each state; a mark says the same without colours */
-const MARKS = { WORK: "● good", WORK_DONE: "✓ good", IDLE: "○ calm", INIT: "◌ calm", CONNECT: "◌ calm", UNLOADED: "– calm", SUSPENDED: "‖ waiting", WORK_FAILED: "× bad", EXIT: "– bad" };
+const MARKS = { WORK: "● good", WORK_DONE: "✓ good", IDLE: "○ calm", INIT: "◌ calm", CONNECT: "◌ calm", UNLOADED: "– calm", SUSPENDED: "‖ waiting", WORK_FAILED: "× bad", EXIT: "■ bad" };
 
 /**
  * @param {string} state  as in `ps`
@@ -292,6 +292,7 @@ export class SystemView extends EventTarget {
       const lap99 = this.system.laps.get(name)?.lap99 ?? null;
       setText(lap, lap99 === null ? "" : `lap ${milliseconds(lap99)}`);
       if (group.dataset.state !== kind) group.dataset.state = kind;
+      if (group.ariaLabel !== `${name}: ${component.state}`) group.ariaLabel = `${name}: ${component.state}`;
     }
     for (const { wire, line, label } of this.wires) {
       const { text, loses } = flowText(wire, this.system.flowOf(wire));
@@ -332,7 +333,9 @@ export class SystemView extends EventTarget {
     }, { passive: false });
     drawing.addEventListener("keydown", (event) => {
       const name = /** @type {HTMLElement} */ (event.target).dataset.component;
-      if (name !== undefined && (event.key === "Enter" || event.key === " ")) this.choose({ component: name });
+      if (name === undefined || (event.key !== "Enter" && event.key !== " ")) return;
+      event.preventDefault();
+      this.choose({ component: name });
     });
     byId("graph-fit").addEventListener("click", () => this.fit());
     byId("graph-closer").addEventListener("click", () => this.zoom(1.3));

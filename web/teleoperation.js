@@ -27,7 +27,7 @@ const KEYS = {
  * @returns {number} 0 in the middle of a stick, which is never exact
  */
 function outsideMiddle(value) {
-  return Math.abs(value) < 0.12 ? 0 : value;
+  return Math.abs(value) >= 0.12 ? Math.min(1, Math.max(-1, value)) : 0;
 }
 
 export class Teleoperation {
@@ -44,6 +44,8 @@ export class Teleoperation {
     this.pull = null;
     this.isDriving = false;
     this.isWaiting = false;
+    /** Whether the gamepad's button has to be let go before it drives again. */
+    this.isSpent = false;
     this.pad = byId("pad");
     this.listen();
     setInterval(() => this.turn(), INTERVAL);
@@ -57,12 +59,16 @@ export class Teleoperation {
   listen() {
     addEventListener("keydown", (event) => {
       const target = /** @type {HTMLElement} */ (event.target);
-      if (!(event.key in KEYS) || this.port === undefined || target.matches("input, select, textarea, [role=tab], svg *")) return;
+      const isOther = event.shiftKey || event.ctrlKey || event.altKey || event.metaKey;  // Shift moves the picture
+      if (!(event.key in KEYS) || isOther || !this.isSeen || target.matches("input, select, textarea, [role=tab], svg *")) return;
       event.preventDefault();
-      this.keys.add(event.key);
+      if (!event.repeat) this.keys.add(event.key);  // a key that was let go by STOP has to be pressed again
     });
     addEventListener("keyup", (event) => this.keys.delete(event.key));
-    const letGo = () => this.letGo();
+    const letGo = () => {
+      this.letGo();
+      this.turn();  // now: a page that is left is seldom let to compute
+    };
     addEventListener("blur", letGo);
     document.addEventListener("visibilitychange", letGo);
     this.pad.addEventListener("pointerdown", (event) => {
@@ -75,9 +81,16 @@ export class Teleoperation {
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) this.pad.addEventListener(end, letGo);
   }
 
+  /** Whether a person sees that this page drives by hand, and is at it. */
+  get isSeen() {
+    return this.port !== undefined && byId("teleoperation").offsetParent !== null && !document.hidden && document.hasFocus();
+  }
+
+  /** Ends whatever is held. A key or button that is still down drives no more before it was let go. */
   letGo() {
     this.keys.clear();
     this.pull = null;
+    this.isSpent = true;
     this.showStick();
   }
 
@@ -92,23 +105,24 @@ export class Teleoperation {
     this.showStick();
   }
 
-  showStick() {
+  /** @param {{forward: number, left: number} | null} [wish] */
+  showStick(wish = this.pull) {
     const stick = byId("stick");
-    const { forward, left } = this.pull ?? { forward: 0, left: 0 };
+    const { forward, left } = wish ?? { forward: 0, left: 0 };
     stick.style.transform = `translate(${-38 * left}px, ${-38 * forward}px)`;
   }
 
   /** @returns {{forward: number, left: number} | null} null: nothing is held */
   wish() {
+    if (!this.isSeen) this.letGo();
     if (this.pull !== null) return this.pull;
     if (this.keys.size > 0) {
       const pressed = [...this.keys].map((key) => KEYS[key]);
       return { forward: pressed.reduce((all, key) => all + key.forward, 0), left: pressed.reduce((all, key) => all + key.left, 0) };
     }
-    for (const gamepad of navigator.getGamepads?.() ?? []) {
-      if (gamepad === null || gamepad.buttons[DEAD_MAN_BUTTON]?.pressed !== true) continue;
-      return { forward: -outsideMiddle(gamepad.axes[1]), left: -outsideMiddle(gamepad.axes[0]) };
-    }
+    const gamepad = (navigator.getGamepads?.() ?? []).find((each) => each?.connected === true && each.buttons[DEAD_MAN_BUTTON]?.pressed === true);
+    if (!gamepad) this.isSpent = false;
+    else if (!this.isSpent) return { forward: -outsideMiddle(gamepad.axes[1]), left: -outsideMiddle(gamepad.axes[0]) };
     return null;
   }
 
@@ -118,6 +132,7 @@ export class Teleoperation {
     const wish = port === undefined || !this.connection.steers ? null : this.wish();
     if (port === undefined || (wish === null && !this.isDriving)) return;
     this.isDriving = wish !== null;
+    this.showStick(wish);
     this.send(port.port, wish ?? { forward: 0, left: 0 });
   }
 

@@ -17,6 +17,11 @@ import { componentOf, isSource, shortPort } from "./system_model.js";
 const LANES = /** @type {const} */ (["alarms", "missions", "log"]);
 const MARGIN = 74;
 const LANE = 26;
+/** @type {Record<string, number>} pixels of a mark that lasts; what is worse is higher, whatever its colour */
+const HIGH = { warning: 10, error: 16 };
+const DOT = "M-3,0a3,3 0 1,0 6,0a3,3 0 1,0 -6,0z";
+/** @type {Record<string, string>} a triangle and a cross for what lasts no time */
+const SHAPES = { warning: "M-6,5h12l-6,-11z", error: "M-6,-4l2,-2l4,4l4,-4l2,2l-4,4l4,4l-2,2l-4,-4l-4,4l-2,-2l4,-4z" };
 const LINES = 2000;
 const LISTED = 250;
 
@@ -156,7 +161,8 @@ export class TimeView {
     const y = LANE * (LANES.indexOf(lane) + 0.5);
     const tip = svg("title");
     tip.textContent = `${figure(time, 1)} s  ${who}: ${text}`;
-    const bar = to - from > 3 ? svg("rect", { x: from, y: y - 5, width: to - from - 1, height: 10, rx: 3 }, tip) : svg("circle", { cx: from, cy: y, r: kind === "info" ? 3 : 5 }, tip);
+    const high = HIGH[kind] ?? 6;
+    const bar = to - from > 3 ? svg("rect", { x: from, y: y - high / 2, width: to - from - 1, height: high, rx: 3 }, tip) : svg("path", { d: SHAPES[kind] ?? DOT, transform: `translate(${from},${y})` }, tip);
     bar.setAttribute("class", `mark ${lane} ${kind}`);
     return bar;
   }

@@ -22,6 +22,7 @@ const COLOURS = [
 ];
 const TURN = 2 * Math.PI;
 const LINE = 15;  // pixels from text to text
+const EDGE = 3;  // pixels from a text to the right edge of the picture
 const SECOND = 1;  // [s] of motion that arrows and arcs show
 
 /** @returns {Palette} the colours of style.css, in the light or the dark */
@@ -561,8 +562,10 @@ export function writeLabels(pen, camera, labels, dots, palette) {
   const written = [];
   for (const label of [...labels.filter((each) => !each.isPlace), ...labels.filter((each) => each.isPlace)]) {
     pen.font = label.isPlace ? "11px system-ui, sans-serif" : "600 13px system-ui, sans-serif";
-    const { x, y } = camera.toScreen(label);
-    const right = x + pen.measureText(label.text).width;
+    const { x: at, y } = camera.toScreen(label);
+    const { width } = pen.measureText(label.text);
+    const x = at < camera.width ? Math.min(at, camera.width - width - EDGE) : at;
+    const right = x + width;
     if (written.some((other) => Math.abs(other.y - y) < LINE && other.left < right && x < other.right)) continue;
     written.push({ left: x, right, y });
     pen.strokeText(label.text, x, y);
