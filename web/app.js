@@ -25,7 +25,10 @@ const world = new WorldModel(connection, system);
 const worldView = new WorldView(connection, system, world);
 const systemView = new SystemView(connection, system);
 const inspector = new Inspector(byId("inspector"), connection, system, (choice) => systemView.choose(choice));
-systemView.addEventListener("chosen", () => inspector.show(systemView.choice));
+systemView.addEventListener("chosen", () => {
+  inspector.show(systemView.choice);
+  systemView.keepInSight();
+});
 byId("graph-apply").addEventListener("click", () => askApply(connection, system));
 byId("graph-undo").addEventListener("click", () => askUndo(connection, system));
 system.addEventListener("figures", showUndo);

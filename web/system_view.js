@@ -91,6 +91,8 @@ export class SystemView extends EventTarget {
     this.zoomed = { x: 0, y: 0, scale: 1 };
     this.isShown = false;
     this.isFitted = false;
+    /** Whether a person has moved the sheet. */
+    this.isTouched = false;
     /** @type {{kind: "sheet" | "box" | "wire", name: string, at: Point, moved: boolean} | null} */
     this.drag = null;
     this.rubber = svg("path", { class: "rubber" });
@@ -337,6 +339,10 @@ export class SystemView extends EventTarget {
       event.preventDefault();
       this.choose({ component: name });
     });
+    addEventListener("resize", () => {  // such as a phone that was turned
+      this.isFitted &&= this.isTouched;
+      if (this.isShown && !this.isFitted) this.fit();
+    });
     byId("graph-fit").addEventListener("click", () => this.fit());
     byId("graph-closer").addEventListener("click", () => this.zoom(1.3));
     byId("graph-farther").addEventListener("click", () => this.zoom(1 / 1.3));
@@ -373,6 +379,7 @@ export class SystemView extends EventTarget {
     if (!drag.moved) this.begin(drag, event);
     if (drag.kind === "wire") return this.pullWire(drag.name, event);
     drag.at = { x: event.clientX, y: event.clientY };
+    this.isTouched = true;
     if (drag.kind === "sheet") this.place({ x: this.zoomed.x + dx, y: this.zoomed.y + dy });
     else this.moveBox(drag.name, dx / this.zoomed.scale, dy / this.zoomed.scale);
   }
@@ -513,6 +520,7 @@ export class SystemView extends EventTarget {
     const at = event === undefined ? { x: box.width / 2, y: box.height / 2 } : { x: event.clientX - box.left, y: event.clientY - box.top };
     const scale = Math.min(3, Math.max(0.08, this.zoomed.scale * factor));
     const grown = scale / this.zoomed.scale;
+    this.isTouched = true;
     this.place({ scale, x: at.x - (at.x - this.zoomed.x) * grown, y: at.y - (at.y - this.zoomed.y) * grown });
   }
 
@@ -529,5 +537,14 @@ export class SystemView extends EventTarget {
     const scale = Math.min(1.3, view.width / width, room / height);
     this.place({ scale, x: (view.width - width * scale) / 2 - left * scale, y: ABOVE + (room - height * scale) / 2 - top * scale });
     this.isFitted = true;
+    this.isTouched = false;
+  }
+
+  /** Shows the whole graph if what was chosen is out of sight, such as behind what is shown of it. */
+  keepInSight() {
+    const { choice } = this;
+    const chosen = choice !== null && "component" in choice ? this.boxes.get(choice.component)?.group : undefined;
+    const [box, view] = [chosen?.getBoundingClientRect(), this.drawing.getBoundingClientRect()];
+    if (box !== undefined && (box.bottom > view.bottom || box.right > view.right || box.top < view.top || box.left < view.left)) this.fit();
   }
 }

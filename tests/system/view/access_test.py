@@ -35,6 +35,11 @@ const box = stop.getBoundingClientRect();
 const inside = box.top >= 0 && box.left >= 0 && box.bottom <= innerHeight && box.right <= innerWidth;
 return [inside && stop.contains(document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2)), box.height, box.width];
 """
+BOXES_IN_SIGHT = """
+const view = document.getElementById("graph").getBoundingClientRect();
+const inside = (box) => box.left >= view.left && box.right <= view.right && box.top >= view.top && box.bottom <= view.bottom;
+return [...document.querySelectorAll(arguments[0])].map((each) => inside(each.getBoundingClientRect()));
+"""
 SMALL_TARGETS = """
 return [...document.querySelectorAll("button, select, input")]
   .filter((each) => each.checkVisibility() && !each.matches(".plain, .look, [type=checkbox], .value input") && each.getBoundingClientRect().height < arguments[0])
@@ -176,6 +181,13 @@ class Access(PageCase):
                     self.assertGreaterEqual(min(height, width), LEAST_TARGET)
                     self.assertEqual(self.browser.execute_script(SMALL_TARGETS, LEAST_TARGET), [], "too small for a finger")
                     self.picture(f"phone_{door}{size.get('width', '')}")
+            self.open("system")
+            wait_for("the whole graph fits", lambda: all(self.browser.execute_script(BOXES_IN_SIGHT, "#graph .box")))
+            self.tap_on("#graph [data-component=base] .name")
+            wait_for("all about the base", lambda: self.part("#inspector").is_displayed())
+            self.assertEqual(self.browser.execute_script(BOXES_IN_SIGHT, "#graph .chosen"), [True], "what was tapped stays in sight")
+            self.picture(f"phone_base{size.get('width', '')}")
+            self.tap_on("#inspector .close")
             self.open_swap()
             self.assertTrue(self.browser.execute_script(STOP_IN_REACH)[0], "STOP is seen beside a dialog")
             self.assertEqual(self.browser.execute_script(OVERFLOWING), [size.get("width", PHONE["width"])], "wider than the screen")
