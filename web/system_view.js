@@ -21,8 +21,7 @@ import { along, curve, detour, drawnName, frameOf, misfit, planOf, portPlace, RO
  */
 
 const n = (/** @type {number} */ value) => value.toFixed(1);
-const ABOVE = 46;  // pixels that the buttons take
-const BELOW = 32;
+const BELOW = 32;  // pixels that the legend takes
 const FEW = 30;  // components up to which ports without a connection are shown at first
 /** @type {Record<string, string>} a mark and a class for each state; a mark says the same without colours */
 const MARKS = { WORK: "● good", WORK_DONE: "✓ good", IDLE: "○ calm", INIT: "◌ calm", CONNECT: "◌ calm", UNLOADED: "– calm", SUSPENDED: "‖ waiting", WORK_FAILED: "× bad", EXIT: "■ bad" };
@@ -533,9 +532,10 @@ export class SystemView extends EventTarget {
     const top = Math.min(...frames.map((f) => f.y)) - 12;
     const width = Math.max(...frames.map((f) => f.x + f.width)) + 12 - left;
     const height = Math.max(...frames.map((f) => f.y + f.height)) + 12 - top;
-    const room = view.height - ABOVE - BELOW;
+    const above = byId("graph-bar").getBoundingClientRect().bottom - view.top;
+    const room = Math.max(1, view.height - above - BELOW);
     const scale = Math.min(1.3, view.width / width, room / height);
-    this.place({ scale, x: (view.width - width * scale) / 2 - left * scale, y: ABOVE + (room - height * scale) / 2 - top * scale });
+    this.place({ scale, x: (view.width - width * scale) / 2 - left * scale, y: above + (room - height * scale) / 2 - top * scale });
     this.isFitted = true;
     this.isTouched = false;
   }

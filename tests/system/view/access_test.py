@@ -190,6 +190,7 @@ class Access(PageCase):
             self.tap_on("#inspector .close")
             self.open_swap()
             self.assertTrue(self.browser.execute_script(STOP_IN_REACH)[0], "STOP is seen beside a dialog")
+            self.assertTrue(self.browser.execute_script("return document.getElementById('dialog').getBoundingClientRect().bottom <= innerHeight"), "all of it")
             self.assertEqual(self.browser.execute_script(OVERFLOWING), [size.get("width", PHONE["width"])], "wider than the screen")
             self.picture(f"phone_swap{size.get('width', '')}")
             self.click("#dialog .end button:last-child")
