@@ -55,18 +55,20 @@ const apps::Program& program() {
       .text = "a page in the browser that shows a running system, and commands it",
       .details = kDetails,
       .arguments = {{"SYSTEM|FILE.mcap", apps::Names::system, true}},
-      .options =
-          {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)", false,
-            "Options", 0, 65535},
-           {"--listen", "ADDRESS[:PORT]",
-            "also an address for other machines, encrypted by TLS; 0.0.0.0: all of this machine "
-            "(port: 8443, or any that is free if somebody has it)"},
-           {"--certificate", "FILE",
-            "PEM with certificate and key for --listen (default: one of its own, which it makes once)"},
-           {"--batch", "DIR", "show a folder of simbatch, and no system"},
-           {"--plugins", "FOLDER",
-            "where the libraries of object types of a recording lie that are not Orca's own", true},
-           {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
+      .options = {{"--port", "N", "of the address (default: 8080, or any that is free if somebody has it)",
+                   false, "Options", 0, 65535},
+                  {"--listen", "ADDRESS[:PORT]",
+                   "also an address for other machines, encrypted by TLS; 0.0.0.0: all of this machine "
+                   "(port: 8443, or any that is free if somebody has it)"},
+                  {"--tls", "DIR",
+                   "folder with certificate.pem, which holds certificate and key for --listen (default: one "
+                   "of its own, "
+                   "which it makes once)"},
+                  {"--system", "NAME", "the same as SYSTEM"},
+                  {"--batch", "DIR", "show a folder of simbatch, and no system"},
+                  {"--plugins", "FOLDER",
+                   "where the libraries of object types of a recording lie that are not Orca's own", true},
+                  {"--web", "FOLDER", "the page's files (default: those that came with orcaview)"}},
       .exits = {"0 ended by a signal",
                 "1 the address is in use, or the page's files or the certificate are missing",
                 "2 the command line is wrong", "3 no system runs, and none is named"},
@@ -87,6 +89,7 @@ ExitCode report(const Error& error, ExitCode code) {
 // Returns the name of the system to show, or the exit status after a report.
 std::variant<std::string, ExitCode> system_of(const apps::Call& call) {
   if (!call.words.empty()) return call.words.front();
+  if (const auto name = call.text("--system")) return *name;
   const Result<std::vector<std::string>> running = supervisor::running_systems();
   if (!running) return report(running.error(), ExitCode::no_system);
   if (running->size() == 1) return running->front();
@@ -143,13 +146,12 @@ std::string addresses_of(const std::string& server, const Tokens& tokens, const 
 std::variant<std::string, ExitCode> listen_far(const apps::Call& call, ViewServer& server,
                                                const Tokens& tokens, const std::string& page) {
   const std::optional<std::string> wish = call.text("--listen");
-  const std::optional<std::string> file = call.text("--certificate");
-  if (!wish && !file) return std::string();
-  if (!wish)
-    return report(fail(Code::invalid_argument, "--certificate is for --listen ADDRESS"), ExitCode::usage);
+  const std::optional<std::string> folder = call.text("--tls");
+  if (!wish && !folder) return std::string();
+  if (!wish) return report(fail(Code::invalid_argument, "--tls is for --listen ADDRESS"), ExitCode::usage);
   const Result<Listening> there = parse_listening(*wish);
   if (!there) return report(there.error(), ExitCode::usage);
-  const Result<keys::ServerCertificate> certificate = certificate_for(*there, file);
+  const Result<keys::ServerCertificate> certificate = certificate_for(*there, folder);
   if (!certificate) return report(certificate.error(), ExitCode::refused);
   if (const Status listens = server.listen(*there, *certificate); !listens.ok())
     return report(listens.error(), ExitCode::refused);
@@ -256,6 +258,10 @@ ExitCode show_batch(const apps::Call& call, const Tokens& tokens, const WebFiles
 }
 
 ExitCode run(const apps::Call& call) {
+  if (!call.words.empty() && call.has("--system"))
+    return report(fail(Code::invalid_argument, "two systems are named: " + call.words.front() +
+                                                   " and --system " + *call.text("--system")),
+                  ExitCode::usage);
   const WebFiles files(web_folder(call));
   if (!files.find("/"))
     return report(fail(Code::not_found, "the page's files are missing: " + web_folder(call) +

@@ -215,22 +215,24 @@ class Tls(ViewCase):
             self.assertEqual(other.wait(10), 0)
 
     def test_what_is_wrong_with_an_address_or_a_certificate_is_said(self):
-        open_file = self.folder / "open.pem"
+        given = self.folder / "given"
+        given.mkdir()
+        open_file = given / "certificate.pem"
         open_file.write_text(self.certificate.read_text())
         open_file.chmod(0o644)
         with socket.create_server((FAR, 0)) as taken:
             port = taken.getsockname()[1]
             for options, status, words in (
                     (("--listen", "robot"), 2, "needs an address"), (("--listen", f"{FAR}:70000"), 2, "needs an address"),
-                    (("--certificate", str(open_file)), 2, "--listen"), (("--listen", f"{FAR}:{port}"), 1, "in use"),
+                    (("--tls", str(given)), 2, "--listen"), (("--listen", f"{FAR}:{port}"), 1, "in use"),
                     (("--listen", "192.0.2.1:0"), 1, "cannot listen at 192.0.2.1"),
-                    (("--listen", FAR, "--certificate", str(open_file)), 1, "chmod 0600"),
-                    (("--listen", FAR, "--certificate", "/nowhere.pem"), 1, "No such file")):
+                    (("--listen", FAR, "--tls", str(given)), 1, "chmod 0600"),
+                    (("--listen", FAR, "--tls", "/nowhere"), 1, "No such file")):
                 found, error = self.another(*options)
                 self.assertEqual(found, status, (options, error))
                 self.assertIn(words, error)
         open_file.chmod(0o600)
-        other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME, "--port", "0", *self.VIEW_OPTIONS, "--certificate", open_file],
+        other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME, "--port", "0", *self.VIEW_OPTIONS, "--tls", given],
                                  env=self.environment, stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, other)
         self.assertIn(self.fingerprint, [other.stdout.readline() for _ in range(5)][4])

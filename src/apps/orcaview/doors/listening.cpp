@@ -108,9 +108,9 @@ std::vector<std::string> names_at(const ip::address& address) {
 }
 
 Result<keys::ServerCertificate> certificate_for(const Listening& listening,
-                                                const std::optional<std::string>& file) {
+                                                const std::optional<std::string>& own) {
   const std::int64_t now = std::time(nullptr);
-  if (file) return keys::read_server_certificate(*file, now);
+  if (own) return keys::read_server_certificate(*own + "/certificate.pem", now);
   const Result<std::string> folder = config_folder();
   if (!folder) return folder.error();
   return keys::own_server_certificate(*folder + "/orcaview", names_at(listening.address), now);

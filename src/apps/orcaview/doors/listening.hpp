@@ -31,9 +31,11 @@ struct Listening {
 /// all connected interfaces if it stands for all, and the machine's name.
 [[nodiscard]] std::vector<std::string> names_at(const boost::asio::ip::address& address);
 
-/// Returns the certificate of a file, or, without one, that of orcaview itself, which it keeps in this user's folder of settings.
+/// Returns the certificate in `certificate.pem` of a folder, or, without one, that of orcaview itself, which it keeps in this user's
+/// folder of settings.
+/// @param own  the folder.
 /// @errors  with the file, and what to do.
 [[nodiscard]] Result<keys::ServerCertificate> certificate_for(const Listening& listening,
-                                                              const std::optional<std::string>& file);
+                                                              const std::optional<std::string>& own);
 
 }  // namespace orca::view
