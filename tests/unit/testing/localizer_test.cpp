@@ -238,7 +238,7 @@ struct StateHome {
   StateHome() { setenv("XDG_STATE_HOME", folder.path().c_str(), 1); }
   ~StateHome() { unsetenv("XDG_STATE_HOME"); }
 
-  [[nodiscard]] std::string pose() const { return folder.file("orca/room.pose"); }
+  [[nodiscard]] std::string pose() const { return folder.file("orca/kept/room.pose"); }
 
   test::TempFolder folder;
 };
