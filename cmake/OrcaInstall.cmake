@@ -109,6 +109,7 @@ function(orca_install_files)
     install(DIRECTORY ${folder}/ DESTINATION ${ORCA_SHARE}/${folder} COMPONENT simulator
       REGEX "/barn(\\.xml|_tuned)$" EXCLUDE)
   endforeach()
+  install(FILES schemas.xml DESTINATION ${ORCA_SHARE} COMPONENT runtime)
   install(DIRECTORY templates/ DESTINATION ${ORCA_SHARE}/templates COMPONENT tools)
   install(FILES ${CMAKE_BINARY_DIR}/share/orca/build.txt DESTINATION ${ORCA_SHARE} COMPONENT simulator)
   install(DIRECTORY web/ DESTINATION ${ORCA_SHARE}/web COMPONENT web

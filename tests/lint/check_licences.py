@@ -10,8 +10,8 @@ EXCEPTION = "LICENSES/Orca-plugin-exception.txt"
 LICENCE_OF_FOLDER = {
     "": LGPL, "dev": GPL, ".ci/": GPL, "src/apps/": GPL, "tests/": GPL, "bench/": GPL, "web/": GPL,
 }
-SOURCES = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".sh", ".cmake", "CMakeLists.txt", ".js", ".mjs", ".css", ".html")
-DATA = (".xml", ".xsd", ".urdf")  # either licence; those in tests/ are bad on purpose or compared byte by byte
+SOURCES = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".el", ".sh", ".cmake", "CMakeLists.txt", ".js", ".mjs", ".css", ".html")
+DATA = (".xml", ".xsd", ".rnc", ".urdf")  # either licence; those in tests/ are bad on purpose or compared byte by byte
 LINE = re.compile(r"SPDX-License-Identifier: *([^\s*<>]+)")
 
 

@@ -6,7 +6,7 @@ import re
 # Written in pieces so that this file does not find itself.
 UNFINISHED = re.compile(r"\b(" + "TO" + "DO|FIX" + r"ME|X" + r"XX)\b")
 MACHINE_PATH = re.compile(r"(?<![\w./>}])/(?:" + "home/[a-z]|Users/[A-Za-z]|root/|work/" + r")[\w./-]*")
-TEXT = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".sh", ".cmake", ".txt", ".md", ".json", ".xml", ".xsd", ".urdf",
+TEXT = (".cpp", ".hpp", ".h", ".c", ".idl", ".py", ".sh", ".cmake", ".txt", ".md", ".json", ".xml", ".xsd", ".rnc", ".urdf",
         ".toml", "dev", ".ci/run", ".map", ".clang-tidy", ".clang-format")
 FREE = ("LICENSES/", "tests/data/", "tests/fuzz/")
 # Rooms whose comments were read sentence by sentence. Others join them as they are.

@@ -55,7 +55,8 @@ TEST_CASE("standard output that cannot be written is an error, whatever is writt
        {Words{graph} + kShort, Words{graph, "--print"}, Words{graph, "--print", "--json"},
         Words{graph, "--list-ports"}, Words{graph, "--dot"}, Words{graph, "--mermaid"},
         Words{graph, "--check", "--json"}, Words{"--diff", graph, graph, "--json"}, Words{"--schema"},
-        Words{"--help"}, Words{"--version"}, Words{"--describe", ORCA_BINARY_DIR "/plugins/goto.so"}}) {
+        Words{"--rnc"}, Words{"--help"}, Words{"--version"},
+        Words{"--describe", ORCA_BINARY_DIR "/plugins/goto.so"}}) {
     CAPTURE(words);
     const Run run = run_with_full_stdout(words);
     INFO(run.err);

@@ -19,7 +19,7 @@ PROGRAMS = ("deployer", "orcactl", "simbatch", "orcaview", "hwprobe")
 BLOCK = re.compile(r"(?:^<!-- ([^\n]*) -->\n\n?)?^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(rf"(?:\$ )?(?:build/release/bin/|\./)?(?:dev|sudo|gdb|cmake|pkill|{'|'.join(PROGRAMS)}) [\w./-]")
 ENDS = re.compile(r"[|&>]|2>|.*;$")  # a word that ends the first program of a command
-INSTEAD_OF_RUNNING = {"--check", "--print", "--list-ports", "--dot", "--mermaid", "--diff", "--types", "--describe", "--schema", "--help", "--version"}
+INSTEAD_OF_RUNNING = {"--check", "--print", "--list-ports", "--dot", "--mermaid", "--diff", "--types", "--describe", "--schema", "--rnc", "--help", "--version"}
 
 # Commands that go on until Ctrl-C. The test gives it after some seconds.
 UNTIL_INTERRUPTED = ("*--watch", "orcactl log --follow *", "orcactl echo *Push", "orcactl hz *", "orcactl latency avoid.odometry",

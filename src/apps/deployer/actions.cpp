@@ -133,7 +133,7 @@ ExitCode describe(const Options& options) {
   return ExitCode::bad_input;
 }
 
-// Writes the language with the types that are installed. A plugin that cannot be loaded is reported once and left out.
+// Writes the graph's language with the types that are installed. A plugin that cannot be loaded is reported once and left out.
 ExitCode write_schema(const Options& options) {
   const plugin::PluginIndex index = index_of(options);
   std::vector<Contract> types;
@@ -149,7 +149,8 @@ ExitCode write_schema(const Options& options) {
     }
   }
   for (const std::string& fault : faults) std::fprintf(stderr, "error: %s\n", fault.c_str());
-  show(graph::schema(types));
+  show(graph::schema(
+      types, options.action == Options::Action::rnc ? xml::SchemaLanguage::rnc : xml::SchemaLanguage::xsd));
   return faults.empty() ? ExitCode::finished : ExitCode::bad_input;
 }
 
@@ -401,7 +402,8 @@ ExitCode act(const Options& options) {
     g_guests = std::move(guests).value();
   }
   switch (options.action) {
-    case Action::schema: return write_schema(options);
+    case Action::schema:
+    case Action::rnc: return write_schema(options);
     case Action::describe: return describe(options);
     case Action::types:
       return show(options.json ? types_json(index_of(options)) : types_text(index_of(options)));

@@ -158,6 +158,7 @@ std::vector<OptionSpec> other_options() {
       {"--schema", "",
        "the graph's language as an XML schema for editors, with the types of all plugins, their ports and "
        "parameters"},
+      {"--rnc", "", "the same in RELAX NG's compact syntax, for Emacs"},
       {"--strict", "", "warnings are errors: nothing starts with one", false, "How to check"},
       {"--json", "", "for programs; with --check, --print, --list-ports, --diff, --describe and --types"},
   };

@@ -21,9 +21,11 @@ namespace {
 using Action = Options::Action;
 
 constexpr std::pair<const char*, Action> kActions[] = {
-    {"--check", Action::check},       {"--print", Action::print}, {"--dot", Action::dot},
-    {"--mermaid", Action::mermaid},   {"--diff", Action::diff},   {"--list-ports", Action::list_ports},
-    {"--describe", Action::describe}, {"--types", Action::types}, {"--schema", Action::schema}};
+    {"--check", Action::check},       {"--print", Action::print},
+    {"--dot", Action::dot},           {"--mermaid", Action::mermaid},
+    {"--diff", Action::diff},         {"--list-ports", Action::list_ports},
+    {"--describe", Action::describe}, {"--types", Action::types},
+    {"--schema", Action::schema},     {"--rnc", Action::rnc}};
 
 Error wrong(const std::string& what) { return fail(Code::invalid_argument, what); }
 
@@ -226,7 +228,9 @@ class Reader {
 
   // Takes the files; the action decides how many are expected.
   Status take_files() {
-    if (options_.action == Action::types || options_.action == Action::schema) return ok();
+    if (options_.action == Action::types || options_.action == Action::schema ||
+        options_.action == Action::rnc)
+      return ok();
     const std::vector<std::string>& files = call_.words;
     const std::size_t wanted = options_.action == Action::diff ? 2 : 1;
     if (call_.guesses && files.size() != wanted) return ok();

@@ -18,7 +18,7 @@ namespace orca::deployer {
 
 /// The requests of a command line.
 struct Options {
-  enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, types, schema };
+  enum class Action { run, check, print, dot, mermaid, list_ports, diff, describe, types, schema, rnc };
   Action action = Action::run;
   std::optional<std::string> answer{};      ///< What is to be printed, instead of any action.
   std::string file;                         ///< The graph, or the plugin or type to describe.

@@ -4,32 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <set>
 #include <utility>
 
-#include "orca/xml/document.hpp"
 #include "orca/xml/number.hpp"
 #include "orca/xml/quantity.hpp"
+#include "schema_model.hpp"
 
 namespace orca::xml {
 namespace {
 
 using Form = ValueRule::Form;
-
-constexpr const char* kArgument = "with_argument";
-
-// Keeps the lines of the text, which escaped() would write as characters.
-std::string documentation(const std::string& text, const std::string& indent) {
-  if (text.empty()) return {};
-  std::string lines;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    lines += (start == 0 ? "" : "\n") + escaped(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return indent + "<xs:annotation><xs:documentation>" + lines + "</xs:documentation></xs:annotation>\n";
-}
 
 // Returns "From 0 to 86400 s.", or nothing if everything is allowed.
 std::string range_text(const ValueRule& rule) {
@@ -64,47 +49,29 @@ std::string numbers_pattern(std::string_view si) {
   return "\\s*" + number + "(\\s+" + number + ")*\\s*";
 }
 
-std::string pattern_type(const std::string& pattern) {
-  return "<xs:restriction base=\"xs:string\"><xs:pattern value=\"" + pattern + "\"/></xs:restriction>";
+std::string bound(double value) {
+  if (!is_exact(value)) return "any";
+  return (value < 0.0 ? "minus_" : "") + std::to_string(std::llabs(std::llround(value)));
 }
 
-// Returns whether a double holds every whole number up to this one.
-bool is_exact(double value) { return std::fabs(value) < 9e15; }
-
-std::string whole_number_type(const ValueRule& rule) {
-  std::string facets;
-  if (is_exact(rule.min))
-    facets += "<xs:minInclusive value=\"" + std::to_string(std::llround(rule.min)) + "\"/>";
-  if (is_exact(rule.max))
-    facets += "<xs:maxInclusive value=\"" + std::to_string(std::llround(rule.max)) + "\"/>";
-  return "<xs:restriction base=\"xs:integer\">" + facets + "</xs:restriction>";
-}
-
-// A writer of one schema. Its types are named after elements; the second rule of one name is named after its parent too.
-class Writer {
+// A maker of one schema. Its types are named after elements; the second rule of one name is named after its parent too.
+class Maker {
  public:
-  Writer(const FileRules& file, const SchemaOptions& options) : file_(file), options_(options) {}
+  Maker(const FileRules& file, const SchemaOptions& options) : file_(file), options_(options) {}
 
-  std::string write() {
+  SchemaModel make() {
     std::set<const ElementRule*> inner;
     for (const ElementRule* rule : file_.elements)
       for (const ElementRule* child : rule->children) inner.insert(child);
-    std::string roots;
-    for (const ElementRule* rule : file_.elements) {
-      if (inner.contains(rule)) continue;
-      roots += element_text(*rule, "", "  ");
+    for (const ElementRule* rule : file_.elements)
+      if (!inner.contains(rule)) model_.roots.push_back(child(*rule, ""));
+    for (std::size_t next = 0; next < pending_.size(); ++next) {
+      const Pending one = pending_[next];  // a copy, as others are added
+      model_.types.push_back(type(one));
     }
-    std::string types;
-    for (std::size_t next = 0; next < pending_.size(); ++next) types += type_text(next);
-    std::string values;
-    if (options_.has_arguments) values = named_type(kArgument, pattern_type(".*[$]\\{.*\\}.*"));
-    for (const auto& [name, text] : value_types_) values += text;
-    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-           "<!-- SPDX-License-Identifier: LGPL-3.0-or-later -->\n<!-- " +
-           options_.title +
-           ", for editors. Written by Orca from the rules that it reads by -->\n"
-           "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n" +
-           values + roots + types + "</xs:schema>\n";
+    model_.has_arguments = options_.has_arguments;
+    model_.others.assign(options_.others.begin(), options_.others.end());
+    return std::move(model_);
   }
 
  private:
@@ -113,10 +80,6 @@ class Writer {
     std::string parent;
     std::string name;
   };
-
-  static std::string named_type(const std::string& name, const std::string& content) {
-    return "  <xs:simpleType name=\"" + name + "\">\n    " + content + "\n  </xs:simpleType>\n";
-  }
 
   [[nodiscard]] const Vocabulary* vocabulary(std::string_view element, std::string_view parent,
                                              std::string_view attribute) const {
@@ -151,112 +114,83 @@ class Writer {
     return name;
   }
 
-  std::string element_text(const ElementRule& rule, const std::string& parent, const std::string& indent) {
-    const std::string start =
-        indent + "<xs:element name=\"" + std::string(rule.name) + "\" type=\"" + type_of(rule, parent) + "\"";
-    std::string content;
+  SchemaChild child(const ElementRule& rule, const std::string& parent) {
+    SchemaChild made{.name = std::string(rule.name), .type = type_of(rule, parent)};
     for (const UniqueNames& one : options_.unique) {
       if (one.element != rule.name) continue;
-      const std::string name = "unique_" + std::string(one.children) + "_in_" + std::string(rule.name) +
-                               (parent.empty() ? "" : "_of_" + parent);
-      content += indent + "  <xs:unique name=\"" + name + "\"><xs:selector xpath=\"" +
-                 std::string(one.children) + "\"/><xs:field xpath=\"@name\"/></xs:unique>\n";
+      const std::string children(one.children);
+      made.unique.emplace_back(
+          "unique_" + children + "_in_" + made.name + (parent.empty() ? "" : "_of_" + parent), children);
     }
-    return content.empty() ? start + "/>\n" : start + ">\n" + content + indent + "</xs:element>\n";
+    return made;
   }
 
-  std::string type_text(std::size_t index) {
-    const Pending one = pending_[index];  // a copy, as others are added
-    const bool is_open = one.parent.empty() && !options_.others.empty();
-    std::string children;
-    for (const ElementRule* child : one.rule->children)
-      children += element_text(*child, std::string(one.rule->name), "      ");
-    if (is_open)
-      for (const std::string_view other : options_.others)
-        children += "      <xs:element name=\"" + std::string(other) + "\"/>\n";
-    std::string text =
-        "  <xs:complexType name=\"" + one.name + "\">\n" + documentation(std::string(one.rule->text), "    ");
-    if (!children.empty())
-      text += "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n" + children + "    </xs:choice>\n";
-    for (const AttributeRule& rule : one.rule->attributes) text += attribute_text(rule, one);
-    if (is_open) text += "    <xs:anyAttribute processContents=\"skip\"/>\n";
-    return text + "  </xs:complexType>\n";
+  SchemaType type(const Pending& one) {
+    SchemaType made{.name = one.name, .text = std::string(one.rule->text)};
+    for (const ElementRule* rule : one.rule->children)
+      made.children.push_back(child(*rule, std::string(one.rule->name)));
+    for (const AttributeRule& rule : one.rule->attributes) made.attributes.push_back(attribute(rule, one));
+    for (const std::string_view name : one.rule->foreign)
+      if (!name.starts_with("xmlns")) made.foreign.emplace_back(name);
+    made.is_open = one.parent.empty() && !options_.others.empty();
+    return made;
   }
 
-  std::string attribute_text(const AttributeRule& rule, const Pending& element) {
+  SchemaAttribute attribute(const AttributeRule& rule, const Pending& element) {
     const Vocabulary* words = vocabulary(element.rule->name, element.parent, rule.name);
-    std::string start = "    <xs:attribute name=\"" + std::string(rule.name) + "\"";
-    std::string content = documentation(with_range(rule.text, rule.value), "      ");
-    const std::string type = value_type(rule.value);
-    if (words == nullptr && rule.value.choices.empty()) {
-      start += " type=\"" + type + "\"";
+    SchemaAttribute made{
+        .name = std::string(rule.name), .required = rule.required, .text = with_range(rule.text, rule.value)};
+    const std::string value = value_type(rule.value);
+    if (words != nullptr) {
+      made.words = words->words;
     } else {
-      std::vector<SchemaWord> allowed;
-      for (const std::string_view choice : rule.value.choices) allowed.push_back({std::string(choice), {}});
-      if (words != nullptr) allowed = words->words;
-      content += words_text(allowed, words != nullptr && !words->only ? type : "");
+      for (const std::string_view choice : rule.value.choices)
+        made.words.push_back({std::string(choice), {}});
     }
-    if (rule.required) start += " use=\"required\"";
-    return content.empty() ? start + "/>\n" : start + ">\n" + content + "    </xs:attribute>\n";
+    if (words != nullptr ? !words->only : rule.value.choices.empty())
+      made.value = value;
+    else if (options_.has_arguments)
+      made.value = kArgument;
+    return made;
   }
 
-  // Returns a type that allows one of the words, an argument if the file has some, or what the other type allows.
-  [[nodiscard]] std::string words_text(const std::vector<SchemaWord>& words, const std::string& other) const {
-    std::string enumeration = "<xs:restriction base=\"xs:string\">\n";
-    for (const SchemaWord& one : words) {
-      enumeration += "              <xs:enumeration value=\"" + escaped(one.word) + "\"";
-      enumeration += one.text.empty() ? "/>\n"
-                                      : ">\n" + documentation(one.text, "                ") +
-                                            "              </xs:enumeration>\n";
-    }
-    enumeration += "            </xs:restriction>\n";
-    const std::string members = !other.empty() ? other : options_.has_arguments ? kArgument : "";
-    return "      <xs:simpleType>\n        <xs:union" +
-           (members.empty() ? "" : " memberTypes=\"" + members + "\"") +
-           ">\n          <xs:simpleType>\n            " + enumeration +
-           "          </xs:simpleType>\n        </xs:union>\n      </xs:simpleType>\n";
-  }
-
-  // Returns the type of values that follow a rule without choices.
+  // Returns the name of the type of values that follow a rule without choices.
   std::string value_type(const ValueRule& rule) {
     switch (rule.form) {
-      case Form::text: return "xs:string";
-      case Form::name: return value_type("name", pattern_type("\\s*[A-Za-z][A-Za-z0-9_]{0,199}\\s*"));
-      case Form::boolean: return value_type("boolean", pattern_type("\\s*(true|false)\\s*"));
+      case Form::text: return kAnyText;
+      case Form::name: return value_type("name", {.pattern = "\\s*[A-Za-z][A-Za-z0-9_]{0,199}\\s*"});
+      case Form::boolean: return value_type("boolean", {.pattern = "\\s*(true|false)\\s*"});
       case Form::integer:
         return value_type("whole_from_" + bound(rule.min) + "_to_" + bound(rule.max),
-                          whole_number_type(rule));
+                          {.min = rule.min, .max = rule.max});
       case Form::number:
-        return value_type("numbers_in_" + name_part(rule.unit), pattern_type(numbers_pattern(rule.unit)));
+        return value_type("numbers_in_" + name_part(rule.unit), {.pattern = numbers_pattern(rule.unit)});
     }
-    return "xs:string";
+    return kAnyText;
   }
 
-  static std::string bound(double value) {
-    if (!is_exact(value)) return "any";
-    return (value < 0.0 ? "minus_" : "") + std::to_string(std::llabs(std::llround(value)));
-  }
-
-  std::string value_type(const std::string& name, const std::string& content) {
-    if (value_types_.contains(name)) return name;
-    value_types_[name] =
-        !options_.has_arguments
-            ? named_type(name, content)
-            : named_type(name, "<xs:union memberTypes=\"" + std::string(kArgument) + "\"><xs:simpleType>" +
-                                   content + "</xs:simpleType></xs:union>");
+  std::string value_type(const std::string& name, const SchemaValue& value) {
+    model_.values.try_emplace(name, value);
     return name;
   }
 
   const FileRules& file_;
   const SchemaOptions& options_;
   std::vector<Pending> pending_;
-  std::map<std::string, std::string> value_types_;  // by name
+  SchemaModel model_;
 };
 
 }  // namespace
 
-std::string schema(const FileRules& file, const SchemaOptions& options) {
-  return Writer(file, options).write();
+bool is_exact(double value) { return std::fabs(value) < 9e15; }
+
+SchemaModel schema_model(const FileRules& file, const SchemaOptions& options) {
+  return Maker(file, options).make();
+}
+
+std::string schema(const FileRules& file, const SchemaOptions& options, SchemaLanguage language) {
+  const SchemaModel model = schema_model(file, options);
+  return language == SchemaLanguage::rnc ? rnc(model, options.title) : xsd(model, options.title);
 }
 
 }  // namespace orca::xml

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The schemas that are shipped for editors, beside that of graphs, are what the readers' rules give. With ORCA_APPROVE=1 they are
+// The schemas that are shipped for editors, beside those of graphs, are what the readers' rules give. With ORCA_APPROVE=1 they are
 // written anew.
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -15,7 +15,11 @@ namespace {
 
 void check_shipped(const char* file, const orca::xml::FileRules& rules,
                    const orca::xml::SchemaOptions& options) {
-  orca::test::check_approved(std::filesystem::path(ORCA_SOURCE_DIR) / file, schema(rules, options));
+  const std::filesystem::path xsd = std::filesystem::path(ORCA_SOURCE_DIR) / file;
+  orca::test::check_approved(xsd, schema(rules, options));
+  std::filesystem::path rnc = xsd;
+  orca::test::check_approved(rnc.replace_extension(".rnc"),
+                             schema(rules, options, orca::xml::SchemaLanguage::rnc));
 }
 
 }  // namespace

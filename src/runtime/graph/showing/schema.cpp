@@ -85,7 +85,7 @@ void add_types(std::span<const Contract> contracts, PluginKind kind, std::vector
 
 }  // namespace
 
-std::string schema(std::span<const Contract> types) {
+std::string schema(std::span<const Contract> types, xml::SchemaLanguage language) {
   xml::SchemaOptions options{.title = "Orca's system graphs", .has_arguments = true};
   options.vocabularies = {{"connect", "", "queue", {{"latest", "Only the newest waits."}}, false},
                           {"connect", "", "drop_limit", {{"any", "Never logged."}}, false}};
@@ -95,7 +95,7 @@ std::string schema(std::span<const Contract> types) {
   options.unique = {{"graph", "machine"},   {"graph", "process"},  {"graph", "arg"},
                     {"graph", "component"}, {"graph", "hardware"}, {"component", "param"},
                     {"component", "port"},  {"hardware", "param"}};
-  return xml::schema(graph_rules(), options);
+  return xml::schema(graph_rules(), options, language);
 }
 
 }  // namespace orca::graph

@@ -2,7 +2,9 @@
 // The schema of graphs: what it allows fits the reader's rules, and which faults it finds.
 #include "orca/graph/print.hpp"
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -80,21 +82,47 @@ std::vector<Contract> fake_contracts() {
   return contracts;
 }
 
-bool has_xmllint() {
-  if (std::system("command -v xmllint >/dev/null") == 0) return true;
-  std::cout << "SKIPPED: there is no xmllint; apt install libxml2-utils\n";
+bool has_tool(const std::string& name, const std::string& package) {
+  if (std::system(("command -v " + name + " >/dev/null").c_str()) == 0) return true;
+  std::cout << "SKIPPED: there is no " + name + "; apt install " + package + "\n";
   return false;
 }
 
+bool has_xmllint() { return has_tool("xmllint", "libxml2-utils"); }
+
 // The files that do not fit the schema, as xmllint finds.
-std::vector<std::string> misfits(const std::string& schema, const std::vector<fs::path>& files) {
+// @param option  says the schema's language.
+std::vector<std::string> misfits(const std::string& option, const std::string& schema,
+                                 const std::vector<fs::path>& files) {
   std::vector<std::string> names;
   for (const fs::path& file : files)
     if (std::system(
-            ("xmllint --noout --schema '" + schema + "' '" + file.string() + "' 2>/dev/null >&2").c_str()) !=
-        0)
+            ("xmllint --noout " + option + " '" + schema + "' '" + file.string() + "' 2>/dev/null >&2")
+                .c_str()) != 0)
       names.push_back(file.filename().string());
   return names;
+}
+
+// Writes the schema in the compact syntax of RELAX NG, and again in its XML syntax, which xmllint reads.
+std::string relax_ng(const orca::test::TempFolder& folder) {
+  const std::string compact =
+      folder.write("graph.rnc", graph::schema(fake_contracts(), xml::SchemaLanguage::rnc));
+  const std::string converted = compact + ".rng";
+  REQUIRE(std::system(("rnc2rng '" + compact + "' '" + converted + "'").c_str()) == 0);
+  return converted;
+}
+
+std::vector<fs::path> good_graphs() {
+  return orca::test::files_in(fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/good", ".xml");
+}
+
+std::vector<fs::path> faulty_graphs() {
+  std::vector<fs::path> faulty;
+  for (const fs::path& file :
+       orca::test::files_in(fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/broken", ".xml"))
+    if (orca::test::bytes_of(orca::test::approved_text_of(file)).find(": error ") != std::string::npos)
+      faulty.push_back(file);
+  return faulty;
 }
 
 }  // namespace
@@ -147,8 +175,13 @@ TEST_CASE("xmllint finds no fault in good graphs by a schema with types", "[grap
   if (!has_xmllint()) return;
   const orca::test::TempFolder folder;
   const std::string schema = folder.write("graph.xsd", graph::schema(fake_contracts()));
-  CHECK(misfits(schema, orca::test::files_in(fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/good", ".xml")) ==
-        std::vector<std::string>{});
+  CHECK(misfits("--schema", schema, good_graphs()) == std::vector<std::string>{});
+  if (!has_tool("rnc2rng", "python3-rnc2rng")) return;
+  std::vector<fs::path> files = good_graphs();
+  files.emplace_back(folder.write("leading.xml",
+                                  "<graph name='g' xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance' "
+                                  "xsi:noNamespaceSchemaLocation='orca-graph.xsd'/>"));
+  CHECK(misfits("--relaxng", relax_ng(folder), files) == std::vector<std::string>{});
 }
 
 // As docs/graph.md says.
@@ -156,12 +189,21 @@ TEST_CASE("xmllint finds at least 99 of the faulty graphs by a schema with types
   if (!has_xmllint()) return;
   const orca::test::TempFolder folder;
   const std::string schema = folder.write("graph.xsd", graph::schema(fake_contracts()));
-  std::vector<fs::path> faulty;
-  for (const fs::path& file :
-       orca::test::files_in(fs::path(ORCA_SOURCE_DIR) / "tests/data/graphs/broken", ".xml"))
-    if (orca::test::bytes_of(orca::test::approved_text_of(file)).find(": error ") != std::string::npos)
-      faulty.push_back(file);
-  const std::vector<std::string> found = misfits(schema, faulty);
+  const std::vector<fs::path> faulty = faulty_graphs();
+  const std::vector<std::string> found = misfits("--schema", schema, faulty);
   std::cout << found.size() << " of " << faulty.size() << " faulty graphs do not fit the schema\n";
   CHECK(found.size() >= 99);
+  if (!has_tool("rnc2rng", "python3-rnc2rng")) return;
+
+  // RELAX NG finds the same, except names that are given twice.
+  const std::vector<std::string> found_in_emacs = misfits("--relaxng", relax_ng(folder), faulty);
+  std::vector<std::string> missed;
+  std::ranges::set_difference(found, found_in_emacs, std::back_inserter(missed));
+  CHECK(missed == std::vector<std::string>{"arg_duplicate.xml", "machine_duplicate.xml",
+                                           "name_duplicate_component.xml", "name_duplicate_hardware.xml",
+                                           "name_duplicate_param.xml", "port_given_twice_and_used.xml",
+                                           "port_set_twice.xml", "process_duplicate.xml"});
+  std::vector<std::string> more;
+  std::ranges::set_difference(found_in_emacs, found, std::back_inserter(more));
+  CHECK(more == std::vector<std::string>{});
 }

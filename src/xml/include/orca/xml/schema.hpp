@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// XML schemas (XSD 1.0) for editors, made from the rules by which files are read.
+// Schemas for editors, made from the rules by which files are read.
 #pragma once
 
 #include <string>
@@ -41,11 +41,15 @@ struct SchemaOptions {
       others{};  ///< Further elements of the root, of any content; the root has any attributes then.
 };
 
+/// The languages of schemas: XML Schema 1.0, and RELAX NG in its compact syntax, which is that of Emacs.
+enum class SchemaLanguage { xsd, rnc };
+
 /// Returns the schema of a kind of file. It refuses no file that the reader takes, but it is less strict: numbers have their
 /// units checked, whole numbers also their range, and nothing is compared with other files. An attribute with a rule for a
-/// number may hold several, since some are lists.
+/// number may hold several, since some are lists. RELAX NG cannot say that names must differ.
 ///
 /// Thread contract: pure function.
-[[nodiscard]] std::string schema(const FileRules& file, const SchemaOptions& options);
+[[nodiscard]] std::string schema(const FileRules& file, const SchemaOptions& options,
+                                 SchemaLanguage language = SchemaLanguage::xsd);
 
 }  // namespace orca::xml

@@ -7,6 +7,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/graph/graph.hpp"
+#include "orca/xml/schema.hpp"
 
 namespace orca::graph {
 
@@ -35,11 +36,12 @@ namespace orca::graph {
 /// @param profiles  the profiles merged into it, for the title; may be empty.
 [[nodiscard]] std::string mermaid(const Graph& graph, const std::string& profiles);
 
-/// Returns the graph's language as an XML schema, for editors: graphs/orca-graph.xsd. It is made from the
+/// Returns the graph's language as an XML schema, for editors: graphs/orca-graph.xsd, or .rnc. It is made from the
 /// rules that the reader follows, but is less strict than the reader: any value may be "${arg}", and a parameter
 /// may have any value and be one of any of the types.
 ///
 /// @param types  components and hardware that may be used, whose ports and parameters it describes; empty: any.
-[[nodiscard]] std::string schema(std::span<const Contract> types);
+[[nodiscard]] std::string schema(std::span<const Contract> types,
+                                 xml::SchemaLanguage language = xml::SchemaLanguage::xsd);
 
 }  // namespace orca::graph
