@@ -18,25 +18,15 @@ constexpr std::size_t kParticles = 200;  // of a place that is known roughly
 constexpr double kWide = 0.3;            // [m] beyond which particles are weighed before a scan is laid
 constexpr double kWideTurn = 0.15;       // [rad]
 constexpr double kLongWay = 0.5;         // [m], [rad]
-constexpr double kBody = 0.1;            // [m] that the middle of a robot is at least from what is occupied
-constexpr double kMostSpread = 0.5;      // [m] up to which a place is known
+constexpr double kClose = 0.2;  // [m] in which echoes look for their walls about a place that is known well
+constexpr double kBody = 0.1;   // [m] that the middle of a robot is at least from what is occupied
+constexpr double kMostSpread = 0.5;  // [m] up to which a place is known
 
 double square(double x) { return x * x; }
 
 // How far the place itself may be off.
 double deviation_of(const PoseSpread& spread) {
   return std::sqrt(spread.covariance[0] + spread.covariance[4]);
-}
-
-/// Takes one point of those that lie within `apart` of each other, and then at most `most`.
-std::vector<SurfacePoint> thinned(std::span<const SurfacePoint> points, double apart, std::size_t most) {
-  std::vector<SurfacePoint> some;
-  for (const SurfacePoint& point : points)
-    if (some.empty() || norm(point.at - some.back().at) >= apart) some.push_back(point);
-  if (some.size() <= most) return some;
-  std::vector<SurfacePoint> fewer;
-  for (std::size_t i = 0; i < most; ++i) fewer.push_back(some[i * some.size() / most]);
-  return fewer;
 }
 
 PoseSpread widened(const PoseSpread& spread, double factor) {
@@ -78,18 +68,38 @@ void weigh(Particles& particles, const RobotScan& scan, const KnownMap& map) {
   });
 }
 
-// Lays a scan on the map, near where the robot should be.
+// Lays a scan on the map, near where the robot should be. What draws it away from there must explain clearly more of the scan, and the more the
+// farther it is: a piece of furniture that was moved explains a little more where it stood.
 std::optional<ScanMatch> match(const RobotScan& scan, const KnownMap& map, const PoseSpread& prior,
-                               const MatchOptions& options) {
-  std::optional<ScanMatch> best = refine(scan.echoes, map.surface(), prior.mean, options);
+                               const LocalizerOptions& options) {
+  constexpr double kMostMargin = 0.15;  // [1] A slip of the wheels shows by it.
+  MatchOptions close = options.match;
+  close.reach = std::min(close.reach, kClose + 3.0 * deviation_of(prior));
+  std::optional<ScanMatch> best =
+      refine(scan.echoes, map.surface(), prior.mean, close, information_of(prior));
+  // The prior decides what is looked at, but counts only once.
+  close.reach = close.inlier;
+  if (best) best = refine(scan.echoes, map.surface(), best->X_MR, close);
   if (best && best->share >= kSurely) return best;
   const double way = std::clamp(3.0 * deviation_of(prior), 0.3, 1.0);
   const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
   const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 90);
   const auto found = map.search().best(some, {prior.mean, way, turn}, 0.0);
   if (!found) return best;
-  std::optional<ScanMatch> other = refine(scan.echoes, map.surface(), found->X_MR, options);
-  return other && (!best || other->fit > best->fit + 0.02) ? other : best;
+  close.reach = kClose;
+  std::optional<ScanMatch> other = refine(scan.echoes, map.surface(), found->X_MR, close);
+  if (!other || !best) return other ? other : best;
+  const double margin = 0.5 * squared_distance(prior, other->X_MR) / options.evidence;
+  return other->fit > best->fit + std::clamp(margin, options.apart, kMostMargin) ? other : best;
+}
+
+// Returns where a scan lies that was found by a search: by 10 cm and 4 degrees at worst, as the search looks more closely.
+PoseSpread spread_of(const ScanMatch& laid) {
+  PoseInformation known = laid.information;
+  known.xx += 100.0;
+  known.yy += 100.0;
+  known.tt += 200.0;
+  return {laid.X_MR, covariance_of(known, laid.X_MR.yaw)};
 }
 
 }  // namespace
@@ -268,7 +278,7 @@ void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
     prior = place.particles.spread();
   }
   for (const std::size_t i : {0U, 4U, 8U}) prior.covariance[i] += 1e-6;
-  const std::optional<ScanMatch> found = match(scan, *map_, prior, options_.match);
+  const std::optional<ScanMatch> found = match(scan, *map_, prior, options_);
   if (!found || found->share < 0.25) return;
   // Only one place that is believed teaches how the map is off.
   SurfaceOffset offset = offsets_[scan.sensor];
@@ -348,10 +358,17 @@ void MapLocalizer::go_on_searching() {
 }
 
 // Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
+// One that all scans fit by now is not given up for what fitted one scan, some way ago.
 void MapLocalizer::take_found() {
+  const bool is_certain =
+      known(now_) == Known::localized && places_.front().belief.quick >= options_.believed_from;
+  if (is_certain && !suggested_) return;
   left_some_out_ = search_->places.left_some_out();
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
+  const std::array<double, 3> deviations = deviations_of(search_->taken, settled_);
+  MatchOptions close = options_.match;
+  close.reach = kClose;
   const std::size_t known = places_.size();
   std::vector<double> evidence;
   for (Candidate& place : places_) {
@@ -361,11 +378,11 @@ void MapLocalizer::take_found() {
     if (suggested_) place.belief.odds += options_.suggested;
   }
   for (const Found& found : search_->places.found()) {
-    const std::optional<ScanMatch> laid = refine(scan.echoes, map_->surface(), found.X_MR, options_.match);
+    const std::optional<ScanMatch> laid = refine(scan.echoes, map_->surface(), found.X_MR, close);
     if (!laid) continue;
     const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
     if (explained.fit < options_.doubted_below || map_->distance(laid->X_MR.position()) < kBody) continue;
-    const PoseSpread where{laid->X_MR * since, {0.01, 0.0, 0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.005}};
+    const PoseSpread where = after(spread_of(*laid), since, deviations);
     double odds = options_.evidence * explained.fit;
     for (std::size_t i = 0; i < known; ++i)
       if (is_same(places_[i].particles.spread().mean, where.mean)) odds += evidence[i];

@@ -83,6 +83,14 @@ double squared_distance(const PoseSpread& spread, const Pose2& pose) {
   return away.dot(matrix_of(spread.covariance).ldlt().solve(away));
 }
 
+PoseInformation information_of(const PoseSpread& spread) {
+  const Vec2 ahead = direction(spread.mean.yaw);
+  Matrix turn = Matrix::Identity();
+  turn.topLeftCorner<2, 2>() << ahead.x, -ahead.y, ahead.y, ahead.x;
+  const Matrix known = turn.transpose() * matrix_of(spread.covariance).inverse() * turn;
+  return {known(0, 0), known(0, 1), known(1, 1), known(0, 2), known(1, 2), known(2, 2)};
+}
+
 void Particles::scatter(const PoseSpread& around, std::size_t count, RandomStream& random) {
   const Matrix root = root_of(around.covariance);
   particles_.clear();

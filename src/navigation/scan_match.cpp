@@ -69,15 +69,30 @@ Step step_at(std::span<const SurfacePoint> scan, const SurfaceMap& map, const Po
   return step;
 }
 
+// Lets the guess pull.
+// @param moved  the pose seen from the guess.  @param unit  the weight of a point by its information.
+void hold(Step& step, const PoseInformation& held, const Pose2& moved, double unit) {
+  Eigen::Matrix3d known;
+  known << held.xx, held.xy, held.xt, held.xy, held.yy, held.yt, held.xt, held.yt, held.tt;
+  const Vec2 ahead = direction(moved.yaw);
+  Eigen::Matrix3d by_move = Eigen::Matrix3d::Identity();
+  by_move.topLeftCorner<2, 2>() << ahead.x, -ahead.y, ahead.y, ahead.x;
+  const Eigen::Matrix3d pull = unit * by_move.transpose() * known;
+  step.h += pull * by_move;
+  step.b += pull * Eigen::Vector3d(moved.x, moved.y, moved.yaw);
+}
+
 }  // namespace
 
 std::optional<ScanMatch> refine(std::span<const SurfacePoint> scan, const SurfaceMap& map, const Pose2& guess,
-                                const MatchOptions& options) {
+                                const MatchOptions& options, const PoseInformation& held) {
+  const double unit = options.error * options.error * options.together;
   ScanMatch match{guess, {}};
   double reach = options.reach;
   for (int i = 0; i < options.iterations; ++i) {
-    const Step step = step_at(scan, map, match.X_MR, reach);
+    Step step = step_at(scan, map, match.X_MR, reach);
     if (step.pulled < kLeastPoints) return std::nullopt;
+    hold(step, held, seen_from(guess, match.X_MR), unit);
     // A little stiffness keeps a direction that nothing holds where it is.
     Eigen::Matrix3d h = step.h;
     h.diagonal().array() += 1e-3;
@@ -93,7 +108,7 @@ std::optional<ScanMatch> refine(std::span<const SurfacePoint> scan, const Surfac
   match.share = last.pulled / static_cast<double>(scan.size());
   match.fit = last.fit / static_cast<double>(scan.size());
   match.spread = std::sqrt(last.squares / last.pulled);
-  const Eigen::Matrix3d known = last.known / (options.error * options.error * options.together);
+  const Eigen::Matrix3d known = last.known / unit;
   match.information = {known(0, 0), known(0, 1), known(1, 1), known(0, 2), known(1, 2), known(2, 2)};
   return match;
 }

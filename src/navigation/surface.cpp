@@ -143,6 +143,16 @@ std::vector<SurfacePoint> surface_of(std::span<const Vec2> points, Vec2 sensor, 
   return result;
 }
 
+std::vector<SurfacePoint> thinned(std::span<const SurfacePoint> points, double apart, std::size_t most) {
+  std::vector<SurfacePoint> some;
+  for (const SurfacePoint& point : points)
+    if (some.empty() || norm(point.at - some.back().at) >= apart) some.push_back(point);
+  if (some.size() <= most) return some;
+  std::vector<SurfacePoint> fewer;
+  for (std::size_t i = 0; i < most; ++i) fewer.push_back(some[i * some.size() / most]);
+  return fewer;
+}
+
 void SurfaceMap::add(std::span<const SurfacePoint> scan, const Pose2& X_MR) {
   for (const SurfacePoint& point : scan)
     points_.push_back({X_MR * point.at, rotated(point.normal, X_MR.yaw)});

@@ -144,6 +144,37 @@ TEST_CASE("a search leaves a place the evidence against it that other scans gave
   CHECK(drive.off() < 0.1);
 }
 
+TEST_CASE("a search that began in doubt moves no robot whose place fits again when it ends", "[navigation]") {
+  const test::Walls crate = test::box({7.0, 2.8}, {7.6, 3.6});
+  const test::Walls walls = test::box({0.03, 0.02}, {4.03, 4.02});
+  test::Walls drawn = walls;
+  for (const test::Walls& more : {test::box({6.03, 0.02}, {10.03, 4.02}), crate})
+    drawn.insert(drawn.end(), more.begin(), more.end());
+  const auto map = std::make_shared<const KnownMap>(test::grid_of(drawn, {-0.5, -0.5}, {10.5, 4.5}));
+  LocalizerOptions options;
+  options.looks = 20'000;
+  MapLocalizer localizer(map, RandomStream(1, "test", "particles"), options);
+  RandomStream random(3, "test", "scans");
+  Reckoned now;
+  const Pose2 X_MR{1.3, 1.7, 0.3};
+  const PlaceBelief here{.where = around(X_MR), .quick = 0.3, .slow = 0.8};
+  localizer.resume(std::array{here}, true, now);
+  // For one scan a crate stands where one is drawn in the other room.
+  test::Walls for_one_scan = walls;
+  for (const test::Wall& wall : crate)
+    for_one_scan.push_back({wall.from - Vec2{6.0, 0.0}, wall.to - Vec2{6.0, 0.0}});
+  localizer.see(test::robot_scan(for_one_scan, X_MR, random));
+  int scans = 0;
+  for (; localizer.searches() && scans < 200; ++scans) {
+    now.time += 0.5;
+    localizer.move(now);
+    localizer.see(test::robot_scan(walls, X_MR, random));
+  }
+  CHECK(scans >= 10);
+  CHECK(localizer.known(now) == Known::localized);
+  CHECK(apart(localizer.where(now)->mean, X_MR).way < 0.1);
+}
+
 TEST_CASE("a robot that was carried off notices, and is found again", "[navigation]") {
   Drive drive;
   drive.localizer.place(around(drive.X_MR), drive.reckoned);
@@ -193,6 +224,24 @@ TEST_CASE("a crate before a robot that hides half of what it sees does not make 
     drive.localizer.see(scan);
     CHECK(drive.known() == Known::localized);
   }
+  CHECK(drive.off() < 0.05);
+}
+
+TEST_CASE("a crate that was moved along a corridor does not draw a robot with it", "[navigation]") {
+  Drive drive;
+  const test::Walls corridor{{{0.03, 0.02}, {30.03, 0.02}}, {{0.03, 2.02}, {30.03, 2.02}}};
+  const auto with_crate_at = [&](double x) {
+    test::Walls walls = corridor;
+    const test::Walls crate = test::box({x, 0.3}, {x + 0.8, 1.4});
+    walls.insert(walls.end(), crate.begin(), crate.end());
+    return walls;
+  };
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(with_crate_at(12.0), {-0.5, -0.5}, {30.5, 2.5}));
+  drive.localizer.change_map(drive.map);
+  drive.walls = with_crate_at(12.25);
+  drive.X_MR = {8.0, 1.0, 0.0};
+  drive.localizer.place({drive.X_MR, {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}}, drive.reckoned);
+  drive.stand(30);
   CHECK(drive.off() < 0.05);
 }
 

@@ -9,6 +9,7 @@
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/navigation/pose_graph.hpp"
 
 namespace orca::nav {
 
@@ -33,6 +34,11 @@ struct PoseSpread {
 /// Returns the squared distance of a pose from a mean, in units of the covariance (Mahalanobis).
 /// @pre  the covariance is positive definite.
 [[nodiscard]] double squared_distance(const PoseSpread& spread, const Pose2& pose);
+
+/// Returns how much is known of a pose of that covariance, in its own frame.
+/// @pre  the covariance is positive definite.
+/// @thread  pure function; any thread.
+[[nodiscard]] PoseInformation information_of(const PoseSpread& spread);
 
 /// How many particles are kept.
 struct ParticleOptions {

@@ -37,11 +37,14 @@ struct MatchOptions {
 
 /// Moves a scan to where its points lie on the surfaces of the map, beginning at a guess: points to lines, each pulling the less the farther
 /// it is off. Points without a normal in the map pull towards the point.
+/// @param held  how sharply the guess is known, in its own frame: by that much it pulls back. Without it a few points on a piece of furniture that
+///              was moved draw the scan along a corridor, whose walls do not hold it there. The information that is returned is that of the scan alone.
 /// @return nothing, if fewer than ten points find a surface.
 /// Thread contract: pure; any thread.
 /// @source  Censi, "An ICP variant using a point-to-line metric", ICRA 2008, for the distance; the pulls are Cauchy's.
 [[nodiscard]] std::optional<ScanMatch> refine(std::span<const SurfacePoint> scan, const SurfaceMap& map,
-                                              const Pose2& guess, const MatchOptions& options = {});
+                                              const Pose2& guess, const MatchOptions& options = {},
+                                              const PoseInformation& held = {});
 
 /// Where to look for a scan.
 struct SearchWindow {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,12 @@ struct SurfacePoint {
 /// @param points  of one scan, in the order of its beams.  @param sensor  where it was taken from; the same frame.
 [[nodiscard]] std::vector<SurfacePoint> surface_of(std::span<const Vec2> points, Vec2 sensor,
                                                    double reach = 0.3);
+
+/// Takes one point of those that lie within `apart` [m] of each other, and then at most `most`.
+/// @param points  of one scan, in the order of its beams.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::vector<SurfacePoint> thinned(std::span<const SurfacePoint> points, double apart,
+                                                std::size_t most);
 
 /// Surface points of many scans, of which the nearest to a place is found fast.
 ///
