@@ -68,7 +68,7 @@ void weigh(Particles& particles, const RobotScan& scan, const KnownMap& map) {
   });
 }
 
-// Lays a scan on the map, near where the robot should be. What draws it away from there must explain clearly more of the scan, and the more the
+// Lays a scan on the map, near where the robot should be. A place away from there must explain clearly more of the scan, and the more the
 // farther it is: a piece of furniture that was moved explains a little more where it stood.
 std::optional<ScanMatch> match(const RobotScan& scan, const KnownMap& map, const PoseSpread& prior,
                                const LocalizerOptions& options) {
