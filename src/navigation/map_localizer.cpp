@@ -179,7 +179,7 @@ void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, c
 
 void MapLocalizer::suggest(const PoseSpread& where, const Reckoned& now) {
   resume(std::array{PlaceBelief{where}}, was_known_, now);
-  suggested_ = options_.searches;
+  suggested_ = true;
 }
 
 void MapLocalizer::place(const PoseSpread& where, const Reckoned& now) {
