@@ -353,16 +353,15 @@ void MapLocalizer::begin_search(const RobotScan& scan) {
 
 void MapLocalizer::go_on_searching() {
   if (!search_->places.step(options_.looks)) return;
-  take_found();
+  const bool is_certain =
+      known(now_) == Known::localized && places_.front().belief.quick >= options_.believed_from;
+  // A place that all scans fit by now is not given up for what fitted one scan, some way ago.
+  if (suggested_ || !is_certain) take_found();
   search_.reset();
 }
 
 // Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
-// One that all scans fit by now is not given up for what fitted one scan, some way ago.
 void MapLocalizer::take_found() {
-  const bool is_certain =
-      known(now_) == Known::localized && places_.front().belief.quick >= options_.believed_from;
-  if (is_certain && !suggested_) return;
   left_some_out_ = search_->places.left_some_out();
   const RobotScan& scan = search_->scan;
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
