@@ -31,7 +31,7 @@ namespace {
 
 constexpr uid_t kObserver = 60001;
 constexpr uid_t kStranger = 60003;
-constexpr const char* kGraph = "scout_goto_processes";
+constexpr const char* kSystem = "strangers";  // Other tests share systems in the same folder.
 
 // How many attempts there were, and the names of those that were not refused.
 struct Tally {
@@ -104,7 +104,7 @@ void give_orders(Tally& tally, const std::vector<supervisor::Ask>& orders) {
   for (const supervisor::Ask& order : orders) {
     std::string name = "order " + order.command;
     for (const std::string& word : order.words) name += " " + word;
-    auto socket = supervisor::connect_to_shared(kGraph, 0);
+    auto socket = supervisor::connect_to_shared(kSystem, 0);
     if (!socket) return tally.note("connect for " + name, false);  // nothing would be tried
     supervisor::Channel client(std::move(*socket));
     bool is_refused = !client.send(encode(order, 1), 5s).ok();
@@ -151,7 +151,7 @@ void attack_process(Tally& tally, pid_t pid) {
 void attack_files(Tally& tally, const std::string& own_folder, const std::string& graph) {
   const std::string shared = "/tmp/orca-shared-0";
   for (const std::string& file :
-       {own_folder + "/" + kGraph + ".sock", shared + "/" + kGraph + ".sock", graph}) {
+       {own_folder + "/" + kSystem + ".sock", shared + "/" + kSystem + ".sock", graph}) {
     tally.note("remove " + file, is_refused(unlink(file.c_str())));
     tally.note("rename " + file, is_refused(rename(file.c_str(), (file + ".old").c_str())));
     tally.note("replace " + file, is_refused(symlink("/tmp/orca_mine", file.c_str())) || errno == EEXIST);
@@ -160,11 +160,11 @@ void attack_files(Tally& tally, const std::string& own_folder, const std::string
     tally.note("empty " + file, is_refused(truncate(file.c_str(), 0)) || errno == EINVAL);
   }
   sockaddr_un address{AF_UNIX, {}};
-  std::strncpy(address.sun_path, (own_folder + "/" + kGraph + ".sock").c_str(), sizeof address.sun_path - 1);
+  std::strncpy(address.sun_path, (own_folder + "/" + kSystem + ".sock").c_str(), sizeof address.sun_path - 1);
   const int socket = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
   tally.note("connect to the owner's socket",
              is_refused(connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address)));
-  for (const char* const name : {"a.sock", "scout_goto_processes.sock.new", "x"})
+  for (const char* const name : {"a.sock", "strangers.sock.new", "x"})
     tally.note(std::string("make ") + name,
                is_refused(open((shared + "/" + name).c_str(), O_CREAT | O_WRONLY, 0600)));
 }
@@ -188,8 +188,8 @@ TEST_CASE("of hundreds of attempts of other users none moves, stops or starves a
     WARN("only root can be several users");
     return;
   }
-  Subprocess deployer_(deployer({source_file("graphs/scout_goto_processes.xml"), "--hold", "--allow",
-                                 "observe=user:" + std::to_string(kObserver)}));
+  Subprocess deployer_(deployer({source_file("graphs/scout_goto_processes.xml"), "--name", kSystem, "--hold",
+                                 "--allow", "observe=user:" + std::to_string(kObserver)}));
   REQUIRE(comes_true(
       [] {
         return run_orcactl({"hz", "base.OdometryPush", "--for", "50 ms"}).exit_code() == 0;
