@@ -101,6 +101,7 @@ class MapLocalizer {
   void resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now);
   /// Begins with a place that may be wrong, such as where the robot was before it was switched off. It is believed at once only if scans
   /// fit very well there; in any case the map is searched once for places that fit better, as along a corridor many fit well.
+  /// If nothing is searched, only scans that fit very well let it be believed.
   void suggest(const PoseSpread& where, const Reckoned& now);
 
   /// Goes on to where odometry is now.
