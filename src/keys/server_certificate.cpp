@@ -19,7 +19,6 @@ namespace {
 
 using Names = std::unique_ptr<GENERAL_NAMES, Freed<GENERAL_NAMES_free>>;
 
-constexpr const char* kServerFile = "certificate.pem";
 constexpr std::int64_t kServerLife =
     std::int64_t{365} * 86'400;  // browsers refuse those of more than 398 days
 constexpr std::int64_t kEarly = std::int64_t{30} * 86'400;
@@ -154,7 +153,7 @@ Result<ServerCertificate> read_server_certificate(const std::string& file, std::
 Result<ServerCertificate> own_server_certificate(const std::string& folder,
                                                  const std::vector<std::string>& names, std::int64_t now) {
   if (Status there = make_own_folder(folder); !there.ok()) return there.error();
-  const std::string file = folder + "/" + kServerFile;
+  const std::string file = folder + "/" + kServerCertificateFile;
   const Result<ServerCertificate> found = read_server_certificate(file, now);
   if (found && has_all(found->names, names) && read_server_certificate(file, now + kEarly)) return found;
   const bool can_be_replaced =

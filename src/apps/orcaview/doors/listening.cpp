@@ -110,7 +110,7 @@ std::vector<std::string> names_at(const ip::address& address) {
 Result<keys::ServerCertificate> certificate_for(const Listening& listening,
                                                 const std::optional<std::string>& own) {
   const std::int64_t now = std::time(nullptr);
-  if (own) return keys::read_server_certificate(*own + "/certificate.pem", now);
+  if (own) return keys::read_server_certificate(*own + "/" + keys::kServerCertificateFile, now);
   const Result<std::string> folder = config_folder();
   if (!folder) return folder.error();
   return keys::own_server_certificate(*folder + "/orcaview", names_at(listening.address), now);

@@ -18,6 +18,9 @@ struct ServerCertificate {
   std::string fingerprint;  ///< SHA-256 of its own certificate as browsers show it: "3F:A0:...".
 };
 
+/// The name of such a file in its folder.
+inline constexpr const char* kServerCertificateFile = "certificate.pem";
+
 /// Reads a certificate and its key from a file of PEM that only this user can read, and proves that they belong together and are
 /// good now.
 /// @param now  [s since 1970-01-01 UTC].
