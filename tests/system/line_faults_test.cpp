@@ -152,7 +152,9 @@ class AtWork {
 
   AtWork(const World& world, Desk& desk) : world_(world), desk_(desk) {
     // A laser's first frames are answers to questions; then it scans.
-    REQUIRE(World::until([this] { return Kind::moves ? works() : done() > 50.0; }));
+    const bool is_at_work = World::until([this] { return Kind::moves ? works() : done() > 50.0; });
+    INFO(world_.log());
+    REQUIRE(is_at_work);
   }
 
   // Returns whether it does what it is for: the base moves, scans arrive.

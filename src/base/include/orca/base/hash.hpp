@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string_view>
 
@@ -16,6 +17,14 @@ namespace orca {
 class Fnv1a {
  public:
   void add(std::span<const std::byte> bytes) {
+    for (; bytes.size() >= kWord; bytes = bytes.subspan(kWord)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data(), kWord);
+      if (word == 0)
+        hash_ *= kOfEightZeros;  // the free cells of a map, or a covariance: eight steps in one
+      else
+        for (std::size_t i = 0; i < kWord; ++i) step(static_cast<std::uint8_t>(bytes[i]));
+    }
     for (const std::byte b : bytes) step(static_cast<std::uint8_t>(b));
   }
   void add_u64(std::uint64_t value) {
@@ -31,9 +40,13 @@ class Fnv1a {
  private:
   void step(std::uint8_t byte) {
     hash_ ^= byte;
-    hash_ *= 0x100000001b3ULL;
+    hash_ *= kPrime;
   }
 
+  static constexpr std::size_t kWord = sizeof(std::uint64_t);
+  static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
+  static constexpr std::uint64_t kOfTwoZeros = kPrime * kPrime;
+  static constexpr std::uint64_t kOfEightZeros = kOfTwoZeros * kOfTwoZeros * kOfTwoZeros * kOfTwoZeros;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL;
 };
 
