@@ -14,7 +14,6 @@ import subprocess
 import sys
 
 DIE = re.compile(r"^ <(\d+)><([0-9a-f]+)>: Abbrev Number: \d+ \((DW_TAG_\w+)\)")
-ATTRIBUTE = re.compile(r"^ {4}<[0-9a-f]+> +DW_AT_(\w+) *: (.*)$")
 RECORDS = ("DW_TAG_class_type", "DW_TAG_structure_type", "DW_TAG_union_type")
 WANTED = {"name", "byte_size", "type", "data_member_location", "declaration", "virtuality", "vtable_elem_location",
           "linkage_name", "const_value", "upper_bound", "artificial", "alignment", "external", "specification"}
@@ -22,15 +21,15 @@ WANTED = {"name", "byte_size", "type", "data_member_location", "declaration", "v
 
 class Die:
     def __init__(self, tag, parent):
-        self.tag, self.parent, self.children, self.at = tag, parent, [], {}
+        self.tag, self.parent, self.children, self.at = tag, parent, [], {}  # attributes in readelf's words
 
     def named(self, attribute, default=""):
-        return self.at.get(attribute, default)
+        return value_of(self.at[attribute]) if attribute in self.at else default
 
 
 def value_of(text):
     """The value in readelf's words: "(strp) (offset: 0x1): NAME", "(ref4) <0x2a>, NAME", "(data1) 8"."""
-    text = re.sub(r"^\(\w+\) ", "", text)
+    text = re.sub(r"^\(\w+\) ", "", text.strip())
     text = re.sub(r"^\((?:indirect string|offset|alt indirect string)[^)]*\): ", "", text)
     return text.strip()
 
@@ -39,9 +38,11 @@ def read(lines):
     """The entries by offset, and those without a parent."""
     dies, roots, stack = {}, [], []
     die = None
-    for line in lines:
-        start = DIE.match(line)
-        if start:
+    for line in lines:  # of which there are a million, so each is looked at by as little as it needs
+        if line.startswith(" <"):
+            start = DIE.match(line)
+            if not start:  # the end of a list of children
+                continue
             depth = int(start.group(1))
             del stack[depth:]
             die = Die(start.group(3), stack[-1] if stack else None)
@@ -49,9 +50,11 @@ def read(lines):
             stack.append(die)
             dies[start.group(2)] = die
             continue
-        attribute = ATTRIBUTE.match(line) if die is not None else None
-        if attribute and attribute.group(1) in WANTED:
-            die.at[attribute.group(1)] = value_of(attribute.group(2))
+        if die is None or not line.startswith("    <"):
+            continue
+        name, _, value = line[line.find("DW_AT_") + len("DW_AT_"):].partition(":")
+        if name.rstrip() in WANTED:
+            die.at[name.rstrip()] = value
     return dies, roots
 
 
@@ -75,7 +78,7 @@ class Layouts:
         """The type that an entry refers to, in words that two builds share."""
         if "type" not in die.at:
             return "void"
-        return self.words(self.dies[reference(die.at["type"])])
+        return self.words(self.dies[reference(die.named("type"))])
 
     def words(self, die):
         kind = die.tag.removeprefix("DW_TAG_").removesuffix("_type")
@@ -93,7 +96,7 @@ class Layouts:
     def describe(self, die):
         parts = [f"size {die.named('byte_size')}"]
         if "alignment" in die.at:
-            parts.append(f"aligned {die.at['alignment']}")
+            parts.append(f"aligned {die.named('alignment')}")
         for child in die.children:
             if child.tag == "DW_TAG_inheritance":
                 parts.append(f"base {self.type_of(child)} at {child.named('data_member_location', '0')}")
