@@ -119,7 +119,7 @@ Result<Key> key_of_pem(std::string_view text) {
 }
 
 Result<X509Ptr> certificate_of_pem(std::string_view text) {
-  X509Ptr certificate(PEM_read_bio_X509(reading(text).get(), nullptr, nullptr, nullptr));
+  X509Ptr certificate(PEM_read_bio_X509(reading(text).get(), nullptr, &no_password, nullptr));
   if (certificate == nullptr) return failed(Code::data_loss, "it is no certificate");
   return certificate;
 }

@@ -2,6 +2,8 @@
 #include "doors/listening.hpp"
 
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -129,4 +131,30 @@ TEST_CASE("a file of a certificate is proven before it is used", "[view]") {
   // What is wrong with a certificate of its own is said, not mended without a word.
   write_own(temp, "orcaview/certificate.pem", "nonsense");
   CHECK_THAT(own_server_certificate(folder, kNames, kNow).error().text(), Contains("remove it"));
+}
+
+// OpenSSL asks at the terminal, and without one at the standard input: the child has only that.
+TEST_CASE("nobody is asked for the password of a certificate's file", "[view]") {
+  const TempFolder temp;
+  const auto one = own_server_certificate(temp.file("orcaview"), kNames, kNow);
+  REQUIRE(one);
+  std::string locked = one->chain;
+  locked.insert(locked.find('\n') + 1,
+                "Proc-Type: 4,ENCRYPTED\nDEK-Info: AES-128-CBC,000102030405060708090A0B0C0D0E0F\n\n");
+  const std::string file = write_own(temp, "locked.pem", one->key + locked);
+  int input[2];
+  REQUIRE(pipe(input) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    char first = 0;
+    setsid();
+    dup2(input[0], STDIN_FILENO);
+    const bool is_refused = !read_server_certificate(file, kNow);
+    _exit(is_refused && read(STDIN_FILENO, &first, 1) == 1 && first == 'a' ? 0 : 1);
+  }
+  REQUIRE(write(input[1], "a password\n", 11) == 11);
+  int status = -1;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  close(input[0]), close(input[1]);
+  CHECK(status == 0);
 }
