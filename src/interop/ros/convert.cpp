@@ -52,8 +52,10 @@ idl::Rotation3D from_optical(const idl::Rotation3D& rotation) {
 
 builtin_interfaces::Time to_ros_time(TimePoint time) {
   const std::int64_t ns = time.time_since_epoch().count();
-  const std::int64_t seconds = ns / kSecond - (ns % kSecond < 0 ? 1 : 0);
-  return {static_cast<std::int32_t>(seconds), static_cast<std::uint32_t>(ns - seconds * kSecond)};
+  const std::int64_t rest = ns % kSecond;  // in the direction of zero
+  const bool is_before = rest < 0;
+  return {static_cast<std::int32_t>(ns / kSecond - (is_before ? 1 : 0)),
+          static_cast<std::uint32_t>(rest + (is_before ? kSecond : 0))};
 }
 
 TimePoint to_instant(const builtin_interfaces::Time& time) {

@@ -144,8 +144,12 @@ void FrameTree::note_odometry(const std::string& context, TimePoint stamp, const
 std::optional<Pose2> FrameTree::odometry_at(const std::string& context, TimePoint instant) const {
   const auto known = odometry_.find(context);
   if (known == odometry_.end()) return std::nullopt;
-  const auto away = [instant](const Moment& moment) {
-    return moment.stamp > instant ? moment.stamp - instant : instant - moment.stamp;
+  const auto number = [](TimePoint time) {  // unsigned, since what comes from a network may hold any number
+    return static_cast<std::uint64_t>(time.time_since_epoch().count());
+  };
+  const auto away = [&](const Moment& moment) {
+    return moment.stamp > instant ? number(moment.stamp) - number(instant)
+                                  : number(instant) - number(moment.stamp);
   };
   return std::ranges::min_element(known->second, {}, away)->X_OB;
 }
