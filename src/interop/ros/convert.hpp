@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 
 #include "orca/base/time.hpp"
@@ -12,6 +13,9 @@
 #include "orca/ros/generated/messages.hpp"
 
 namespace orca::ros {
+
+/// The longest name of a frame that is remembered when others say it [bytes].
+inline constexpr std::size_t kLongestFrame = 256;
 
 /// Returns the context of the component that an object comes from: "Dewey/" of "Dewey/base".
 [[nodiscard]] std::string context_of(const idl::OrcaObject& object);

@@ -105,8 +105,10 @@ std::optional<FrameNews> mounts_of_ring(const ObjectRef& object) {
 
 void FrameTree::learn(const tf2_msgs::TFMessage& message) {
   for (const geometry_msgs::TransformStamped& said : message.transforms) {
-    const bool is_new = !parents_.contains(said.child_frame_id);
-    if (!is_finite(said.transform) || (is_new && parents_.size() >= kMostFrames)) continue;
+    if (!is_finite(said.transform) ||
+        std::max(said.child_frame_id.size(), said.header.frame_id.size()) > kLongestFrame)
+      continue;
+    if (parents_.size() >= kMostFrames && !parents_.contains(said.child_frame_id)) continue;
     parents_[said.child_frame_id] = {said.header.frame_id, said.transform};
     if (!is_called(said.header.frame_id, "odom")) continue;
     const std::string& odom = said.header.frame_id;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "convert.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 
@@ -36,7 +37,8 @@ ObjectRef RangeRing::take(const ObjectRef& reading) {
   if (!sonar && !infrared) return reading;
   std::erase_if(latest_, [&](const auto& entry) { return entry.second.stamp() + kSilent < reading.stamp(); });
   const std::string& frame = reading.header().origin();
-  if (latest_.contains(frame) || latest_.size() < kMostSensors) latest_[frame] = reading;
+  if (latest_.contains(frame) || (frame.size() <= kLongestFrame && latest_.size() < kMostSensors))
+    latest_[frame] = reading;
   return sonar ? joined(latest_, sonar) : joined(latest_, infrared);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes from a network may hold any instant.
+// What comes from a network may hold any instant, and any name.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "orca/idl/sensing.hpp"
 #include "orca/ros/cdr.hpp"
 #include "orca/ros/frame_tree.hpp"
+#include "orca/ros/range_ring.hpp"
 #include "orca/ros/twin.hpp"
 
 using namespace orca;
@@ -23,6 +25,8 @@ Loan<T> dated(std::int64_t ns) {
   object->stamp().ns(ns);
   return object;
 }
+
+const std::string kTooLong(257, 'x');
 
 }  // namespace
 
@@ -53,4 +57,27 @@ TEST_CASE("of the odometry of any instants the nearest counts", "[ros][twin]") {
   };
   CHECK(odometry_at(kLatest) == 2.0);
   CHECK(odometry_at(kEarliest + 1) == 1.0);
+}
+
+TEST_CASE("frames with names of more than 256 characters are nobody's", "[ros][twin]") {
+  const auto learns = [](const std::string& parent, const std::string& child) {
+    FrameTree frames;
+    frames.learn({{{{{}, parent}, child, {{0.1, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}}}});
+    return frames.mount_of(child).has_value();
+  };
+  CHECK(learns("base_link", kTooLong.substr(1)));
+  CHECK_FALSE(learns("base_link", kTooLong));
+  CHECK_FALSE(learns(kTooLong + "/base_link", "laser"));
+
+  RangeRing ring;
+  const auto hear = [&](const std::string& frame) {
+    const sensor_msgs::Range message{{{10, 0}, frame}, 0, 0.4F, 0.1F, 3.0F, 1.0F, 0.0F};
+    const auto reading =
+        twin_from_ros(object_type<idl::SonarRangeReadings>())->from_ros(to_cdr(message), {}, {});
+    REQUIRE(reading);
+    return object_cast<idl::SonarRangeReadings>(ring.take(*reading))->ranges().size();
+  };
+  CHECK(hear("sonar") == 1);
+  CHECK(hear(kTooLong) == 1);
+  CHECK(hear(kTooLong.substr(1)) == 2);
 }
