@@ -32,6 +32,7 @@ struct Reduced {
 Reduced reduced(double angle) {
   if (std::fabs(angle) <= kEighthTurn) return {0, {angle, 0.0}};
   if (!(std::fabs(angle) < kMostExact)) angle = std::fmod(angle, 2.0 * std::numbers::pi);
+  if (std::isnan(angle)) return {0, {angle, 0.0}};  // of an infinite one, too
   const double count = rounded(angle * (2.0 * std::numbers::inv_pi));
   const Pair second = exact_sum(angle - count * kQuarter1, -count * kQuarter2);
   const Pair third = exact_sum(second.high, -count * kQuarter3);
