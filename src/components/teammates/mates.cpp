@@ -12,11 +12,13 @@ namespace {
 
 constexpr std::uint32_t kFirstNumber = 1'000'001;  // Trackers count from 1.
 constexpr double kChange = 0.1;                    // [m/s] by which a robot may drive otherwise than it says
+constexpr Duration kFarAway = std::chrono::hours(1);  // No pose is that old, and none that far ahead.
 
 }  // namespace
 
 void Mates::hear(const idl::Teammate& mate, TimePoint now) {
-  if (is_anywhere(mate.pose().covariance())) return;
+  const TimePoint stamp = to_time_point(mate.pose().stamp());
+  if (stamp < now - kFarAway || stamp > now + kFarAway || is_anywhere(mate.pose().covariance())) return;
   if (!mates_.contains(mate.origin())) {
     if (mates_.size() >= kMost) return;
     mates_[mate.origin()].number = kFirstNumber + last_number_++;
@@ -24,7 +26,7 @@ void Mates::hear(const idl::Teammate& mate, TimePoint now) {
   Mate& known = mates_.at(mate.origin());
   const Pose2 X_MB = plane_pose(mate.pose());
   known.name = mate.name();
-  known.stamp = to_time_point(mate.pose().stamp());
+  known.stamp = stamp;
   known.heard = now;
   known.map = mate.map_name();
   known.place = X_MB.position();

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -104,4 +105,18 @@ TEST_CASE("robots of another map, and those that do not know where they are, are
   lost.pose().covariance(anywhere());
   mates.hear(lost, kNow);
   CHECK(mates.names().size() == 1);
+}
+
+TEST_CASE("a team-mate whose instants are an hour away, or any numbers, is not noticed", "[team]") {
+  Mates mates;
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  const std::int64_t now = to_time_value(kNow).ns();
+  for (const std::int64_t ns : {INT64_MIN, INT64_MAX, now - kHour - 1, now + kHour + 1}) {
+    idl::Teammate anna = mate("anna", 4.0, 2.0, 0.0, 0.5);
+    anna.pose().stamp().ns(ns);
+    mates.hear(anna, kNow);
+    CHECK(seen_by(mates, "bert").empty());
+  }
+  mates.hear(mate("anna", 4.0, 2.0, 0.0, 0.5), kNow + 59min);
+  CHECK(seen_by(mates, "bert").size() == 1);
 }
