@@ -34,9 +34,10 @@ std::string_view bytes_of(const ASN1_STRING& text) {
 // Returns a name of DNS, in small letters; empty: it has what no such name has.
 std::string host_of(std::string_view name) {
   std::string host;
-  for (const unsigned char each : name) {
-    if (std::isalnum(each) == 0 && each != '-' && each != '.' && each != '_' && each != '*') return {};
-    host += static_cast<char>(std::tolower(each));
+  for (const char each : name) {
+    const auto letter = static_cast<unsigned char>(each);
+    if (std::isalnum(letter) == 0 && each != '-' && each != '.' && each != '_' && each != '*') return {};
+    host += static_cast<char>(std::tolower(letter));
   }
   return host;
 }

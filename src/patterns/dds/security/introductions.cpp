@@ -31,8 +31,9 @@ bool has_data_of(const Entity& writer, std::span<const std::uint8_t> packet) {
         std::ranges::equal(submessage.subspan(kWriter, writer.size()), writer))
       return true;
     const bool is_little = (submessage[1] & 1U) != 0;
-    const unsigned length =
-        is_little ? submessage[2] | (submessage[3] << 8U) : (submessage[2] << 8U) | submessage[3];
+    const unsigned low = submessage[is_little ? 2 : 3];
+    const unsigned high = submessage[is_little ? 3 : 2];
+    const unsigned length = high << 8U | low;
     if (length == 0) return false;  // it is the last one
     at += kSubmessageHeader + length;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "orca/idl/time.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::supervisor {

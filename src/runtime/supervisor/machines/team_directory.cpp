@@ -2,7 +2,6 @@
 #include "machines/team_directory.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "orca/base/text.hpp"
 
@@ -83,7 +82,8 @@ void TeamDirectory::leave(std::map<Key, Member>::iterator member, const std::str
   const std::string name = member->second.name;
   tell(false, name + " " + how + " the team " + team_.name);
   members_.erase(member);
-  const auto others = std::ranges::count(members_ | std::views::values, name, &Member::name);
+  const auto others =
+      std::ranges::count_if(members_, [&](const auto& one) { return one.first.first == name; });
   if (others + (name == system_ ? 1 : 0) < 2) taken_.erase(name);
   for (auto& [key, other] : members_)
     if (other.name == name) other.has_taken_name = taken_.contains(name);
