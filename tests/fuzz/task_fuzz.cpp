@@ -14,7 +14,7 @@ namespace {
 using namespace orca::tasks;
 
 /// Whatever happens follows from numbers that depend on the text only.
-class Chance final : public Actor {
+class Chance final : public Actor, private Setter {
  public:
   explicit Chance(std::uint64_t seed) : state_(seed | 1U) {}
 
@@ -31,10 +31,22 @@ class Chance final : public Actor {
     if (!on(step)) std::abort();
     on(step) = false;
   }
+  Setter& setter() override { return *this; }
   void say(const std::string& /*text*/) override {}
   bool holds(const Condition& /*condition*/) override { return next() % 4 == 0; }
 
  private:
+  std::uint64_t order(const Step& /*step*/) override { return ++orders_; }
+  std::optional<Ending> outcome(std::uint64_t number) override {
+    if (number == 0 || number > orders_) std::abort();
+    const std::uint64_t chance = next() % 4;
+    if (chance < 2) return std::nullopt;
+    return chance == 2 ? Ending{true, "0.5 m/s"} : Ending{false, "no right"};
+  }
+  void set_back(const Step& /*step*/, std::uint64_t number, const std::string& /*before*/) override {
+    if (number > orders_) std::abort();
+  }
+
   std::uint64_t next() {
     state_ = state_ * 6364136223846793005U + 1442695040888963407U;
     return state_ >> 33U;
@@ -50,6 +62,7 @@ class Chance final : public Actor {
   std::uint64_t state_;
   bool drives_ = false;
   bool asks_ = false;
+  std::uint64_t orders_ = 0;
 };
 
 void run(const Task& task, std::uint64_t seed) {
