@@ -187,6 +187,8 @@ TEST_CASE("a picture of 1280 x 720 pixels is developed in half the time until th
   });
   std::cout << "1280 x 720 to RGB8: MJPG of " << jpeg.size() / 1000 << " kB " << of_jpeg << " ms, YUYV "
             << of_yuyv << " ms\n";
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they check each byte of a picture
   CHECK(of_jpeg < 0.5 * 1000.0 / 30.0);
   CHECK(of_yuyv < 0.5 * 1000.0 / 30.0);
+#endif
 }
