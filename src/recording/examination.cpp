@@ -5,6 +5,7 @@
 #include "mapped_file.hpp"
 #include "orca/recording/reader.hpp"
 #include "scan.hpp"
+#include "storage.hpp"
 
 namespace orca::recording {
 namespace {
@@ -126,16 +127,46 @@ Result<Examination> recover(std::span<const std::byte> bytes, std::unique_ptr<Ou
   return examination_of(*std::move(scanned), numbers);
 }
 
-Result<Examination> check(const std::string& path) {
+namespace {
+
+Result<Examination> check_file(const std::string& path) {
   const Result<MappedFile> file = MappedFile::open(path);
   if (!file) return file.error();
+  if (is_database(file->bytes())) return check_database(path);
   Result<Examination> examined = check(file->bytes());
   return examined ? examined : fail(examined.error().code, examined.error().message, path);
+}
+
+}  // namespace
+
+Result<Examination> check(const std::string& path) {
+  const Result<std::vector<std::string>> files = files_of(path);
+  if (!files) return files.error();
+  if (files->size() == 1) return check_file(files->front());
+  Examination all;
+  for (const std::string& name : *files) {
+    Result<Examination> examined = check_file(name);
+    if (!examined) return examined;
+    for (Finding& finding : examined->findings) {
+      finding.text = name + ": " + finding.text;
+      all.findings.push_back(std::move(finding));
+    }
+    for (const std::string& remark : examined->remarks) all.remarks.push_back(name + ": " + remark);
+    all.statistics.messages += examined->statistics.messages;
+    all.statistics.chunks += examined->statistics.chunks;
+    all.whole += examined->whole;
+  }
+  return all;
 }
 
 Result<Examination> recover(const std::string& path, std::unique_ptr<Output> to) {
   const Result<MappedFile> file = MappedFile::open(path);
   if (!file) return file.error();
+  if (is_database(file->bytes()))
+    return fail(Code::unimplemented,
+                "of a bag in SQLite, sqlite3 " + path +
+                    " .recover | sqlite3 NEW.db3 writes what is whole into a new file",
+                path);
   return recover(file->bytes(), std::move(to));
 }
 

@@ -46,7 +46,7 @@ LAYERS = (
     Layer("xml", ("src/xml",), ("orca/xml/",), ("base",), ("tinyxml2", "fmt")),
     Layer("text", ("src/text",), ("orca/text/",), ("idl", "xml", "base")),
     Layer("geometry", ("src/geometry",), ("orca/geometry/",), ("base",)),
-    Layer("recording", ("src/recording",), ("orca/recording/",), ("base",), ("lz4", "zlib", "zstd")),
+    Layer("recording", ("src/recording",), ("orca/recording/",), ("base",), ("lz4", "sqlite", "zlib", "zstd")),
     Layer("carmen", ("src/recording/carmen",), ("orca/recording/carmen/",), ("geometry", "base"), ("zlib",)),
     Layer("geometry_objects", ("src/geometry/objects",), ("orca/geometry/objects/",), ("geometry", "idl", "base"),
           ("eigen",)),

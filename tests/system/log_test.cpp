@@ -311,7 +311,8 @@ TEST_CASE("what is wrong in a log is reported with its lines, and does not end t
 
   const Run none = play(folder.write("letter.txt", "Dear robot,\n"), {"--check"});
   CHECK(none.exit_code() == 2);
-  CHECK(none.says("it is neither an MCAP file nor a CARMEN log: there is no line ODOM, FLASER"));
+  CHECK(none.says(
+      "it is neither an MCAP file nor a CARMEN log, nor a bag in SQLite: there is no line ODOM, FLASER"));
 }
 
 TEST_CASE(

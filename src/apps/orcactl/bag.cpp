@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;  // the file, and what follows it
 double seconds(recording::Stamp from, recording::Stamp to) { return static_cast<double>(to - from) * 1e-9; }
 
 std::string offset_text(const recording::Finding& finding) {
-  return "byte " + std::to_string(finding.offset) + ": " + finding.text;
+  return finding.offset == 0 ? finding.text : "byte " + std::to_string(finding.offset) + ": " + finding.text;
 }
 
 std::vector<Record> topics_of(const recording::Reader& file, const recording::Values& facts) {
@@ -60,10 +60,12 @@ std::vector<Record> topics_of(const recording::Reader& file, const recording::Va
 
 Record summary_of(const recording::Reader& file, const recording::Values& facts) {
   const recording::Statistics& numbers = file.statistics();
+  // A bag says nothing of its clock; as a rule it counts from 1970.
+  const bool has_dates = facts.empty() || recording::fact(facts, "clock") == "steady";
   return {{"messages", numbers.messages},
           {"begin_s", seconds(0, numbers.start), 6},
-          {"begin", recording::fact(facts, "clock") == "steady" ? local_time(numbers.start) : ""},
-          {"end", recording::fact(facts, "clock") == "steady" ? local_time(numbers.end) : ""},
+          {"begin", has_dates ? local_time(numbers.start) : ""},
+          {"end", has_dates ? local_time(numbers.end) : ""},
           {"duration_s", seconds(numbers.start, numbers.end), 3},
           {"megabytes", static_cast<double>(file.size()) * 1e-6, 3},
           {"chunks", numbers.chunks},
@@ -94,7 +96,12 @@ Status info(const Words& words, bool as_json) {
     if (!cell.value.empty()) print(cell.name + ": " + cell.value + "\n");
   for (const recording::IndexEntry& entry : file->attachments()) print("attachment: " + entry.name + "\n");
   print("\n" + table_text(topics, terminal_columns()));
-  if (!file->has_index())
+  const auto& findings = file->findings();
+  const bool is_mcap = std::ranges::all_of(findings, [](const auto& one) { return one.offset != 0; });
+  if (!is_mcap)
+    for (const recording::Finding& finding : findings)
+      std::fprintf(stderr, "orcactl: %s\n", finding.text.c_str());
+  if (is_mcap && !file->has_index())
     std::fprintf(stderr,
                  "orcactl: the file has no end, because its writer was interrupted; orcactl bag recover "
                  "gives it one\n");
@@ -116,11 +123,13 @@ Status check(const Words& words, bool /*as_json*/) {
           std::to_string(examined->statistics.chunks) + " chunks\n");
     return ok();
   }
-  return fail(Code::data_loss,
-              "the file is not in order; " + std::to_string(messages) +
-                  " messages are whole; orcactl bag recover " + words[0] +
-                  " NEW.mcap writes these into a new file",
-              words[0]);
+  const bool is_mcap =
+      std::ranges::all_of(examined->findings, [](const auto& finding) { return finding.offset != 0; });
+  return fail(
+      Code::data_loss,
+      "the file is not in order; " + std::to_string(messages) + " messages are whole" +
+          (is_mcap ? "; orcactl bag recover " + words[0] + " NEW.mcap writes these into a new file" : ""),
+      words[0]);
 }
 
 Status recover(const Words& words, bool /*as_json*/) {
@@ -139,11 +148,13 @@ Status recover(const Words& words, bool /*as_json*/) {
 Result<std::set<std::string>> ports_of(const ObjectReader& reader, const Words& words) {
   std::vector<std::string> known;
   for (const auto& [name, row] : reader.rows()) known.push_back(name);
-  std::set<std::string> ports(words.begin() + 1, words.end());
-  for (const std::string& port : ports)
-    if (!reader.rows().contains(port))
-      return fail(Code::not_found, "nothing of " + in_quotes(port) + " is in the recording" +
-                                       xml::did_you_mean(xml::nearest_name(port, known)));
+  std::set<std::string> ports;
+  for (auto word = words.begin() + 1; word < words.end(); ++word) {
+    const Result<std::string> row = recording::find_row(reader.rows(), reader.others(), *word);
+    if (!row)
+      return fail(row.error().code, row.error().message + xml::did_you_mean(xml::nearest_name(*word, known)));
+    ports.insert(*row);
+  }
   if (ports.empty()) ports.insert(known.begin(), known.end());
   return ports;
 }
@@ -159,7 +170,8 @@ Status csv(const Words& words, bool /*as_json*/) {
   for (const std::string& port : *ports)
     for (const auto& [type, count] : reader->rows().at(port).types) table.add_type(*find_object_type(type));
   const auto make_room = [&](const RecordedObject& one) { return table.make_room(one.object), true; };
-  if (const Status read = reader->objects(*ports, make_room); !read.ok()) return read;
+  std::vector<std::string> flaws;  // the second time they go to the log
+  if (const Status read = reader->objects(*ports, make_room, &flaws); !read.ok()) return read;
   print(table.header());
   return reader->objects(
       *ports, [&](const RecordedObject& one) { return print(table.row(one.row, one.object)), true; });

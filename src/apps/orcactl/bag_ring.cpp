@@ -159,8 +159,8 @@ Result<Stamp> time_of(const std::string& word, const Span& span) {
 // A new file that takes over parts of others.
 class Copy {
  public:
-  Copy(std::unique_ptr<recording::Output> output, const std::string& library)
-      : writer_(std::move(output), library == "orca" ? "ros2" : "", library) {}
+  Copy(std::unique_ptr<recording::Output> output, const Reader& like)
+      : writer_(std::move(output), is_of_ros(like) ? "ros2" : "", like.library()) {}
 
   Status take(const Part& part, Span wanted) {
     Status status = ok();
@@ -192,6 +192,11 @@ class Copy {
   [[nodiscard]] std::uint64_t messages() const { return writer_.statistics().messages; }
 
  private:
+  static bool is_of_ros(const Reader& reader) {
+    return std::ranges::any_of(reader.schemas(),
+                               [](const auto& entry) { return entry.second.encoding == "ros2msg"; });
+  }
+
   std::uint16_t channel_of(const Reader& reader, std::uint16_t id) {
     const recording::Channel& channel = reader.channels().at(id);
     const auto schema = reader.schemas().find(channel.schema);
@@ -244,7 +249,8 @@ std::string local_time(Stamp time) {
 
 std::string ring_folder(const std::string& word) {
   std::error_code absent;
-  if (fs::is_directory(word, absent)) return word;
+  if (fs::is_directory(word, absent))
+    return recording::ring_files(word).empty() && recording::is_bag_folder(word) ? "" : word;
   const std::string kept = OwnFolder::path_for_state() + "/recordings/" + word;
   return !fs::exists(word, absent) && fs::is_directory(kept, absent) ? kept : "";
 }
@@ -286,7 +292,7 @@ Status cut(const std::vector<std::string>& words) {
                                      local_time(all.begin) + " to " + local_time(all.end));
   auto output = recording::open_file(words[1]);
   if (!output) return output.error();
-  Copy to(*std::move(output), parts->back().reader.library());
+  Copy to(*std::move(output), parts->back().reader);
   if (const Status copied = copy_span(*parts, wanted, to); !copied.ok()) return copied;
   print(words[1] + ": " + std::to_string(to.messages()) + " messages\n");
   return ok();

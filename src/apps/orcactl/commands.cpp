@@ -46,16 +46,15 @@ constexpr std::string_view kRecordDetails =
 
 constexpr std::string_view kBagDetails =
     "info FILE: how long it is, and what is in it, with what was lost. check FILE: reads all of it, with "
-    "every "
-    "checksum, and says what is wrong at which byte; exit status 1 if anything is. recover FILE NEW: writes "
-    "what is "
-    "whole into a new file with an index, after the recorder was killed or the disk was full. cut FILE NEW "
-    "[FROM [TO]]: writes a span of time into a new file, such as cut nomad_scout noon.mcap 12:02 12:04; info "
-    "and cut take the folder of --ring, too, and the name of a system whose graph says record=always. csv "
-    "FILE [PORT...]: a table on stdout, as deployer --record FILE.csv writes it. carmen FILE [PORT...]: "
-    "odometry and scans as a log for programs that make maps. diff FILE OTHER [PORT...]: the first object "
-    "that differs, with its field; exit status 1 if there is one; times count, so it is for runs in virtual "
-    "time. Files of other writers can be shown, checked and recovered, too.";
+    "every checksum, and says what is wrong at which byte; exit status 1 if anything is. recover FILE "
+    "NEW: writes what is whole into a new file with an index, after the recorder was killed or the disk "
+    "was full. cut FILE NEW [FROM [TO]]: writes a span of time into a new file, such as cut nomad_scout "
+    "noon.mcap 12:02 12:04; info and cut take the folder of --ring, too, and the name of a system whose "
+    "graph says record=always. csv FILE [PORT...]: a table on stdout, as deployer --record FILE.csv "
+    "writes it. carmen FILE [PORT...]: odometry and scans as a log for programs that make maps. diff "
+    "FILE OTHER [PORT...]: the first object that differs, with its field; exit status 1 if there is one; "
+    "times count, so it is for runs in virtual time. FILE may be a bag of ROS 2, in MCAP or SQLite, or "
+    "its folder; recover takes MCAP files only, of any writer.";
 
 constexpr std::string_view kMapDetails =
     "Asks the part of the system that has a map, by its port OccupancyGridQuery, and writes NAME.png, a "

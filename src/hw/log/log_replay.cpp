@@ -55,6 +55,11 @@ class LogReplay final : public HardwareContainer {
     if (!faults.empty()) return faults;
     if (const Status read = load(); !read.ok())
       faults.push_back({.param = "recording", .text = read.error().message});
+    for (const auto& [port, sensor] : sensors_)
+      if (std::ranges::find(readings_, sensor.get(), &Reading::sensor) == readings_.end())
+        faults.push_back({.param = "ports",
+                          .text = "there is nothing of " + in_quotes(port) + " in the recording",
+                          .only_warns = true});
     for (const std::string& flaw : run_->flaws())
       faults.push_back(
           {.param = "recording", .text = in_quotes(*recording_) + ": " + flaw, .only_warns = true});
@@ -102,23 +107,26 @@ class LogReplay final : public HardwareContainer {
   };
 
   void declare(const std::string& port, std::vector<HardwareFault>& faults) {
-    const auto row = run_->rows().find(port);
-    if (row == run_->rows().end()) {
-      std::vector<std::string> known;
-      for (const auto& [name, found] : run_->rows()) known.push_back(name);
-      faults.push_back(
-          {.param = "ports",
-           .text = "the recording has nothing of " + in_quotes(port) + "; it has: " + listed(known)});
-      return;
-    }
-    const auto& [type_name, count] = *row->second.types.begin();
+    const Result<std::string> row = recording::find_row(run_->rows(), run_->others(), port);
+    if (!row) return faults.push_back({.param = "ports", .text = row.error().message});
+    if (sensors_.contains(*row))
+      return faults.push_back({.param = "ports", .text = in_quotes(*row) + " is named twice"});
+    const auto& [type_name, count] = *run_->rows().at(*row).types.begin();
     const ObjectType& type = *find_object_type(type_name);
     const Source source = &type == &object_type<idl::RobotPose>() ? Source::truth : Source::sensor;
     const bool is_first =
         std::ranges::none_of(sensors_, [&](const auto& entry) { return &entry.second->type() == &type; });
-    const std::string device = is_first ? "" : port.substr(0, port.find('.'));
-    sensors_[port] = std::make_unique<RecordedSensor>(type, period_of(count), source, device);
-    add_sensor(*sensors_[port]);
+    sensors_[*row] =
+        std::make_unique<RecordedSensor>(type, period_of(count), source, is_first ? "" : device_of(*row));
+    add_sensor(*sensors_[*row]);
+  }
+
+  // Returns the component of a port, or a topic as a name: "front_scan" of "/front/scan".
+  static std::string device_of(const std::string& row) {
+    if (!row.starts_with('/')) return row.substr(0, row.find('.'));
+    std::string name = row.substr(1);
+    std::ranges::replace(name, '/', '_');
+    return name;
   }
 
   // Returns the mean time between two of them, in whole milliseconds.
@@ -131,7 +139,11 @@ class LogReplay final : public HardwareContainer {
   Status load() {
     begin_ = run_->begin();
     bool has_robot = false;
-    return run_->take_objects([&](const RecordedObject& one) {
+    std::set<std::string> rows;
+    for (const auto& [name, row] : run_->rows())
+      if (sensors_.contains(name) || row.types.contains(std::string(object_type<idl::Robot>().name)))
+        rows.insert(name);
+    return run_->take_objects(rows, [&](const RecordedObject& one) {
       if (const auto sensor = sensors_.find(std::string(one.row)); sensor != sensors_.end())
         readings_.push_back({sensor->second.get(), one.object, one.passed});
       if (const auto robot = object_cast<idl::Robot>(one.object); robot && !std::exchange(has_robot, true))
@@ -182,20 +194,23 @@ class LogReplay final : public HardwareContainer {
     reading.sensor->publish(std::move(object));
   }
 
-  Param<std::string> recording_{*this,
-                                "recording",
-                                "",
-                                {.fixed = true,
-                                 .text = "The recording: an MCAP file of deployer --record or orcactl "
-                                         "record, a bag of ROS 2 (its MCAP file or folder), or a CARMEN "
-                                         "log, packed by gzip or not"}};
-  Param<std::vector<std::string>> ports_{*this,
-                                         "ports",
-                                         {},
-                                         {.fixed = true,
-                                          .text = "Ports of the recording whose objects come again: "
-                                                  "base.OdometryPush; laser.LaserRangeReadingsPush; of a bag "
-                                                  "its topics: /odom; /scan"}};
+  Param<std::string> recording_{
+      *this,
+      "recording",
+      "",
+      {.fixed = true,
+       .text = "The recording: an MCAP file of deployer --record or orcactl "
+               "record, a bag of ROS 2 (MCAP or SQLite, its file or its folder), or "
+               "a CARMEN log, packed by gzip or not"}};
+  Param<std::vector<std::string>> ports_{
+      *this,
+      "ports",
+      {},
+      {.fixed = true,
+       .text = "Ports of the recording whose objects come again: "
+               "base.OdometryPush; laser.LaserRangeReadingsPush; of a bag "
+               "its topics: /odom; /scan. In a bag such a port means the only "
+               "topic of its type"}};
   Param<double> max_speed_{*this,
                            "max_speed",
                            1.0,

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/recording/objects/recorded_run.hpp"
 
-#include <array>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
+#include <cstdio>
+#include <optional>
 #include <utility>
 
+#include "orca/idl/object_type.hpp"
+#include "orca/idl/sensing.hpp"
+#include "orca/idl/time_shift.hpp"
 #include "orca/recording/objects/carmen_reader.hpp"
 
 namespace orca::recording {
@@ -17,11 +19,15 @@ constexpr Duration kLead = 100ms;
 
 TimePoint instant(std::uint64_t ns) { return TimePoint(Duration(static_cast<Duration::rep>(ns))); }
 
-class McapRun final : public RecordedRun {
+// Stamps that are older than this when they pass are of another clock.
+constexpr Duration kOtherClock = 10s;
+
+class ObjectRun final : public RecordedRun {
  public:
-  explicit McapRun(ObjectReader reader) : reader_(std::move(reader)) {}
+  explicit ObjectRun(ObjectReader reader) : reader_(std::move(reader)) {}
 
   const std::map<std::string, RecordedRow>& rows() const override { return reader_.rows(); }
+  std::map<std::string, std::string> others() const override { return reader_.others(); }
   // In virtual time a run begins at 0, though its first object may come later.
   TimePoint begin() const override {
     return reader_.is_virtual() ? TimePoint{} : instant(reader_.file().statistics().start) - kLead;
@@ -29,12 +35,46 @@ class McapRun final : public RecordedRun {
   Duration length() const override {
     return instant(reader_.file().statistics().end) - instant(reader_.file().statistics().start);
   }
-  Status take_objects(const std::function<void(const RecordedObject&)>& take) override {
-    return reader_.objects({}, [&](const RecordedObject& one) { return take(one), true; });
+  Status take_objects(const std::set<std::string>& rows,
+                      const std::function<void(const RecordedObject&)>& take) override {
+    const auto pass_on = [&](const RecordedObject& one) {
+      return take(reader_.is_bag() ? RecordedObject{one.row, dated(one), one.passed} : one), true;
+    };
+    return reader_.objects(rows, pass_on, &flaws_);
   }
+  std::vector<std::string> flaws() const override { return flaws_; }
 
  private:
+  // The first reading of a sensor says how far apart the two clocks are. A map may be old.
+  ObjectRef dated(const RecordedObject& one) {
+    const Duration behind = one.passed - one.object.stamp();
+    const ObjectType& type = one.object.type();
+    const bool is_reading =
+        is_a(type, object_type<idl::RangeReadings>()) || is_a(type, object_type<idl::Odometry>());
+    if (!behind_ && is_reading) {
+      behind_ = behind > kOtherClock ? behind : Duration{0};
+      if (behind > kOtherClock) flaws_.push_back(clock_text(behind));
+    }
+    if (!behind_ || *behind_ == Duration{0} || behind < *behind_ - kOtherClock ||
+        behind > *behind_ + kOtherClock)
+      return one.object;
+    ObjectLoan moved = copy_value(one.object);
+    shift_times(moved, *behind_);
+    return std::move(moved).seal();
+  }
+
+  static std::string clock_text(Duration behind) {
+    char text[120];
+    std::snprintf(
+        text, sizeof text,
+        "its stamps are of a clock that is %.1f s behind that of the recording, and are moved by that",
+        to_seconds(behind));
+    return text;
+  }
+
   const ObjectReader reader_;
+  std::optional<Duration> behind_;  // of the clock of the stamps; 0: it is the same
+  std::vector<std::string> flaws_;
 };
 
 class CarmenRun final : public RecordedRun {
@@ -44,7 +84,8 @@ class CarmenRun final : public RecordedRun {
   const std::map<std::string, RecordedRow>& rows() const override { return reader_.rows(); }
   TimePoint begin() const override { return reader_.begin() - kLead; }
   Duration length() const override { return reader_.end() - reader_.begin(); }
-  Status take_objects(const std::function<void(const RecordedObject&)>& take) override {
+  Status take_objects(const std::set<std::string>& /*rows*/,
+                      const std::function<void(const RecordedObject&)>& take) override {
     reader_.take_objects(take);
     return ok();
   }
@@ -53,14 +94,6 @@ class CarmenRun final : public RecordedRun {
  private:
   CarmenReader reader_;
 };
-
-bool is_mcap(const std::string& path) {
-  std::error_code unused;
-  if (std::filesystem::is_directory(path, unused)) return true;  // a bag's
-  std::array<char, 5> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return begin == std::array<char, 5>{'\x89', 'M', 'C', 'A', 'P'};
-}
 
 template <class Run, class Reader>
 Result<std::unique_ptr<RecordedRun>> run_of(Result<Reader> reader) {
@@ -71,10 +104,12 @@ Result<std::unique_ptr<RecordedRun>> run_of(Result<Reader> reader) {
 }  // namespace
 
 Result<std::unique_ptr<RecordedRun>> RecordedRun::open(const std::string& path) {
-  if (is_mcap(path)) return run_of<McapRun>(ObjectReader::open(path));
+  if (is_recording(path)) return run_of<ObjectRun>(ObjectReader::open(path));
   auto run = run_of<CarmenRun>(CarmenReader::open(path));
   if (run || run.error().code != Code::data_loss) return run;
-  return fail(Code::data_loss, "it is neither an MCAP file nor a CARMEN log: " + run.error().message, path);
+  return fail(Code::data_loss,
+              "it is neither an MCAP file nor a CARMEN log, nor a bag in SQLite: " + run.error().message,
+              path);
 }
 
 }  // namespace orca::recording

@@ -105,16 +105,16 @@ TEST_CASE("topics of a bag are rows, and their messages objects, with sensors wh
   CHECK(object_cast<idl::Odometry>(objects[1])->x() == 0.5);
 }
 
-TEST_CASE("a bag's folder is its one file", "[recording][bag]") {
+TEST_CASE("a bag's folder is its one file, unless it has others", "[recording][bag]") {
   const TempFolder folder;
   fs::create_directory(folder.file("drive"));
   const Result<ObjectReader> empty = ObjectReader::open(folder.file("drive"));
   REQUIRE_FALSE(empty);
-  CHECK_THAT(empty.error().message, Catch::Matchers::Contains("has no MCAP file"));
+  CHECK_THAT(empty.error().message, Catch::Matchers::Contains("has no file of a bag"));
   write_bag(folder.file("drive/drive_0.mcap"));
   CHECK(ObjectReader::open(folder.file("drive")));
   CHECK(RecordedRun::open(folder.file("drive")));
-  write_bag(folder.file("drive/drive_1.mcap"));
+  write_bag(folder.file("drive/other.mcap"));
   const Result<ObjectReader> several = ObjectReader::open(folder.file("drive"));
   REQUIRE_FALSE(several);
   CHECK_THAT(several.error().message, Catch::Matchers::Contains("drive_0.mcap"));

@@ -86,10 +86,9 @@ Result<DriveRecord> DriveRecord::read(const std::string& path, const std::set<st
   if (!run) return run.error();
   if (Status known = check_ports(**run, ports); !known.ok()) return known.error();
   DriveRecord record;
-  record.flaws_ = (*run)->flaws();
   std::string base;
   std::string laser;
-  const Status read = (*run)->take_objects([&](const RecordedObject& one) {
+  const Status read = (*run)->take_objects({}, [&](const RecordedObject& one) {
     if (const auto arrived = object_cast<idl::Arrived>(one.object))
       record.goals_.push_back({arrived->name(), to_time_point(arrived->stamp())});
     if (!ports.empty() && !ports.contains(std::string(one.row))) return;
@@ -99,6 +98,7 @@ Result<DriveRecord> DriveRecord::read(const std::string& path, const std::set<st
       record.scans_.push_back(std::move(scan));
   });
   if (!read.ok()) return read.error();
+  record.flaws_ = (*run)->flaws();
   if (base.empty() || laser.empty())
     return fail(Code::not_found,
                 base.empty() ? "there is no odometry in the recording; record the port of the base as well"

@@ -18,20 +18,28 @@
 
 namespace orca::recording {
 
+class Storage;
+
 /// What is wrong with a file, and where.
 struct Finding {
-  std::uint64_t offset = 0;  ///< [bytes]
+  std::uint64_t offset = 0;  ///< [bytes] 0: no one place.
   std::string text;
 };
 
-/// A reader of one MCAP file of any writer, as far as its chunks are not compressed or compressed with zstd or lz4. It believes
-/// nothing that it reads. A file without an end, of a writer that was killed, is read as far as its records are whole.
+/// A reader of the messages of one recording, whoever has written it. It believes nothing that it reads, and writes nothing. A recording is
+///
+/// * an MCAP file, as far as its chunks are not compressed or compressed with zstd or lz4. A file without an end, of a writer that was
+///   killed, is read as far as its records are whole;
+/// * an SQLite database of rosbag2, schema version 1 to 4;
+/// * the folder of a bag, with one such file, or with NAME_0, NAME_1 and so on, whose messages are put into one order.
 ///
 /// Thread contract: constant; any thread.
 class Reader {
  public:
-  /// Opens a file.
-  /// @errors  invalid_argument if it cannot be read, or is no MCAP file.
+  /// Opens a recording.
+  /// @errors  invalid_argument if it cannot be read, or is none; not_found for a folder without such files, with one missing, or with
+  ///          several that are no one bag; failed_precondition for a database that its writer has not finished (a -wal or -journal
+  ///          file lies beside it), or of another schema version; unimplemented for a file that is compressed as a whole.
   [[nodiscard]] static Result<Reader> open(const std::string& path);
   /// Reads bytes, which outlive the reader.
   /// @errors  invalid_argument if they are no MCAP file.
@@ -41,8 +49,8 @@ class Reader {
   Reader& operator=(Reader&&) noexcept;
 
   [[nodiscard]] const std::string& library() const;
-  [[nodiscard]] std::uint64_t size() const;  ///< [bytes] of the file.
-  /// Returns whether the file has an end with an index; without one, the file was read through to find what is in it.
+  [[nodiscard]] std::uint64_t size() const;  ///< [bytes] of its files.
+  /// Returns whether an MCAP file has an end with an index; without one, the file was read through to find what is in it.
   [[nodiscard]] bool has_index() const;
   [[nodiscard]] const std::map<std::uint16_t, Schema>& schemas() const;
   [[nodiscard]] const std::map<std::uint16_t, Channel>& channels() const;
@@ -67,11 +75,18 @@ class Reader {
                   Stamp from = 0) const;
 
  private:
-  struct Inside;
-  explicit Reader(std::unique_ptr<Inside> inside);
+  explicit Reader(std::unique_ptr<Storage> inside);
 
-  std::unique_ptr<Inside> inside_;
+  std::unique_ptr<Storage> inside_;
 };
+
+/// Returns whether a path is a folder, or a file that begins as Reader::open() knows recordings.
+/// @thread  any.
+[[nodiscard]] bool is_recording(const std::string& path);
+
+/// Returns whether a folder holds files of a bag.
+/// @thread  any.
+[[nodiscard]] bool is_bag_folder(const std::string& path);
 
 /// What a check or a recovery has found.
 struct Examination {
@@ -81,13 +96,14 @@ struct Examination {
   std::vector<std::string> remarks;  ///< What is no fault: "/base/OdometryPush: numbers 4 to 7 are missing".
 };
 
-/// Reads all of a file: every record, checksum and reference, and whether the index says the same as the data.
-/// @errors  invalid_argument if it cannot be read, or is no MCAP file.
+/// Reads all of an MCAP file: every record, checksum and reference, and whether the index says the same as the data; all pages and messages
+/// of a database; each file of a bag's folder.
+/// @errors  as Reader::open(), of each file alone.
 [[nodiscard]] Result<Examination> check(std::span<const std::byte> bytes);
 [[nodiscard]] Result<Examination> check(const std::string& path);
 
-/// Writes what is whole of a file as a file with an index. Damaged chunks and a torn end are left out and found.
-/// @errors  as check(); as Output::append().
+/// Writes what is whole of an MCAP file as a file with an index. Damaged chunks and a torn end are left out and found.
+/// @errors  invalid_argument if it cannot be read, or is no MCAP file; unimplemented for a database; as Output::append().
 [[nodiscard]] Result<Examination> recover(const std::string& path, std::unique_ptr<Output> to);
 [[nodiscard]] Result<Examination> recover(std::span<const std::byte> bytes, std::unique_ptr<Output> to);
 
