@@ -96,6 +96,8 @@ std::vector<std::string> shipped_graphs() {
 Words needed_arguments(const std::string& graph, const TempFolder& folder) {
   if (graph == "replay") return {"--set", "recording=" + recording_in(folder)};
   if (graph == "intel_log") return {"--set", "log=" + recording_in(folder)};
+  if (graph == "localize_log")
+    return {"--set", "log=" + recording_in(folder), "--set", "map=" + source_file("sim/worlds/office.xml")};
   if (graph == "camera")
     return {"--set", "robot=" + folder.write("small_camera.urdf", robot_with_small_camera())};
   if (graph != "scout_hospital") return {};

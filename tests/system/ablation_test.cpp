@@ -142,6 +142,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "ros2_robot",
                                        "team_robot",  // team_test
                                        "intel_log",
+                                       "localize_log",
                                        "calibrate",
                                        "pioneer_localize",
                                        "pioneer_people",
