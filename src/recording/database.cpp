@@ -54,9 +54,7 @@ class DatabaseStorage final : public Storage {
     if (state != SQLITE_CORRUPT && state != SQLITE_NOTADB) return no_bag(fault());
     return fail(Code::data_loss, "the database is damaged or cut off: " + fault() + advice(), path_);
   }
-  [[nodiscard]] std::string advice() const {
-    return "; sqlite3 " + path_ + " .recover | sqlite3 NEW.db3 writes what is whole into a new file";
-  }
+  [[nodiscard]] std::string advice() const { return "; " + rescue_of(path_); }
   Status check_programs() const;
   Status read_version();
   Status read_topics();
@@ -236,6 +234,12 @@ Result<std::unique_ptr<DatabaseStorage>> open_bag(const std::string& path) {
 }
 
 }  // namespace
+
+// Debian's sqlite3 has no .recover. A dump of a damaged file takes itself back at its end.
+std::string rescue_of(const std::string& path) {
+  return "sqlite3 " + path +
+         " .dump | sed 's/^ROLLBACK.*/COMMIT;/' | sqlite3 NEW.db3 writes what is whole into a new file";
+}
 
 bool is_database(std::span<const std::byte> bytes) {
   return bytes.size() >= kBegin.size() && std::memcmp(bytes.data(), kBegin.data(), kBegin.size()) == 0;

@@ -163,10 +163,7 @@ Result<Examination> recover(const std::string& path, std::unique_ptr<Output> to)
   const Result<MappedFile> file = MappedFile::open(path);
   if (!file) return file.error();
   if (is_database(file->bytes()))
-    return fail(Code::unimplemented,
-                "of a bag in SQLite, sqlite3 " + path +
-                    " .recover | sqlite3 NEW.db3 writes what is whole into a new file",
-                path);
+    return fail(Code::unimplemented, "a bag in SQLite is saved by SQLite: " + rescue_of(path), path);
   return recover(file->bytes(), std::move(to));
 }
 

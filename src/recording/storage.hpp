@@ -53,6 +53,9 @@ class Storage {
 /// @errors  as open_database().
 [[nodiscard]] Result<Examination> check_database(const std::string& path);
 
+/// Returns a sentence with the command that saves what is whole of a damaged one.
+[[nodiscard]] std::string rescue_of(const std::string& path);
+
 /// Returns the files of a recording: of a bag's folder those in it, in the order of their numbers; else the path itself.
 /// @errors  not_found and unimplemented as Reader::open().
 [[nodiscard]] Result<std::vector<std::string>> files_of(const std::string& path);

@@ -39,7 +39,8 @@ class Reader {
   /// Opens a recording.
   /// @errors  invalid_argument if it cannot be read, or is none; not_found for a folder without such files, with one missing, or with
   ///          several that are no one bag; failed_precondition for a database that its writer has not finished (a -wal or -journal
-  ///          file lies beside it), or of another schema version; unimplemented for a file that is compressed as a whole.
+  ///          file lies beside it), or of another schema version; data_loss for a database whose beginning is damaged;
+  ///          unimplemented for a file that is compressed as a whole.
   [[nodiscard]] static Result<Reader> open(const std::string& path);
   /// Reads bytes, which outlive the reader.
   /// @errors  invalid_argument if they are no MCAP file.
