@@ -84,8 +84,9 @@ Sent RingEnd::send(const Frame& frame, Loss loss, Caller /*caller*/) {
 
 Sent RingEnd::write_or_keep(const Frame& frame, Loss loss) {
   if (!unsent_.empty()) return loss == Loss::allowed ? Sent::no_room : keep(frame);
+  Loans* const bulk = outgoing_.bulk.get();
   const Result<Written> written =
-      outgoing_.ring.write([&](std::span<std::byte> to) { return frame.write(to, outgoing_.bulk.get()); });
+      outgoing_.ring.write([&](std::span<std::byte> to) { return frame.write(to, bulk); });
   if (!written) {
     note_fault(written.error());
     return Sent::cut;
