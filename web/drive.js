@@ -63,6 +63,14 @@ export function clientsXml(names) {
 }
 
 /**
+ * @param {string} text  a goal, as Command reads it
+ * @returns {string} a TripOrder
+ */
+export function tripXml(text) {
+  return `<TripOrder kind="TRIP_GO" rounds="1"><goals value="${xmlText(text)}"/></TripOrder>`;
+}
+
+/**
  * @param {number} speed  [m/s]
  * @param {number} turnRate  [rad/s]
  * @returns {string} a MotionCommand
@@ -95,8 +103,6 @@ export class Driver {
     this.connection = connection;
     this.system = system;
     this.prefix = prefix;
-    /** The goal of this page that Command drives to, and after which it is to wait; "": none. */
-    this.ordered = "";
     this.orders = 0;
     /** @type {NamedGoal[]} goals of the graph */
     this.goals = [];
@@ -160,25 +166,13 @@ export class Driver {
   }
 
   /**
-   * Gives Command one goal. It is to end neither itself nor the run with it, so it goes round until `ended()` lets it wait.
+   * Gives Command one goal, as `orcactl go` does. It waits at its end.
    * @param {string} text
    * @returns {Promise<Answer>}
    */
   async commandGoal(text) {
     const command = this.command?.name;
-    if (command === undefined) return NO_WAY;
-    this.ordered = text.slice(0, text.indexOf(":"));
-    return this.connection.ask("set", `${command}.rounds`, "0", `${command}.goals`, text);
-  }
-
-  /**
-   * Lets Command wait where it is, if the goal was this page's.
-   * @param {string} goal  that was reached, or could not be
-   */
-  ended(goal) {
-    if (this.ordered !== goal || this.command === undefined) return;
-    this.ordered = "";
-    this.connection.ask("set", `${this.command.name}.goals`, "");
+    return command === undefined ? NO_WAY : this.connection.query(`${command}.TripQuery`, tripXml(text));
   }
 
   /**
@@ -209,8 +203,7 @@ export class Driver {
 
   /** @returns {Promise<Answer>} */
   async giveUp() {
-    this.ordered = "";
-    if (this.command !== undefined) return this.connection.ask("set", `${this.command.name}.goals`, "");
+    if (this.command !== undefined) return this.connection.query(`${this.command.name}.TripQuery`, '<TripOrder kind="TRIP_CANCEL"/>');
     return this.cancelPort === undefined ? NO_WAY : this.connection.send(this.cancelPort.port, "<GoalFailed/>");
   }
 

@@ -159,10 +159,9 @@ export class WorldPanel {
     setText(byId("figure-command"), wanted);
   }
 
-  /** @param {{robot: Robot, goal: string, text: string}} ended */
-  end({ robot, goal, text }) {
+  /** @param {{robot: Robot, text: string}} ended */
+  end({ robot, text }) {
     notify(`${robot.name || "The robot"} ${text.replace(PLACES, "the place you chose")}`);
-    this.driverOf(robot).ended(goal);
   }
 
   /**

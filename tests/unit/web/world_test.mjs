@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { clientsXml, goalText, goalXml, motionXml, namedGoal, poseXml } from "../../../web/drive.js";
+import { clientsXml, goalText, goalXml, motionXml, namedGoal, poseXml, tripXml } from "../../../web/drive.js";
 import { between, Camera, compose, ellipse, PoseHistory, transform, wrap } from "../../../web/geometry.js";
 import { changeOf } from "../../../web/world_change.js";
 import { conesOf, EchoMemory, Robot, scanOf } from "../../../web/world_model.js";
@@ -107,6 +107,7 @@ test("orders are written as Command and the ports read them", () => {
   assert.ok(!goalXml({ x: 1, y: 2 }, null, "place_1").includes("orientation"));
   assert.equal(poseXml({ x: 1, y: 2, yaw: 3 }), '<RobotPose x="1.000" y="2.000" orientation="3.0000"/>');
   assert.equal(clientsXml(["a", 'b"<&']), '<ClientList><clients value="a"/><clients value="b&quot;&lt;&amp;"/></ClientList>');
+  assert.equal(tripXml('a: 1 2 > "b"'), '<TripOrder kind="TRIP_GO" rounds="1"><goals value="a: 1 2 > &quot;b&quot;"/></TripOrder>');
   assert.equal(motionXml(0, 0), '<MotionCommand kind="FULLSTOP"/>');
   assert.match(motionXml(0.2, -0.5), /kind="NORMAL" steering="BY_TURN_RATE" speed="0.200" turn_rate="-0.500"/);
 });
