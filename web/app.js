@@ -4,7 +4,7 @@
 import { Connection } from "./connection.js";
 import { ComponentView } from "./component_view.js";
 import { askApply, askUndo } from "./dialogs.js";
-import { byId, notify, setText } from "./dom.js";
+import { byId, notify, permit, setText } from "./dom.js";
 import { Inspector } from "./inspector.js";
 import { Pacing } from "./pacing.js";
 import { ReplayBar } from "./replay_bar.js";
@@ -14,6 +14,12 @@ import { Teleoperation } from "./teleoperation.js";
 import { TimeView } from "./time_view.js";
 import { WorldModel } from "./world_model.js";
 import { WorldView } from "./world_view.js";
+
+/** @type {Record<string, string>} */
+const WHAT_A_ROLE_MAY = {
+  observe: "This address has the role observe: it looks, and gives no orders.",
+  operate: "This address has the role operate: it steers the robot, and does not change its software.",
+};
 
 /** Puts the page together: the views behind the tabs, the state of the connection, and STOP. */
 
@@ -96,7 +102,7 @@ function listenToStop() {
   });
   addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || event.repeat) return;
-    if (connection.steers) stop();
+    if (connection.may("estop")) stop();
     /** @type {HTMLDialogElement} */ (byId("dialog")).close();
   }, { capture: true });
   byId("release").addEventListener("click", release);
@@ -105,25 +111,33 @@ function listenToStop() {
 function showState() {
   const link = byId("link");
   const { hello } = connection;
-  const [state, text] = hello?.recorded ? ["good", "recording"] : hello !== null ? ["good", hello.role === "operator" ? "live" : "live, look only"]
+  const [state, text] = hello?.recorded ? ["good", "recording"] : hello !== null ? ["good", hello.role === "change" ? "live" : `live, ${hello.role}`]
     : connection.isOpen ? ["waiting", "waiting for a system"] : ["bad", "no connection"];
   link.className = `pill ${state}`;
   setText(link, text);
   setText(byId("system-name"), hello?.system ?? "");
   document.title = hello === null ? "Orca" : `${hello.system} – Orca`;
   byId("graph-apply").hidden = !connection.steers;
-  byId("stop").hidden = hello !== null && hello.role !== "operator";
+  permit(byId("graph-apply"), connection.refusal("apply"));
+  byId("stop").hidden = hello?.recorded === true;
+  permit(byId("stop"), hello === null ? "" : connection.refusal("estop"));
+  byId("role").hidden = !connection.steers || connection.role === "change";
+  setText(byId("role"), WHAT_A_ROLE_MAY[connection.role] ?? "");
+  showUndo();
+  showHold();
   byId("dropped").hidden = connection.dropped === 0;
   setText(byId("dropped"), `${connection.dropped} objects left out`);
 }
 
 function showUndo() {
   byId("graph-undo").hidden = system.graphBefore === "" || !connection.steers;
+  permit(byId("graph-undo"), connection.refusal("apply"));
 }
 
 function showHold() {
   const alarm = system.alarms.find((each) => each.kind === "ESTOP" && each.active);
   byId("release").hidden = alarm === undefined || !connection.steers;
+  permit(byId("release"), connection.refusal("estop"));
   byId("held").hidden = alarm === undefined;
   setText(byId("held"), alarm === undefined ? "" : `Motors held: ${alarm.text}`);
   document.body.classList.toggle("is-held", alarm !== undefined);

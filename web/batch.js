@@ -2,13 +2,13 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
 import { tableOf } from "./dialogs.js";
-import { byId, el, figure, notify, setText } from "./dom.js";
+import { byId, el, figure, notify, permit, setText } from "./dom.js";
 
 /**
  * The page of a batch of simbatch (orcaview --batch): how far it is, its report, its failed runs.
  * @typedef {{run?: number, variant: string, world: string, seed: number, ending: string, failure: string, reason: string, time: number, command?: string}} Failed
  * @typedef {{name: string, runs: number, done: number, endings: Record<string, number>}} Variant
- * @typedef {{experiment?: string, runs?: number, done?: number, variants?: Variant[], failures?: number, failed?: Failed[], report: boolean, role: string,
+ * @typedef {{experiment?: string, runs?: number, done?: number, variants?: Variant[], failures?: number, failed?: Failed[], report: boolean, refusal: string,
  *   error: string, watched?: {name: string, address: string, said: string, ended: number}}} Status
  */
 
@@ -32,16 +32,17 @@ function rowOf({ name, runs, done, endings }) {
 
 /**
  * @param {Failed} run
- * @param {boolean} steers
+ * @param {string} refusal  why this page may not watch it; "": it may
  */
-function failedRow(run, steers) {
+function failedRow(run, refusal) {
   const why = [run.ending, run.failure === run.ending ? "" : run.failure, run.reason].filter((word) => word !== "").join(", ").replace(/_/g, " ");
   const watch = el("button", { class: "small look", "data-run": run.run ?? "", click: () => order(run) }, "Watch");
+  permit(watch, refusal);
   return el(
     "details", { class: "failed-run" },
     el("summary", {}, `${run.variant} in ${run.world}, seed ${run.seed}: ${why}`),
     run.command === undefined ? el("p", {}, "The experiment does not have this run any more.") : el("pre", {}, run.command),
-    run.command === undefined || !steers ? null : watch,
+    run.command === undefined ? null : watch,
   );
 }
 
@@ -69,7 +70,7 @@ function show(status) {
   const report = /** @type {HTMLAnchorElement} */ (byId("batch-report"));
   report.hidden = !status.report;
   report.href = withToken("report.html");
-  showFailed(failed, status.role === "operator");
+  showFailed(failed, status.refusal);
   setText(byId("batch-more"), failures > failed.length ? `And ${failures - failed.length} more.` : failures === 0 ? "None so far." : "");
   showWatched(status.watched);
 }
@@ -77,14 +78,14 @@ function show(status) {
 /**
  * Draws them anew only if there are others, so that one that is open stays so.
  * @param {Failed[]} failed
- * @param {boolean} steers
+ * @param {string} refusal
  */
-function showFailed(failed, steers) {
+function showFailed(failed, refusal) {
   const list = byId("batch-failed");
   const shape = failed.map(({ run }) => run).join();
   if (list.dataset.shape === shape) return;
   list.dataset.shape = shape;
-  list.replaceChildren(...failed.map((run) => failedRow(run, steers)));
+  list.replaceChildren(...failed.map((run) => failedRow(run, refusal)));
 }
 
 /** @param {Status["watched"]} watched */

@@ -15,6 +15,11 @@ import { parseLayout } from "./layout.js";
  * @typedef {{system: string, role: string, time: number, version: string, recorded?: boolean}} Hello
  */
 
+/** The roles, each of which includes those before it. */
+const ROLES = ["observe", "operate", "change"];
+/** What this page may order, as on a command line. `line` is what sends an object to a port; `file --keep` keeps a layout beside the graph. */
+const ORDERS = ["estop", "line", "suspend", "resume", "restart", "swap", "set", "connect", "disconnect", "apply", "pace 1", "pause", "step", "file --keep"];
+
 const PROTOCOL = "orca.view.v1";
 const HEAD = 32;
 const FIRST_PAUSE = 250;
@@ -26,7 +31,7 @@ const CUT_OFF = { ok: false, records: [], text: "", notes: [], error: "the conne
 
 /**
  * Events: `hello` when a system is there, `gone` when it has ended, `moved` when the time of a recording was set, `state` when the
- * connection comes or goes, `figures` when objects were dropped for this page.
+ * connection comes or goes or it is known what this page may do, `figures` when objects were dropped for this page.
  */
 export class Connection extends EventTarget {
   /** @param {string} url  of the WebSocket, with the token */
@@ -38,6 +43,8 @@ export class Connection extends EventTarget {
     /** @type {Hello | null} */
     this.hello = null;
     this.role = "";
+    /** @type {Map<string, string>} the role that each order takes, as the system says it */
+    this.takes = new Map();
     this.isOpen = false;
     this.dropped = 0;
     this.next = 1;
@@ -85,9 +92,32 @@ export class Connection extends EventTarget {
     this.dispatchEvent(new Event("gone"));
   }
 
-  /** Whether this page may give orders. */
+  /** Whether there is a system that takes orders. A recording takes none. */
   get steers() {
-    return this.hello !== null && this.hello.role === "operator";
+    return this.hello !== null && this.hello.recorded !== true;
+  }
+
+  /**
+   * @param {string} order  of ORDERS
+   * @returns {string} why this page may not give it; "": it may
+   */
+  refusal(order) {
+    const needed = this.takes.get(order);
+    if (needed === undefined) return "";  // not known yet: the system refuses what may not be
+    if (ROLES.indexOf(this.role) >= ROLES.indexOf(needed)) return "";
+    return `This takes the role ${needed}; this address has ${this.role}.`;
+  }
+
+  /** @param {string} order  of ORDERS @returns {boolean} */
+  may(order) {
+    return this.steers && this.refusal(order) === "";
+  }
+
+  /** Learns which role each order takes: the system decides it. */
+  async learnRoles() {
+    const { records } = await this.ask("roles", ...ORDERS);
+    this.takes = new Map(records.map(({ order, role }) => [order, role]));
+    this.dispatchEvent(new Event("state"));
   }
 
   /** @param {any} message @returns {boolean} whether it could be sent */
@@ -217,6 +247,7 @@ export class Connection extends EventTarget {
         this.hello = message;
         this.parsed.clear();
         this.put({ op: "types" });
+        if (this.steers) this.learnRoles();
         return;
       case "types":
         this.types = message.types;

@@ -53,6 +53,18 @@ export function setText(node, text) {
   if (node.textContent !== text) node.textContent = text;
 }
 
+/**
+ * Lets a control be used, or shows why not where the pointer stands on it.
+ * @param {HTMLElement} control  a button, a box or a list
+ * @param {string} refusal  "": it may be used
+ */
+export function permit(control, refusal) {
+  /** @type {HTMLButtonElement} */ (control).disabled = refusal !== "";
+  control.dataset.title ??= control.title;
+  const title = refusal === "" ? control.dataset.title : refusal;
+  if (control.title !== title) control.title = title;
+}
+
 /** @param {string} text @returns {string} the text for an attribute in double quotes */
 export function xmlText(text) {
   return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/"/g, "&quot;").replace(/\n/g, "&#10;");

@@ -2,7 +2,7 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
 import { askSwap, report } from "./dialogs.js";
-import { el, figure, setText } from "./dom.js";
+import { el, figure, permit, setText } from "./dom.js";
 import { ObjectView } from "./object_view.js";
 import { componentOf, shortPort } from "./system_model.js";
 import { markOf, milliseconds } from "./system_view.js";
@@ -129,7 +129,7 @@ export class Inspector {
     if (laps !== undefined && laps.lap50 !== null) facts["Lap, p50 and p99"] = `${milliseconds(laps.lap50)}, ${milliseconds(laps.lap99)} of the processor`;
     if (component.alarms !== "") facts.Alarms = component.alarms;
     this.showFacts(facts);
-    const shape = `${name} ${component.state} ${this.connection.steers}`;
+    const shape = `${name} ${component.state} ${this.connection.steers} ${this.connection.takes.size}`;
     if (shape !== this.shape) this.showOrders(component);
     this.shape = shape;
     this.refreshRates();
@@ -144,11 +144,13 @@ export class Inspector {
       system.poll();
     };
     const paused = state.startsWith("SUSPENDED");
-    this.buttons.replaceChildren(...(connection.steers ? [
-      paused ? el("button", { click: order("resume", name, `${name} goes on.`) }, "Resume") : el("button", { click: order("suspend", name, `${name} is paused between two laps.`) }, "Suspend"),
-      el("button", { click: () => askSwap(connection, system, system.components.get(name) ?? component) }, "Swap code …"),
-      el("button", { title: `Ends process ${process} and starts it again, with all that runs in it`, click: order("restart", name, `Process ${process} works again.`) }, "Restart process"),
-    ] : []));
+    const pausing = paused ? el("button", { click: order("resume", name, `${name} goes on.`) }, "Resume") : el("button", { click: order("suspend", name, `${name} is paused between two laps.`) }, "Suspend");
+    const swapping = el("button", { click: () => askSwap(connection, system, system.components.get(name) ?? component) }, "Swap code …");
+    const restarting = el("button", { title: `Ends process ${process} and starts it again, with all that runs in it`, click: order("restart", name, `Process ${process} works again.`) }, "Restart process");
+    permit(pausing, connection.refusal(paused ? "resume" : "suspend"));
+    permit(swapping, connection.refusal("swap"));
+    permit(restarting, connection.refusal("restart"));
+    this.buttons.replaceChildren(...(connection.steers ? [pausing, swapping, restarting] : []));
   }
 
   // ------------------------------------------------------------------------------------------------ its ports
@@ -207,6 +209,7 @@ export class Inspector {
     this.edited = [];
     const rows = records.map((row) => this.valueRow(row));
     const set = el("button", { class: "primary", click: () => this.setValues(name) }, "Set");
+    permit(set, this.connection.refusal("set"));
     const reset = el("button", { click: () => this.readValues(name) }, "Read again");
     this.values.replaceChildren(...(rows.length > 0 ? rows : [el("p", { class: "small" }, "It has none.")]), el("div", { class: "row" }, ...(this.edited.length > 0 && this.connection.steers ? [set, reset] : [])));
     this.values.oninput = () => setText(set, this.changed().length > 1 ? `Set ${this.changed().length} values at once` : "Set");
@@ -218,7 +221,8 @@ export class Inspector {
   /** @param {Record<string, any>} row */
   valueRow(row) {
     const param = `${row.component}.${row.param}`;
-    const input = el("input", { type: "text", value: String(row.value), disabled: row.fixed === true || !this.connection.steers, spellcheck: "false", "aria-label": param });
+    const input = el("input", { type: "text", value: String(row.value), disabled: row.fixed === true || !this.connection.may("set"), spellcheck: "false", "aria-label": param });
+    if (row.fixed !== true) input.title = this.connection.refusal("set");
     if (row.fixed !== true) this.edited.push({ name: param, before: String(row.value), input });
     return el("label", { class: "value", title: `${row.text}${row.fixed === true ? " (fixed while it runs)" : ""}` }, el("span", {}, row.param), input, el("span", { class: "unit" }, row.unit));
   }
@@ -272,7 +276,9 @@ export class Inspector {
     const { from, to } = wire;
     this.watched.replaceChildren();
     this.buttons.replaceChildren();
-    if (this.connection.steers) this.buttons.append(el("button", { id: "disconnect", click: () => this.disconnect(wire) }, "Disconnect"));
+    const disconnecting = el("button", { id: "disconnect", click: () => this.disconnect(wire) }, "Disconnect");
+    permit(disconnecting, this.connection.refusal("disconnect"));
+    if (this.connection.steers) this.buttons.append(disconnecting);
     if (wire.pattern !== "Query") this.buttons.append(el("button", { click: () => this.watch(to) }, "Look at the objects"));
     const link = (/** @type {string} */ port) => el("button", { class: "plain link", click: () => this.choose({ component: componentOf(port) }) }, port);
     this.element.replaceChildren(this.closing(), el("section", { class: "card" }, el("h2", {}, "Connection"), el("p", {}, link(from), " → ", link(to)), this.facts, this.buttons), this.watched);

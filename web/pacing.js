@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
-import { byId, el, notify, setText } from "./dom.js";
+import { byId, el, notify, permit, setText } from "./dom.js";
 
 /**
  * The time of a simulation: to let it stand, pass by steps, and pass faster or slower than the clock. It is hidden in real time.
@@ -46,6 +46,9 @@ export class Pacing {
     setText(byId("pace-time"), `${pace.time.toFixed(3)} s`);
     setText(byId("pace-pause"), pace.paused ? "Go on" : "Pause");
     byId("pace-orders").hidden = !this.connection.steers;
+    permit(byId("pace-pause"), this.connection.refusal("pause"));
+    permit(this.choice, this.connection.refusal("pace 1"));
+    for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-step]"))) permit(button, this.connection.refusal("step"));
     setText(byId("pace-state"), pace.paused ? "Time stands." : pace.pace === null ? "As fast as the machine can." : `${pace.pace} s of the simulation in a second.`);
     if (pace.paused || this.choice === document.activeElement) return;
     const word = paceWord(pace.pace);

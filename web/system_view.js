@@ -134,7 +134,7 @@ export class SystemView extends EventTarget {
   /** Keeps where hands have put components: beside the graph if this page may, and if that can be written, otherwise in this browser. */
   async keepByHand() {
     const layout = JSON.stringify(this.byHand);
-    const { ok, error } = this.connection.steers ? await this.connection.layout(layout) : { ok: false, error: "" };
+    const { ok, error } = this.connection.may("file --keep") ? await this.connection.layout(layout) : { ok: false, error: "" };
     if (ok) return localStorage.removeItem(this.ownLayout);
     localStorage.setItem(this.ownLayout, layout);
     if (error !== "") this.warn(error);
@@ -376,6 +376,7 @@ export class SystemView extends EventTarget {
     const [dx, dy] = [event.clientX - drag.at.x, event.clientY - drag.at.y];
     if (!drag.moved && Math.hypot(dx, dy) < 4) return;
     if (!drag.moved) this.begin(drag, event);
+    if (this.drag === null) return;
     if (drag.kind === "wire") return this.pullWire(drag.name, event);
     drag.at = { x: event.clientX, y: event.clientY };
     this.isTouched = true;
@@ -392,6 +393,11 @@ export class SystemView extends EventTarget {
     this.drawing.setPointerCapture(event.pointerId);
     const from = this.system.ports.get(drag.name);
     if (drag.kind !== "wire" || from === undefined) return;
+    const refusal = this.connection.refusal("connect");
+    if (refusal !== "") {
+      notify(refusal, "refused");
+      return this.letGo();
+    }
     this.drawing.classList.add("connecting");
     for (const grip of this.drawing.querySelectorAll("[data-port]")) grip.classList.toggle("fits", this.verdict(drag.name, grip.getAttribute("data-port") ?? "") === "");
   }

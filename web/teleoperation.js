@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
-import { byId, notify } from "./dom.js";
+import { byId, notify, setText } from "./dom.js";
 import { motionXml } from "./drive.js";
 import { componentOf } from "./system_model.js";
 
@@ -13,6 +13,7 @@ import { componentOf } from "./system_model.js";
  */
 
 const INTERVAL = 80;  // [ms], well below the dead man's time of Teleop
+const HINT = "Hold the pad, an arrow key, or the right shoulder button of a gamepad. To let go is to stop.";
 const DEAD_MAN_BUTTON = 5;  // right shoulder of a standard gamepad
 /** @type {Record<string, {forward: number, left: number}>} */
 const KEYS = {
@@ -128,8 +129,11 @@ export class Teleoperation {
 
   turn() {
     const port = this.port;
+    const refusal = this.connection.refusal("line");
     byId("teleoperation").hidden = port === undefined || !this.connection.steers;
-    const wish = port === undefined || !this.connection.steers ? null : this.wish();
+    this.pad.classList.toggle("refused", refusal !== "");
+    setText(byId("pad-hint"), refusal === "" ? HINT : refusal);
+    const wish = port === undefined || !this.connection.may("line") ? null : this.wish();
     if (port === undefined || (wish === null && !this.isDriving)) return;
     this.isDriving = wish !== null;
     this.showStick(wish);

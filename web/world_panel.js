@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
-import { byId, el, figure, notify, setText } from "./dom.js";
+import { byId, el, figure, notify, permit, setText } from "./dom.js";
 import { Driver, PLACE } from "./drive.js";
 import { changeXml } from "./world_change.js";
 
@@ -33,6 +33,7 @@ export class WorldPanel {
     world.addEventListener("ended", (event) => this.end(/** @type {CustomEvent} */ (event).detail));
     world.addEventListener("happened", (event) => notify(/** @type {CustomEvent} */ (event).detail));
     for (const event of ["gone", "state"]) connection.addEventListener(event, () => this.showFigures());
+    connection.addEventListener("state", () => this.showOrders());
     system.addEventListener("figures", () => this.showOrders());
     system.addEventListener("graph", () => this.showOrders());
     byId("give-up").addEventListener("click", () => this.order(this.driver.giveUp(), "The goal is given up."));
@@ -77,6 +78,8 @@ export class WorldPanel {
     const driver = this.driver;
     driver.readGoals();
     const steers = this.connection.steers;
+    const refusal = this.connection.refusal("line");
+    for (const control of ["tool-drive", "tool-pose", "tool-change", "give-up"]) permit(byId(control), refusal);
     byId("tool-drive").hidden = !steers || !driver.takesGoals;
     byId("tool-pose").hidden = !steers || driver.posePort === undefined;
     byId("tool-change").hidden = !steers || this.changePort === undefined;
@@ -90,12 +93,13 @@ export class WorldPanel {
       label.hidden = this.system.portsThat((port) => types.includes(port.type) || types.includes(port.reply ?? "")).length === 0;
     }
     const list = byId("goal-list");
-    const key = goals.map((goal) => goal.text).join();
+    const key = [refusal, ...goals.map((goal) => goal.text)].join();
     if (list.dataset.key === key) return;
     list.dataset.key = key;
     list.replaceChildren(
       ...goals.map((goal) => el("button", { title: goal.text, click: () => this.order(driver.commandGoal(goal.text), `Sent to ${goal.name}.`) }, goal.name)),
     );
+    for (const control of /** @type {Iterable<HTMLElement>} */ (list.children)) permit(control, refusal);
     this.world.stale = true;
   }
 
@@ -116,18 +120,10 @@ export class WorldPanel {
       list.dataset.kinds = `${robot?.name} ${kinds.join()}`;
       list.replaceChildren(...kinds.map((kind) => el("label", { class: "check" }, el("input", { type: "checkbox", value: kind, change: (event) => this.switchSensor(kind, event.target.checked) }), kind)));
     }
-    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (list.querySelectorAll("input"))) box.checked = !(robot?.truth?.silent ?? []).some((each) => each.split(" ")[0] === box.value);
-  }
-
-  /**
-   * @param {string} sensor
-   * @param {boolean} works
-   */
-  switchSensor(sensor, works) {
-    const port = this.changePort?.port;
-    if (port === undefined) return;
-    const xml = changeXml(works ? "RESTORE_SENSOR" : "SILENCE_SENSOR", { name: this.robot?.name ?? "", sensor });
-    this.order(this.connection.send(port, xml), "");  // the world's events say what has become of it
+    for (const box of /** @type {NodeListOf<HTMLInputElement>} */ (list.querySelectorAll("input"))) {
+      box.checked = !(robot?.truth?.silent ?? []).some((each) => each.split(" ")[0] === box.value);
+      permit(box, this.connection.refusal("line"));
+    }
   }
 
   /** Says in plain words what the robot does. */

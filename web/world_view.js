@@ -32,6 +32,12 @@ const HINTS = {
 /** @type {Record<string, Tool>} */
 const TOOL_KEYS = { v: "look", d: "drive", p: "pose", w: "change", m: "measure" };
 
+/** @param {Tool} tool @returns {boolean} whether this system takes what it orders, and this page may order it */
+function isOffered(tool) {
+  const button = /** @type {HTMLButtonElement} */ (byId(`tool-${tool}`));
+  return !button.hidden && !button.disabled;
+}
+
 export class WorldView {
   /**
    * @param {Connection} connection
@@ -368,7 +374,7 @@ export class WorldView {
   key(event) {
     const key = event.key.toLowerCase();
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (key in TOOL_KEYS && !byId(`tool-${TOOL_KEYS[key]}`).hidden) this.take(TOOL_KEYS[key]);
+    if (key in TOOL_KEYS && isOffered(TOOL_KEYS[key])) this.take(TOOL_KEYS[key]);
     else if (key === "f") this.follow(!this.follows);
     else if (key === "0") this.fit(performance.now());
     else if (key === "+") this.zoom(1.25);

@@ -164,7 +164,7 @@ LAYERS = (
     Layer("host_run", (f"{HOST}/run",), ("orca/host/run_system.hpp",), ("ros", "host_judging", "host_part", "host_swap", "host_trial",
           "host_system", "host_recording", "host", "host_containment", "plugin", "graph", "hw_link", "base"), module=HOST),
     Layer("supervisor_channel", (f"{SUPERVISOR}/channel",), ("orca/supervisor/channel.hpp", "orca/supervisor/control.hpp",
-          "orca/supervisor/message.hpp", "orca/supervisor/record.hpp", "orca/supervisor/vocabulary.hpp"), ("graph", "base"),
+          "orca/supervisor/message.hpp", "orca/supervisor/record.hpp", "orca/supervisor/role.hpp", "orca/supervisor/vocabulary.hpp"), ("graph", "base"),
           module=SUPERVISOR),
     Layer("supervisor_processes", (f"{SUPERVISOR}/processes",), ("orca/supervisor/",), ("supervisor_channel", "graph", "base"),
           module=SUPERVISOR),

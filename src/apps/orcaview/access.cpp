@@ -8,7 +8,6 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
-#include <set>
 
 namespace orca::view {
 namespace {
@@ -44,19 +43,20 @@ bool is_called(std::string_view own, std::string_view name) {
 }  // namespace
 
 Result<Tokens> Tokens::draw() {
-  Result<std::string> reader = draw_token();
-  if (!reader) return reader.error();
-  Result<std::string> steering = draw_token();
-  if (!steering) return steering.error();
-  return Tokens(std::move(*reader), std::move(*steering));
+  std::map<Role, std::string> tokens;
+  for (const Role role : kRoles) {
+    Result<std::string> token = draw_token();
+    if (!token) return token.error();
+    tokens[role] = *std::move(token);
+  }
+  return Tokens(std::move(tokens));
 }
 
 std::optional<Role> Tokens::role_of(std::string_view token) const {
-  const bool steers = is_equal(token, operator_);
-  const bool reads = is_equal(token, reader_);
-  if (steers) return Role::operator_;
-  if (reads) return Role::reader;
-  return std::nullopt;
+  std::optional<Role> found;
+  for (const auto& [role, own] : tokens_)
+    if (is_equal(token, own)) found = role;
+  return found;
 }
 
 bool is_own_host(std::string_view host, const Calling& calling) {
@@ -86,11 +86,13 @@ std::string query_value(std::string_view target, std::string_view name) {
   return {};
 }
 
-bool only_shows(std::string_view command, bool has_words) {
-  static const std::set<std::string_view> shows{"ps",       "graph",  "machines", "ports", "plugins",
-                                                "objects",  "names",  "counters", "log",   "get",
-                                                "missions", "replay", "team"};
-  return shows.contains(command) || ((command == "alarms" || command == "pace") && !has_words);
+// The first element of a document is its only one, and names the type of the object.
+bool only_asks(std::string_view xml) {
+  constexpr std::string_view kQuestions[] = {"<Ask", "<AskReading"};
+  return std::ranges::any_of(kQuestions, [&](std::string_view question) {
+    return xml.starts_with(question) && xml.size() > question.size() &&
+           std::string_view(" \t\r\n/>").find(xml[question.size()]) != std::string_view::npos;
+  });
 }
 
 }  // namespace orca::view

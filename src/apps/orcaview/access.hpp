@@ -3,22 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
+#include "orca/supervisor/role.hpp"
 
 namespace orca::view {
 
-/// What somebody may do who has opened the page.
-enum class Role { reader, operator_ };
+/// What somebody may do who has opened the page. Which order takes which role, the supervisor knows.
+using Role = supervisor::Access;
 
-/// The answer to a reader who gives orders.
-inline constexpr const char* kOnlyLooks = "this address may only look; for orders open the one for operators";
-
-/// The tokens of a run of orcaview: whoever knows one may look, or look and steer.
+/// The tokens of a run of orcaview, one for each role: whoever knows one has it.
 class Tokens {
  public:
   /// Draws new ones, 128 bits each, from the system's random device.
@@ -28,14 +28,16 @@ class Tokens {
   /// Returns the role of whoever knows a token; nothing if it is none. Takes the same time for each wrong one.
   [[nodiscard]] std::optional<Role> role_of(std::string_view token) const;
 
-  [[nodiscard]] const std::string& of(Role role) const { return role == Role::reader ? reader_ : operator_; }
+  /// @param role  of kRoles.
+  [[nodiscard]] const std::string& of(Role role) const { return tokens_.at(role); }
+
+  /// Those that have a token, the one that may most first.
+  static constexpr Role kRoles[] = {Role::change, Role::operate, Role::observe};
 
  private:
-  Tokens(std::string reader, std::string steering)
-      : reader_(std::move(reader)), operator_(std::move(steering)) {}
+  explicit Tokens(std::map<Role, std::string> tokens) : tokens_(std::move(tokens)) {}
 
-  std::string reader_;
-  std::string operator_;
+  std::map<Role, std::string> tokens_;
 };
 
 /// How browsers call this server at one of its doors. A plain value.
@@ -57,7 +59,8 @@ struct Calling {
 /// Returns the value of a name in the query of a request's target, such as token in "/ws?token=1f"; empty: there is none.
 [[nodiscard]] std::string query_value(std::string_view target, std::string_view name);
 
-/// Returns whether a reader may give this command of orcactl: it shows something and changes nothing.
-[[nodiscard]] bool only_shows(std::string_view command, bool has_words);
+/// Returns whether an object in its text form is a question that carries no order: an Ask or an AskReading. orcaview asks these itself,
+/// whoever looks.
+[[nodiscard]] bool only_asks(std::string_view xml);
 
 }  // namespace orca::view

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,11 @@ constexpr std::size_t kLongestStatus = std::size_t{8} << 20;
 constexpr std::size_t kLongestSaid = 4000;  // [bytes]
 constexpr const char* kReportFile = "report.html";
 
+// To make a run again is to run code as the user who has started orcaview.
+constexpr Role kWatches = Role::change;
+constexpr const char* kTooLittle =
+    "to watch a run takes the role change; who has started the page has an address with it";
+
 BatchDoor::Reply refuse(unsigned status, const std::string& why) {
   return {status, text_of({{"error", why}})};
 }
@@ -37,6 +43,15 @@ std::string address_in(const std::string& said) {
   const std::size_t begin = said.find("http://127.0.0.1:");
   const std::size_t end = begin == std::string::npos ? begin : said.find('\n', begin);
   return end == std::string::npos ? "" : said.substr(begin, end - begin);
+}
+
+// Returns what a program has printed, without the lines with addresses.
+std::string without_addresses(const std::string& said) {
+  std::string rest;
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("token=") == std::string::npos) rest += line + "\n";
+  return rest;
 }
 
 // Returns what a program has printed next; empty: it has closed its output.
@@ -53,7 +68,7 @@ asio::awaitable<std::string> read_some(asio::posix::stream_descriptor& output) {
 asio::awaitable<BatchDoor::Reply> BatchDoor::answer(std::string target, bool is_post, Role role) {
   const std::string path = target.substr(0, target.find('?'));
   if (path == "/batch/watch" && is_post)
-    co_return role == Role::reader ? refuse(403, kOnlyLooks) : watch(query_value(target, "run"));
+    co_return role < kWatches ? refuse(403, kTooLittle) : watch(query_value(target, "run"));
   if (is_post) co_return refuse(404, "there is nothing to post to");
   if (path == std::string("/batch/") + kReportFile) co_return report();
   if (path != "/batch/status") co_return refuse(404, "there is no such page");
@@ -86,16 +101,16 @@ asio::awaitable<void> BatchDoor::refresh() {
   is_reading_ = false;
 }
 
-// Whoever may only look does not learn the address of a page that steers.
+// Only whoever may begin a run learns the address of its page, which has that role.
 BatchDoor::Reply BatchDoor::status(Role role) const {
   json all = status_;
   all["error"] = fault_;
-  all["role"] = role == Role::reader ? "reader" : "operator";
+  all["refusal"] = role < kWatches ? kTooLittle : "";
   all["report"] = std::filesystem::exists(std::filesystem::path(folder_) / kReportFile);
   if (watched_)
     all["watched"] = {{"name", watched_->name},
-                      {"address", role == Role::reader ? "" : watched_->address},
-                      {"said", watched_->said},
+                      {"address", role < kWatches ? "" : watched_->address},
+                      {"said", role < kWatches ? without_addresses(watched_->said) : watched_->said},
                       {"ended", watched_->ended}};
   return {200, text_of(all)};
 }

@@ -36,7 +36,7 @@ class BatchDoor {
   BatchDoor(const boost::asio::any_io_executor& loop, std::string folder)
       : loop_(loop), folder_(std::move(folder)) {}
 
-  /// Answers `/batch/status`, `/batch/report.html` and, posted by an operator, `/batch/watch?run=N`, which makes the failed run of this
+  /// Answers `/batch/status`, `/batch/report.html` and, posted by who has the role change, `/batch/watch?run=N`, which makes the failed run of this
   /// number in the experiment again in real time, with a page of its own; the one before ends.
   boost::asio::awaitable<Reply> answer(std::string target, bool is_post, Role role);
 

@@ -37,14 +37,14 @@ constexpr std::string_view kDetails =
     "  orcaview --batch office.batch         how far simbatch is, its report, and its failed runs\n"
     "  orcaview run.mcap                     of a recording, which is played\n"
     "\n"
-    "Open the first address that it prints in a browser. Whoever knows it may steer the robot; with the "
+    "Open the first address that it prints in a browser. Whoever knows it may change everything; with the "
     "second\n"
-    "one, people may only look. Both hold until orcaview ends. They are also in the file GRAPH.PORT.view "
-    "beside "
-    "the\n"
-    "system's socket, which only you can read. If orcaview ends, nothing else notices.\n"
+    "one, people may operate the robot, with the third one only observe it. All hold until orcaview ends. "
+    "They are also\n"
+    "in the file GRAPH.PORT.view beside the system's socket, which only you can read. If orcaview ends, "
+    "nothing else notices.\n"
     "\n"
-    "With --listen there are two more addresses, for other machines, and the SHA-256 of the certificate: "
+    "With --listen there are three more addresses, for other machines, and the SHA-256 of the certificate: "
     "compare it\n"
     "with the one that the browser shows when it warns of a certificate that it does not know.\n";
 
@@ -137,8 +137,7 @@ class AddressFile {
 // Returns the addresses of a page, a line for each role.
 std::string addresses_of(const std::string& server, const Tokens& tokens, const std::string& page) {
   std::string lines;
-  for (const Role role : {Role::operator_, Role::reader})
-    lines += server + page + "#token=" + tokens.of(role) + "\n";
+  for (const Role role : Tokens::kRoles) lines += server + page + "#token=" + tokens.of(role) + "\n";
   return lines;
 }
 

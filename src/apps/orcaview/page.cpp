@@ -66,7 +66,7 @@ void Page::system_changed(bool is_up) {
   const Seconds time = std::chrono::system_clock::now().time_since_epoch();
   say({{"op", "hello"},
        {"system", desk().link().system()},
-       {"role", role() == Role::reader || desk().is_recorded() ? "reader" : "operator"},
+       {"role", to_string(desk().is_recorded() ? Role::observe : role())},
        {"recorded", desk().is_recorded()},
        {"present", is_up},
        {"time", time.count()},
@@ -124,10 +124,8 @@ void Page::refuse(std::uint32_t id, const std::string& why) {
 }
 
 void Page::ask(const Wish& wish) {
-  supervisor::Ask ask{wish.command, wish.words, !wish.as_text};
+  supervisor::Ask ask = for_it({wish.command, wish.words, !wish.as_text});
   if (ask.command == "line") return refuse(wish.id, "a page looks at a port with the op look");
-  if (role() == Role::reader && !only_shows(ask.command, !ask.words.empty()))
-    return refuse(wish.id, kOnlyLooks);
   if (!wish.graph.empty() && ask.command != "apply" && ask.command != "diff")
     return refuse(wish.id, "a graph goes with apply and diff only");
   if (wish.streams && ask.command == "log") return desk().follow_log(*this, wish.id);
@@ -155,13 +153,15 @@ void Page::begin_look(const Wish& wish) {
   if (!begun.ok()) say({{"op", "refused"}, {"id", wish.id}, {"error", begun.error().message}});
 }
 
-// The layout lies beside the graph, whose place the supervisor knows.
+// The layout lies beside the graph, whose place the supervisor knows. Beside no file nothing is kept.
 void Page::lay_out(const Wish& wish) {
-  if (role() == Role::reader && !wish.layout.empty()) return refuse(wish.id, kOnlyLooks);
+  if (desk().is_recorded() && wish.layout.empty()) return say_layout(wish.id, "{}", "");
   if (!may_ask()) return refuse(wish.id, kTooMany);
   const auto file = std::make_shared<std::string>();
+  supervisor::Ask ask = for_it({"file", {}, true});
+  if (!wish.layout.empty()) ask.words = {"--keep"};
   desk().link().ask(
-      {"file", {}, true}, [file](const supervisor::ControlAnswer& answer) { *file += file_in(answer); },
+      std::move(ask), [file](const supervisor::ControlAnswer& answer) { *file += file_in(answer); },
       [file, wish, find = finder()](const Status& outcome) {
         const auto page = find();
         if (page && !outcome.ok()) page->refuse(wish.id, outcome.error().text());
@@ -170,23 +170,23 @@ void Page::lay_out(const Wish& wish) {
 }
 
 void Page::take_graph_file(const std::string& file, const Wish& wish) {
+  if (file.empty() && wish.layout.empty()) return say_layout(wish.id, "{}", "");
   if (file.empty()) return refuse(wish.id, "this system does not say in which file its graph is");
   if (!wish.layout.empty())
     if (const Status kept = keep_layout(file, wish.layout); !kept.ok())
       return refuse(wish.id, kept.error().text());
   const Result<std::string> layout = read_layout(file);
   if (!layout) return refuse(wish.id, layout.error().text());
-  say({{"op", "answer"},
-       {"id", wish.id},
-       {"ok", true},
-       {"error", ""},
-       {"text", *layout},
-       {"file", layout_file_of(file)}});
+  say_layout(wish.id, *layout, layout_file_of(file));
+}
+
+void Page::say_layout(std::uint32_t id, const std::string& layout, const std::string& file) {
+  say({{"op", "answer"}, {"id", id}, {"ok", true}, {"error", ""}, {"text", layout}, {"file", file}});
 }
 
 void Page::offer(const Wish& wish) {
-  if (role() == Role::reader && wish.op == Wish::Op::send) return refuse(wish.id, kOnlyLooks);
-  desk().ports().offer(wish.port, wish.xml,
+  if (!desk().ports().reaches(wish.port, wish.xml, asker()) && !may_ask()) return refuse(wish.id, kTooMany);
+  desk().ports().offer(wish.port, wish.xml, asker(),
                        [find = finder(), id = wish.id](const Result<supervisor::OfferOutcome>& outcome) {
                          if (const auto page = find()) page->take_outcome(id, outcome);
                        });

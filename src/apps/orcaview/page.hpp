@@ -21,7 +21,7 @@ class Page final : public Session {
  public:
   static constexpr const char* kProtocol = "orca.view.v1";
 
-  Page(Stream stream, Role role, Desk& desk) : Session(std::move(stream), role, desk, kProtocol) {}
+  Page(Stream stream, Role role, Desk& desk) : Session(std::move(stream), role, desk, kProtocol, "page") {}
 
   void system_changed(bool is_up) override;
   void time_moved() override;
@@ -40,6 +40,7 @@ class Page final : public Session {
   void begin_look(const Wish& wish);
   void lay_out(const Wish& wish);
   void take_graph_file(const std::string& file, const Wish& wish);
+  void say_layout(std::uint32_t id, const std::string& layout, const std::string& file);
   void offer(const Wish& wish);
   void take_outcome(std::uint32_t id, const Result<supervisor::OfferOutcome>& outcome);
   void say_types();

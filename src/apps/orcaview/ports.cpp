@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "access.hpp"
 #include "offering.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/xml/diagnostics.hpp"
@@ -115,24 +116,41 @@ void Ports::end_view(const std::string& port, const Error& why) {
   for (Onlooker* const one : view.mapped()->onlookers) one->blind(why, !view.mapped()->type.empty());
 }
 
-void Ports::offer(const std::string& port, const std::string& xml, Answered answered) {
-  when_open(port, [this, port, xml, answered = std::move(answered)](const Status& opened) {
+void Ports::offer(const std::string& port, const std::string& xml, const Asker& asker, Answered answered) {
+  const bool is_question = only_asks(xml);
+  const CounterKey key = key_for(port, xml, asker);
+  when_open(key, [this, key, xml, is_question, answered = std::move(answered)](const Status& opened) {
     if (!opened.ok()) return answered(opened.error());
-    hand_in(*counters_.at(port), xml, answered);
+    Counter& counter = *counters_.at(key);
+    if (is_question && !counter.answers)
+      return answered(fail(Code::invalid_argument, key.first + " answers no questions"));
+    hand_in(counter, xml, answered);
   });
 }
 
-void Ports::when_open(const std::string& port, std::function<void(const Status&)> then) {
-  const auto found = counters_.find(port);
+bool Ports::reaches(const std::string& port, const std::string& xml, const Asker& asker) const {
+  return counters_.contains(key_for(port, xml, asker));
+}
+
+Ports::CounterKey Ports::key_for(const std::string& port, const std::string& xml, const Asker& asker) {
+  return {port, only_asks(xml) ? Asker{} : asker};
+}
+
+void Ports::when_open(const CounterKey& key, std::function<void(const Status&)> then) {
+  const auto found = counters_.find(key);
   if (found != counters_.end() && found->second->wire) return then(ok());
   if (found != counters_.end()) return found->second->opened.push_back(std::move(then));
   close_idle_counters();
-  const auto counter = counters_.emplace(port, std::make_shared<Counter>()).first->second;
+  const auto counter = counters_.emplace(key, std::make_shared<Counter>()).first->second;
   counter->opened.push_back(std::move(then));
-  open_line(link_, line_to(port, {}), [this, port, counter](Result<std::shared_ptr<LineAnswer>> line) {
+  supervisor::Ask line_for_it = line_to(key.first, {});
+  line_for_it.most = key.second.most;
+  line_for_it.via = key.second.via;
+  open_line(link_, std::move(line_for_it), [this, key, counter](Result<std::shared_ptr<LineAnswer>> line) {
     const auto waiting = std::exchange(counter->opened, {});
     if (line) {
       counter->type = (*line)->type;
+      counter->answers = !(*line)->reply.empty();
       counter->wire = Wire::make(loop_, std::move((*line)->line));
       if (!counter->wire) line = no_descriptors();
     }
@@ -144,9 +162,9 @@ void Ports::when_open(const std::string& port, std::function<void(const Status&)
             auto* const outcome = word ? std::get_if<supervisor::OfferOutcome>(&*word) : nullptr;
             if (asked && outcome != nullptr) asked.mapped()(std::move(*outcome));
           },
-          [this, port](const Error& why) { end_counter(port, why); });
+          [this, key](const Error& why) { end_counter(key, why); });
     } else {
-      counters_.erase(port);
+      counters_.erase(key);
     }
     for (const auto& one : waiting) one(line ? ok() : Status(line.error()));
   });
@@ -178,10 +196,10 @@ void Ports::hand_in(Counter& counter, const std::string& xml, Answered answered)
   answered(sent.error());
 }
 
-void Ports::end_counter(const std::string& port, const Error& why) {
-  const auto counter = counters_.extract(port);
+void Ports::end_counter(const CounterKey& key, const Error& why) {
+  const auto counter = counters_.extract(key);
   if (!counter) return;
-  const Error ended = fail(Code::unavailable, "the process of " + port + " has ended: " + why.message);
+  const Error ended = fail(Code::unavailable, "the process of " + key.first + " has ended: " + why.message);
   for (const auto& [request, answered] : counter.mapped()->waiting) answered(ended);
 }
 

@@ -2,12 +2,14 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -38,6 +40,12 @@ class Onlooker {
 /// Thread contract: the loop's thread.
 class Ports {
  public:
+  /// Whom an object comes from: as in supervisor::Ask.
+  struct Asker {
+    supervisor::Access most = supervisor::Access::change;
+    std::string via{};
+    auto operator<=>(const Asker&) const = default;
+  };
   using Answered = std::function<void(const Result<supervisor::OfferOutcome>& outcome)>;
 
   explicit Ports(SystemLink& link, const boost::asio::any_io_executor& loop) : link_(link), loop_(loop) {}
@@ -54,7 +62,10 @@ class Ports {
   void look_anew();
 
   /// Sends an object in its text form to a SendServer, or a question to a QueryServer.
-  void offer(const std::string& port, const std::string& xml, Answered answered);
+  /// @param asker  whose role counts, unless the object only asks: then it goes to a QueryServer as from orcaview itself.
+  void offer(const std::string& port, const std::string& xml, const Asker& asker, Answered answered);
+  /// Returns whether there is a line for that already, so that the supervisor is not asked.
+  [[nodiscard]] bool reaches(const std::string& port, const std::string& xml, const Asker& asker) const;
 
  private:
   struct View {
@@ -64,6 +75,7 @@ class Ports {
   };
   struct Counter {  // at which objects are handed in
     std::string type;
+    bool answers = false;  // whether it is a QueryServer's
     std::shared_ptr<Wire> wire;
     std::map<std::uint64_t, Answered> waiting;
     std::vector<std::function<void(const Status&)>> opened;  // who waits for the line
@@ -71,15 +83,19 @@ class Ports {
   void open_view(const std::string& port);
   void take(View& view, supervisor::Message message);
   void end_view(const std::string& port, const Error& why);
-  void when_open(const std::string& port, std::function<void(const Status&)> then);
+  // A port, and for whom its line was opened. What one role has opened serves no other.
+  using CounterKey = std::pair<std::string, Asker>;
+  [[nodiscard]] static CounterKey key_for(const std::string& port, const std::string& xml,
+                                          const Asker& asker);
+  void when_open(const CounterKey& key, std::function<void(const Status&)> then);
   void close_idle_counters();
   void hand_in(Counter& counter, const std::string& xml, Answered answered);
-  void end_counter(const std::string& port, const Error& why);
+  void end_counter(const CounterKey& key, const Error& why);
 
   SystemLink& link_;
   const boost::asio::any_io_executor loop_;
   std::map<std::string, std::shared_ptr<View>> views_;
-  std::map<std::string, std::shared_ptr<Counter>> counters_;
+  std::map<CounterKey, std::shared_ptr<Counter>> counters_;
   std::uint64_t last_request_ = 0;
 };
 

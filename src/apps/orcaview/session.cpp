@@ -57,9 +57,9 @@ class Session::Look final : public Onlooker {
   const std::string port_;
 };
 
-Session::Session(Stream stream, Role role, Desk& desk, std::string protocol)
+Session::Session(Stream stream, Role role, Desk& desk, std::string protocol, std::string via)
     : socket_(std::move(stream)),
-      role_(role),
+      asker_{role, std::move(via)},
       desk_(desk),
       protocol_(std::move(protocol)),
       bell_(socket_.get_executor()) {

@@ -60,7 +60,8 @@ class Session : public std::enable_shared_from_this<Session> {
 
  protected:
   /// @param protocol  the sub-protocol that was chosen.
-  Session(Stream stream, Role role, Desk& desk, std::string protocol);
+  /// @param via       what it is, as in supervisor::Ask.
+  Session(Stream stream, Role role, Desk& desk, std::string protocol, std::string via);
 
   virtual void take_text(const std::string& text) = 0;
   virtual void take_bytes(const std::string& bytes) = 0;
@@ -94,7 +95,14 @@ class Session : public std::enable_shared_from_this<Session> {
   /// Returns whether one more question is within the budget of this session: 40 at once, 20 a second in the long run.
   [[nodiscard]] bool may_ask();
 
-  [[nodiscard]] Role role() const { return role_; }
+  [[nodiscard]] Role role() const { return asker_.most; }
+  [[nodiscard]] const Ports::Asker& asker() const { return asker_; }
+  /// Returns a question as it is asked for the other end: with its role, and how it has come.
+  [[nodiscard]] supervisor::Ask for_it(supervisor::Ask ask) const {
+    ask.most = asker_.most;
+    ask.via = asker_.via;
+    return ask;
+  }
   [[nodiscard]] Desk& desk() { return desk_; }
 
  private:
@@ -106,7 +114,7 @@ class Session : public std::enable_shared_from_this<Session> {
   void close();
 
   Socket socket_;
-  const Role role_;
+  const Ports::Asker asker_;
   Desk& desk_;
   const std::string protocol_;
   Outbox outbox_;

@@ -15,7 +15,7 @@ import unittest
 
 import page_case
 from page_case import chromium, wait_for
-from view_case import BUILD, TREE, ViewCase
+from view_case import BUILD, ROLES, TREE, ViewCase
 
 EXPERIMENT = f"""<experiment name="doors" seeds="1-2" until="20 s" graph="{TREE}/graphs/pioneer_laser_goto.xml">
   <variant name="LaserAvoid"><set arg="avoid" value="orca.LaserAvoid"/></variant>
@@ -39,9 +39,9 @@ class Batch(unittest.TestCase):
         cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", "--batch", cls.folder / "out", "--port", "0", "--web", TREE / "web"],
                                     env=cls.environment, stdout=subprocess.PIPE, text=True)
         cls.addClassCleanup(ViewCase.end, cls.view)
-        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(2)]
+        cls.addresses = [cls.view.stdout.readline().strip() for _ in ROLES]
         cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
-        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses)
+        cls.tokens = {role: address.split("token=")[1] for role, address in zip(ROLES, cls.addresses)}
         profile = tempfile.TemporaryDirectory(prefix="orca_chromium_")
         cls.addClassCleanup(profile.cleanup)
         cls.browser = chromium.start_browser(1120, 700, profile.name)
@@ -83,7 +83,7 @@ class Batch(unittest.TestCase):
         wait_for("all runs", lambda: self.text("#batch-done") == "4 of 4 runs")
         self.assertEqual(self.text("#link"), "complete")
         wait_for("the way to the report", lambda: self.part("#batch-report").is_displayed())
-        response, report = self.fetch("report.html", self.reader)
+        response, report = self.fetch("report.html", self.tokens["observe"])
         self.assertEqual(report, (self.folder / "out" / "report.html").read_text())
         policy = response.getheader("Content-Security-Policy")
         self.assertTrue(policy.startswith("sandbox; default-src 'none'"), policy)
@@ -99,8 +99,10 @@ class Batch(unittest.TestCase):
         address = self.part("#watched-page").get_attribute("href")
         if page_case.PICTURES:
             self.browser.save_screenshot(str(pathlib.Path(page_case.PICTURES) / "page_batch.png"))
-        _, status = self.fetch("status", self.reader)
-        self.assertEqual(json.loads(status)["watched"]["address"], "", "a reader does not learn who steers it")
+        for role in ("observe", "operate"):
+            _, status = self.fetch("status", self.tokens[role])
+            self.assertEqual(json.loads(status)["watched"]["address"], "", "it has the role change")
+            self.assertNotIn("token=", status)
         batch = self.browser.current_window_handle
         self.browser.switch_to.new_window("tab")
         try:
@@ -112,26 +114,29 @@ class Batch(unittest.TestCase):
         subprocess.run([BUILD / "bin" / "orcactl", "stop"], env=self.environment, capture_output=True, timeout=30)
         wait_for("the page says that it has ended", lambda: "has ended with 0" in self.text("#watched-state"))
 
-    def test_4_only_who_has_a_token_may_look_and_only_operators_begin_runs(self):
+    def test_4_only_who_has_a_token_may_look_and_only_the_role_change_begins_runs(self):
         for path in ("status", "report.html"):
             self.assertEqual(self.fetch(path)[0].status, 403, path)
             self.assertEqual(self.fetch(path, "0" * 32)[0].status, 403, path)
-            self.assertEqual(self.fetch(path, self.reader, Origin="http://evil.example")[0].status, 403, path)
-            self.assertEqual(self.fetch(path, self.reader)[0].status, 200, path)
-        self.assertEqual(self.fetch("watch?run=0", self.reader, "POST")[0].status, 403)
-        self.assertEqual(self.fetch("watch?run=0", self.operator, "GET")[0].status, 404)
+            self.assertEqual(self.fetch(path, self.tokens["observe"], Origin="http://evil.example")[0].status, 403, path)
+            self.assertEqual(self.fetch(path, self.tokens["observe"])[0].status, 200, path)
+        for role in ("observe", "operate"):
+            self.assertEqual(self.fetch("watch?run=0", self.tokens[role], "POST")[0].status, 403)
+        self.assertEqual(self.fetch("watch?run=0", self.tokens["change"], "GET")[0].status, 404)
         for number in ("99", "-1", "x", ""):
-            self.assertEqual(self.fetch(f"watch?run={number}", self.operator, "POST")[0].status, 404, number)
+            self.assertEqual(self.fetch(f"watch?run={number}", self.tokens["change"], "POST")[0].status, 404, number)
         for path in ("results.sqlite", "../doors.xml", "%2e%2e/doors.xml", "runs.csv", ""):
-            self.assertEqual(self.fetch(path, self.operator)[0].status, 404, path)
+            self.assertEqual(self.fetch(path, self.tokens["change"])[0].status, 404, path)
         for method in ("PUT", "DELETE"):
-            self.assertEqual(self.fetch("status", self.operator, method)[0].status, 403, method)
+            self.assertEqual(self.fetch("status", self.tokens["change"], method)[0].status, 403, method)
 
-    def test_5_a_reader_sees_no_button(self):
-        self.browser.get(self.addresses[1])
+    def test_5_who_may_not_watch_a_run_is_told_why(self):
+        self.browser.get(self.addresses[ROLES.index("observe")])
         self.browser.refresh()
         wait_for("the failed runs", lambda: self.browser.find_elements("css selector", ".failed-run"))
-        self.assertEqual(self.browser.find_elements("css selector", ".failed-run button"), [])
+        button = self.part(".failed-run button")
+        self.assertFalse(button.is_enabled())
+        self.assertIn("takes the role change", button.get_attribute("title"))
 
 
 if __name__ == "__main__":

@@ -42,7 +42,7 @@ class Foxglove(ViewCase):
         return super().start_system()
 
     def viewer(self, token=None, protocol=NEW):
-        viewer = WebSocket(self.port, token or self.operator, **{"Sec-WebSocket-Protocol": protocol})
+        viewer = WebSocket(self.port, token or self.tokens["change"], **{"Sec-WebSocket-Protocol": protocol})
         self.addCleanup(viewer.socket.close)
         self.assertIn("101", viewer.status)
         return viewer
@@ -101,7 +101,7 @@ class Foxglove(ViewCase):
         viewer.send(op="unsubscribe", subscriptionIds=[7])
 
     def test_a_robots_file_is_a_description_and_no_other_file_is_read(self):
-        viewer = self.viewer(self.reader)
+        viewer = self.viewer(self.tokens["observe"])
         topics = self.advertised(viewer)
         self.assertNotIn("/robot_description", topics, "ports come first")
         channels = {channel["topic"]: channel for channel in self.message(viewer, "advertise")["channels"]}
@@ -130,7 +130,7 @@ class Foxglove(ViewCase):
                 return message[10:10 + length].decode() if failed else message[10:]
 
     def test_meshes_that_a_robots_file_names_are_fetched_and_no_other_file(self):
-        viewer = self.viewer(self.reader)
+        viewer = self.viewer(self.tokens["observe"])
         self.assertIn("assets", viewer.receive()["capabilities"])
         self.message(viewer, "advertise")
         self.message(viewer, "advertise")  # the robot's
@@ -146,15 +146,16 @@ class Foxglove(ViewCase):
         for number in range(30, 70):
             self.assertEqual(self.fetched(viewer, number), self.shell)
 
-    def test_a_reader_publishes_nothing_and_sets_nothing(self):
-        viewer = self.viewer(self.reader)
+    def test_who_may_only_observe_publishes_nothing_and_sets_nothing(self):
+        viewer = self.viewer(self.tokens["observe"])
         self.advertised(viewer)
         viewer.send(op="setParameters", parameters=[{"name": "planner.max_speed", "value": 0.1}])
-        self.assertIn("may only look", self.message(viewer, "status")["message"])
-        viewer.send(op="advertise", channels=[{"id": 1, "topic": "/goal_pose", "encoding": "cdr",
+        self.assertIn('"set" takes the role change, and this address has observe', self.message(viewer, "status")["message"])
+        viewer.send(op="advertise", channels=[{"id": 1, "topic": "/goal_pose", "encoding": "json",
                                                "schemaName": "geometry_msgs/msg/PoseStamped"}])
-        viewer.send_frame(2, struct.pack("<BI", 1, 1) + bytes(100))
-        self.assertIn("may only look", self.message(viewer, "status")["message"])
+        pose = {"header": {"frame_id": "map"}, "pose": {"position": {"x": 1, "y": 2, "z": 0}, "orientation": {"x": 0, "y": 0, "z": 0, "w": 1}}}
+        viewer.send_frame(2, struct.pack("<BI", 1, 1) + json.dumps(pose).encode())
+        self.assertIn('"talk to" takes the role operate, and this address has observe', self.message(viewer, "status")["message"])
 
     def test_what_is_wrong_is_said_and_nothing_ends(self):
         viewer = self.viewer()
@@ -190,7 +191,7 @@ class Foxglove(ViewCase):
         except subprocess.CalledProcessError as error:
             self.skipTest("npm cannot fetch the client: " + " ".join(error.stderr.split())[-200:])
         shutil.copy(TREE / "tests" / "system" / "view" / "foxglove_client.cjs", folder.name)
-        done = subprocess.run(["node", "foxglove_client.cjs", f"ws://127.0.0.1:{self.port}/?token={self.operator}"],
+        done = subprocess.run(["node", "foxglove_client.cjs", f"ws://127.0.0.1:{self.port}/?token={self.tokens['change']}"],
                               cwd=folder.name, capture_output=True, text=True, timeout=60, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         seen = json.loads(done.stdout)

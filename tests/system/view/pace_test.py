@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 
-from view_case import BUILD, TREE, await_that
+from view_case import BUILD, ROLES, TREE, await_that
 from websocket import WebSocket
 
 GRAPH = "scout_goto_processes"
@@ -70,13 +70,14 @@ class Run:
         self.case.addCleanup(view.stdout.close)
         self.case.addCleanup(view.wait)
         self.case.addCleanup(view.terminate)
-        address = view.stdout.readline()
-        self.port, self.token = int(re.search(r":(\d+)/", address)[1]), address.strip().split("token=")[1]
+        addresses = [view.stdout.readline() for _ in ROLES]
+        self.port = int(re.search(r":(\d+)/", addresses[0])[1])
+        self.tokens = {role: address.strip().split("token=")[1] for role, address in zip(ROLES, addresses)}
         return self
 
     def page(self):
         """A page that looks at all ports, and asks for the walls as a browser does; it reads only what it is made to."""
-        page = WebSocket(self.port, self.token, limit=NO_HURRY)
+        page = WebSocket(self.port, self.tokens["change"], limit=NO_HURRY)
         self.case.addCleanup(page.socket.close)
         self.case.assertEqual(page.receive()["op"], "hello")
         page.send(op="ask", id=1, command="ports")
@@ -137,6 +138,14 @@ class Pace(unittest.TestCase):
         self.assertGreater(last["time"] - first["time"], 1.5)
         self.assertLess(last["time"] - first["time"], 10.0 * (time.monotonic() - began + 0.5))
         self.assertEqual(run.orcactl("stop").returncode, 0)
+
+    def test_addresses_have_their_roles_in_virtual_time_too(self):
+        run = Run(self, "--pace", "1", until=2000).await_system().start_view()
+        for role, may_hasten, may_set in (("observe", False, False), ("operate", True, False), ("change", True, True)):
+            with WebSocket(run.port, run.tokens[role]) as page:
+                page.send(op="ask", id=1, command="pace", words=["2"])
+                page.send(op="ask", id=2, command="set", words=["goto.max_speed", "0.4 m/s"])
+                self.assertEqual((page.answer(1)["ok"], page.answer(2)["ok"]), (may_hasten, may_set), role)
 
     def test_orders_that_cannot_be_are_refused(self):
         run = Run(self, "--pace", "0").await_system()

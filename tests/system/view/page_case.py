@@ -25,6 +25,7 @@ from selenium.webdriver.common.by import By  # noqa: E402
 
 WORDS = sys.argv[1:-1]
 PICTURES = WORDS.pop(WORDS.index("--pictures") + 1) if "--pictures" in WORDS else None
+PICTURE = (1120, 700)  # [pixels]
 
 
 def wait_for(what, condition, seconds=20):
@@ -49,7 +50,7 @@ class PageCase(ViewCase):
         super().setUpClass()
         profile = tempfile.TemporaryDirectory(prefix="orca_chromium_")
         cls.addClassCleanup(profile.cleanup)
-        width, height = (1120, 700) if PICTURES else (1280, 800)
+        width, height = PICTURE if PICTURES else (1280, 800)
         cls.browser = chromium.start_browser(width, height, profile.name, *cls.SWITCHES)
         cls.addClassCleanup(cls.browser.quit)
         cls.browser.get(cls.addresses[cls.ADDRESS])
@@ -98,9 +99,18 @@ class PageCase(ViewCase):
         xml = self.rows_of("query", "localizer.RobotPoseQuery", "<AskReading/>")["xml"]
         return tuple(float(re.search(rf' {axis}="([^"]+)"', xml)[1]) for axis in "xy")
 
-    def picture(self, name):
-        if PICTURES:
-            self.browser.save_screenshot(str(pathlib.Path(PICTURES) / f"page_{name}.png"))
+    def picture(self, name, height=PICTURE[1], after=0.0):
+        """Leaves a picture of the page, of so many pixels in height, after some seconds, with the newest message alone."""
+        if not PICTURES:
+            return
+        time.sleep(after)
+        self.browser.execute_script("for (const old of document.querySelectorAll('.notice:not(:last-child)')) old.remove()")
+        if height != PICTURE[1]:
+            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": PICTURE[0], "height": height, "deviceScaleFactor": 1, "mobile": False})
+            time.sleep(1.0)  # it draws anew
+        self.browser.save_screenshot(str(pathlib.Path(PICTURES) / f"page_{name}.png"))
+        if height != PICTURE[1]:
+            self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
     # ------------------------------------------------------------------------------------------------ what is done
 

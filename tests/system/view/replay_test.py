@@ -66,6 +66,7 @@ class Replay(PageCase):
             self.scrub(moment)
             place = self.recorded_place(moment)
             wait_for(f"the robot at {place} after {moment} s", lambda: self.place() is not None and self.distance(place) < 0.05)
+        self.assertEqual(self.text("#notices"), "", "there is nothing to complain about")
         self.picture("replay")
 
     def test_2_it_plays_and_stands_again(self):

@@ -18,16 +18,25 @@ import tempfile
 import time
 import unittest
 
-from view_case import BUILD, TREE, ViewCase, await_that
+from view_case import BUILD, ROLES, TREE, ViewCase, await_that
 from websocket import TEXT, WebSocket
 
 GRAPH = str(TREE / "graphs" / "scout_goto_processes.xml")
 POSE = "localizer.RobotPosePush"
+# The role that each order takes (docs/security.md), with words that nothing comes of.
+ORDERS = {
+    "observe": ("ps", "graph", "file", "machines", "team", "ports", "plugins", "objects", "names", "counters", "alarms", "missions", "log", "get goto",
+                "pace", "sources", "roles"),
+    "operate": ("estop", "estop --release", "suspend nobody", "resume nobody", "alarms ack 99999", "pace 1", "pause", "step 1s", "line goto.Nothing"),
+    "change": ("swap nobody x.so", "set goto.nothing 1", "connect a.b c.d", "disconnect a.b c.d", "move a.b c.d", "restart nobody", "fits nobody",
+               "apply", "diff", "stop", "of a later version"),
+}
+TELLS = "takes the role {}, and this address has {}"
 
 
 class View(ViewCase):
     def page(self, token=None):
-        page = WebSocket(self.port, token or self.operator)
+        page = WebSocket(self.port, token or self.tokens["change"])
         self.addCleanup(page.socket.close)
         self.assertEqual(page.status.split()[1], "101", page.status)
         self.assertEqual(page.receive()["op"], "hello")
@@ -55,9 +64,10 @@ class View(ViewCase):
     # ---- what it shows
 
     def test_a_page_is_greeted_with_the_system_and_its_role(self):
-        with WebSocket(self.port, self.reader) as page:
-            hello = page.receive()
-        self.assertEqual((hello["system"], hello["role"], hello["present"]), (self.NAME, "reader", True))
+        for role, token in self.tokens.items():
+            with WebSocket(self.port, token) as page:
+                hello = page.receive()
+            self.assertEqual((hello["system"], hello["role"], hello["present"]), (self.NAME, role, True))
         self.assertLess(abs(hello["time"] - time.time()), 5.0)
 
     def test_answers_are_those_of_orcactl(self):
@@ -139,40 +149,81 @@ class View(ViewCase):
     # ---- who may
 
     def test_only_the_token_opens_the_door(self):
-        for token in ("", "0" * 32, self.operator[:-1], self.operator + "0"):
+        for token in ("", "0" * 32, self.tokens["change"][:-1], self.tokens["change"] + "0"):
             with WebSocket(self.port, token) as page:
                 self.assertIn("403", page.status)
 
     def test_pages_of_other_servers_stay_outside(self):
         for fields in ({"Origin": "http://evil.org"}, {"Origin": "null"}, {"Host": "evil.org"},
                        {"Host": f"evil.org:{self.port}", "Origin": f"http://evil.org:{self.port}"}):
-            with WebSocket(self.port, self.operator, **fields) as page:
+            with WebSocket(self.port, self.tokens["change"], **fields) as page:
                 self.assertIn("403", page.status, fields)
-        with WebSocket(self.port, self.operator, Origin=f"http://127.0.0.1:{self.port}") as page:
+        with WebSocket(self.port, self.tokens["change"], Origin=f"http://127.0.0.1:{self.port}") as page:
             self.assertIn("101", page.status)
 
-    def test_a_reader_changes_nothing(self):
-        page = self.page(self.reader)
-        for number, message in enumerate((
-                {"op": "ask", "command": "estop"}, {"op": "ask", "command": "alarms", "words": ["ack", "all"]},
-                {"op": "ask", "command": "set", "words": ["goto.max_speed", "0.1"]},
-                {"op": "ask", "command": "apply", "graph": "<graph/>"}, {"op": "ask", "command": "diff", "graph": "<graph/>"},
-                {"op": "send", "port": "goto.CancelSend", "xml": "<GoalFailed/>"}), 1):
-            page.send(id=number, **message)
-            answer = page.answer(number)
-            self.assertFalse(answer["ok"], message)
-            self.assertIn("may only look", answer["error"])
+    def test_each_role_may_what_it_may_on_the_machine(self):
+        ranks = tuple(reversed(ROLES))
+        for role in ranks:
+            for needed, orders in ORDERS.items():
+                page = self.page(self.tokens[role])
+                page.send(op="ask", id=1, command="roles", words=orders)
+                self.assertEqual({row["order"]: row["role"] for row in page.answer(1)["records"]}, dict.fromkeys(orders, needed))
+                may = ranks.index(role) >= ranks.index(needed)
+                for number, order in enumerate(orders, 2):
+                    command, *words = order.split()
+                    if order == "line goto.Nothing" or (may and order == "stop"):
+                        continue  # see below; and others need the system
+                    graph = {"graph": "<graph/>"} if order in ("apply", "diff") else {}
+                    page.send(op="ask", id=number, command=command, words=words, **graph)
+                    error = page.answer(number)["error"]
+                    (self.assertNotIn if may else self.assertIn)(TELLS.format(needed, role), error, order)
+
+    def test_who_may_only_observe_sends_nothing_and_asks_only_what_carries_no_order(self):
+        sent = (("send", "goto.CancelSend", "<GoalFailed/>"), ("query", "goto.CancelSend", "<GoalFailed/>"), ("query", "command.TripQuery", "<TripOrder/>"),
+                ("query", "command.TripQuery", "<!-- --><TripOrder/>"), ("send", "world.ChangeSend", '<WorldChange kind="TAKE_OBSTACLE" name="nothing"/>'))
+        with self.page(self.tokens["observe"]) as onlooker, self.page(self.tokens["operate"]) as operator:
+            for number, (op, port, xml) in enumerate(sent, 1):
+                operator.send(op=op, id=number, port=port, xml=xml)  # first, so that there is a line to the port
+                self.assertNotIn("takes the role", operator.answer(number)["error"])
+                onlooker.send(op=op, id=number, port=port, xml=xml)
+                self.assertIn(TELLS.format("operate", "observe"), onlooker.answer(number)["error"], (op, port, xml))
+            onlooker.send(op="query", id=10, port="base.RobotQuery", xml="<Ask/>")
+            self.assertEqual(onlooker.answer(10)["type"], "Robot")
+            for number, op in enumerate(("query", "send"), 11):
+                onlooker.send(op=op, id=number, port="goto.CancelSend", xml="<Ask/>")
+                self.assertIn("answers no questions", onlooker.answer(number)["error"])
+
+    def test_the_audit_log_says_that_an_order_came_by_the_page_and_with_which_role(self):
+        page = self.page(self.tokens["operate"])
+        for number, words in enumerate((["estop"], ["estop", "--release"], ["restart", "nobody"]), 1):
+            page.send(op="ask", id=number, command=words[0], words=words[1:])
+            page.answer(number)
+        page.send(op="send", id=9, port="world.ChangeSend", xml='<WorldChange kind="TAKE_OBSTACLE" name="nothing"/>')
+        self.assertIn("there is no obstacle", page.answer(9)["error"])
+        log = self.orcactl("log", "audit").stdout
+        for order in ("estop: done", "estop '?--release'?: done", "restart '?nobody'?: not done: .*role change", "talk to '?world.ChangeSend'?: done"):
+            self.assertRegex(log, rf"orcaview\[{self.view.pid}\], by page as operate, at [^ ]*Z: {order}")
+
+    def test_whoever_keeps_asking_for_what_is_refused_is_held_up_and_nobody_else(self):
+        greedy, other = self.page(self.tokens["observe"]), self.page()
+        for number in range(1, 501):
+            greedy.send(op="send", id=number, port="goto.CancelSend", xml="<GoalFailed/>")
+        begin = time.monotonic()
+        other.send(op="ask", id=1, command="ps")
+        self.assertTrue(other.answer(1)["ok"])
+        self.assertLess(time.monotonic() - begin, 3.0)
+        self.assertFalse(greedy.answer(500)["ok"])
 
     def test_a_layout_is_kept_beside_the_graph_by_operators_only(self):
         file = self.graph.with_suffix(".layout.json")
-        with self.page(self.reader) as reader, self.page() as operator:
-            reader.send(op="layout", id=1, layout='{"goto":[1,2]}')
-            self.assertIn("only look", reader.answer(1)["error"])
+        with self.page(self.tokens["observe"]) as onlooker, self.page(self.tokens["operate"]) as operator:
+            onlooker.send(op="layout", id=1, layout='{"goto":[1,2]}')
+            self.assertIn(TELLS.format("operate", "observe"), onlooker.answer(1)["error"])
             self.assertFalse(file.exists())
             operator.send(op="layout", id=2, layout='{"goto":[1,2]}')
             self.assertEqual(operator.answer(2)["file"], str(file))
-            reader.send(op="layout", id=3)
-            self.assertEqual(json.loads(reader.answer(3)["text"]), {"goto": [1, 2]})
+            onlooker.send(op="layout", id=3)
+            self.assertEqual(json.loads(onlooker.answer(3)["text"]), {"goto": [1, 2]})
             operator.send(op="layout", id=4, layout='{"goto":"x"}')
             self.assertIn("two numbers", operator.answer(4)["error"])
             operator.send(op="layout", id=5, layout="{}")
@@ -207,7 +258,7 @@ class View(ViewCase):
                 page = self.page()
 
     def test_a_page_that_asks_without_end_silences_nobody(self):
-        greedy, other = self.page(self.reader), self.page()
+        greedy, other = self.page(self.tokens["observe"]), self.page()
         for number in range(1, 301):
             greedy.send(op="ask", id=number, command="ps")
         answers = {}
@@ -368,7 +419,7 @@ class Deployer(unittest.TestCase):
                 hello = page.receive()
                 while not hello.get("present"):
                     hello = page.receive()
-                self.assertEqual(hello["role"], "operator")
+                self.assertEqual(hello["role"], "change")
             system.send_signal(signal.SIGTERM)
             self.assertEqual(system.wait(30), 0)
             system.stderr.close()

@@ -58,6 +58,7 @@ class SimulatedTime(PageCase):
         wait_for("two more of 1 s", lambda: round(self.pace()["time"] - paused["time"], 9) == 2.1)
         wait_for("the page shows when it is", lambda: abs(self.shown_time() - self.pace()["time"]) < 0.001)
         wait_for("the robot is seen elsewhere", lambda: self.distance(place) > 0.1)
+        self.assertEqual(self.text("#notices"), "", "there is nothing to complain about")
         self.picture("pause")
 
         Select(self.part("#pace-factor")).select_by_value("2")

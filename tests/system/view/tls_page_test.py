@@ -8,11 +8,12 @@ import time
 
 import page_case
 from page_case import PageCase, wait_for
+from view_case import ROLES
 
 
 class FarPage(PageCase):
     VIEW_OPTIONS = ("--listen", "127.0.0.2:0")
-    ADDRESS = 2
+    ADDRESS = len(ROLES)
     SWITCHES = ("--ignore-certificate-errors",)
 
     def test_the_robot_is_seen_and_stopped(self):

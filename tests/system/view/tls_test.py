@@ -17,7 +17,7 @@ import time
 import unittest
 import warnings
 
-from view_case import BUILD, ViewCase
+from view_case import BUILD, ROLES, ViewCase
 from websocket import WebSocket
 
 FAR = "127.0.0.2"  # another address than the plain door's, which is called 127.0.0.1
@@ -30,14 +30,14 @@ class Tls(ViewCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.far_addresses = cls.addresses[2:]
+        cls.far_addresses = cls.addresses[len(ROLES):]
         cls.fingerprint = cls.view.stdout.readline().strip().removeprefix("SHA-256 of the certificate: ")
         cls.far_port = int(re.search(r":(\d+)/", cls.far_addresses[0])[1])
         cls.certificate = cls.folder / "config" / "orca" / "orcaview" / "certificate.pem"
         cls.tls = ssl.create_default_context(cafile=str(cls.certificate))
 
     def page(self, token=None, **fields):
-        page = WebSocket(self.far_port, token or self.operator, address=FAR, tls=self.tls, **fields)
+        page = WebSocket(self.far_port, token or self.tokens["change"], address=FAR, tls=self.tls, **fields)
         self.addCleanup(page.socket.close)
         return page
 
@@ -85,7 +85,7 @@ class Tls(ViewCase):
         seen = 0
         while seen < 20:
             seen += isinstance(page.receive(), bytes)
-        onlooker = self.greeted(self.reader)
+        onlooker = self.greeted(self.tokens["observe"])
         onlooker.send(op="ask", id=1, command="log", stream=True)
         page.send(op="ask", id=2, command="estop")
         self.assertTrue(page.answer(2)["ok"])
@@ -99,10 +99,10 @@ class Tls(ViewCase):
     # ---- who may
 
     def test_tokens_have_their_roles(self):
-        reader = self.greeted(self.reader)
-        reader.send(op="ask", id=1, command="estop")
-        self.assertIn("may only look", reader.answer(1)["error"])
-        for token in ("", "0" * 32, self.operator[:-1]):
+        onlooker = self.greeted(self.tokens["observe"])
+        onlooker.send(op="ask", id=1, command="estop")
+        self.assertIn("takes the role operate, and this address has observe", onlooker.answer(1)["error"])
+        for token in ("", "0" * 32, self.tokens["change"][:-1]):
             self.assertIn("403", self.page(token or "x").status)
 
     def test_each_door_knows_its_own_names_and_origins_only(self):
@@ -114,7 +114,7 @@ class Tls(ViewCase):
         self.assertIn("101", self.page(Origin=f"https://{FAR}:{self.far_port}").status)
         for fields in ({"Host": f"{FAR}:{self.port}"}, {"Origin": f"https://127.0.0.1:{self.port}"},
                        {"Host": f"{FAR}:{self.far_port}", "Origin": f"https://{FAR}:{self.far_port}"}):
-            with WebSocket(self.port, self.operator, **fields) as page:
+            with WebSocket(self.port, self.tokens["change"], **fields) as page:
                 self.assertIn("403", page.status, fields)
 
     def test_plain_requests_and_old_tls_get_nothing(self):
@@ -152,7 +152,7 @@ class Tls(ViewCase):
             one.sendall(b"\x16\x03\x01\x02\x00\x01")  # a hello that is never finished
         begin = time.monotonic()
         self.greeted()
-        with WebSocket(self.port, self.operator) as near:
+        with WebSocket(self.port, self.tokens["change"]) as near:
             self.assertIn("101", near.status)
         self.assertLess(time.monotonic() - begin, 5.0)  # silent ones have 10 s
         self.assertLess(self.memory() - before, 50_000)
@@ -206,9 +206,10 @@ class Tls(ViewCase):
         other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME, "--port", "0", *self.VIEW_OPTIONS], env=self.environment,
                                  stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, other)
-        lines = [other.stdout.readline().strip() for _ in range(5)]
-        self.assertTrue(lines[4].endswith(self.fingerprint), lines)
-        port, token = int(re.search(r":(\d+)/", lines[2])[1]), lines[2].split("token=")[1]
+        lines = [other.stdout.readline().strip() for _ in range(2 * len(ROLES) + 1)]
+        self.assertTrue(lines[-1].endswith(self.fingerprint), lines)
+        far = lines[len(ROLES)]
+        port, token = int(re.search(r":(\d+)/", far)[1]), far.split("token=")[1]
         with WebSocket(port, token, address=FAR, tls=self.tls) as page, socket.create_connection((FAR, port)):
             page.receive()
             other.send_signal(signal.SIGTERM)
@@ -235,7 +236,7 @@ class Tls(ViewCase):
         other = subprocess.Popen([BUILD / "bin" / "orcaview", self.NAME, "--port", "0", *self.VIEW_OPTIONS, "--tls", given],
                                  env=self.environment, stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, other)
-        self.assertIn(self.fingerprint, [other.stdout.readline() for _ in range(5)][4])
+        self.assertIn(self.fingerprint, [other.stdout.readline() for _ in range(2 * len(ROLES) + 1)][-1])
 
 
 if __name__ == "__main__":

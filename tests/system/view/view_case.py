@@ -13,6 +13,7 @@ import unittest
 
 TREE = pathlib.Path(__file__).resolve().parents[3]
 BUILD = pathlib.Path(sys.argv[-1]).resolve()
+ROLES = ("change", "operate", "observe")  # as orcaview prints their addresses
 
 
 def await_that(condition, what, limit=20.0):
@@ -43,9 +44,9 @@ class ViewCase(unittest.TestCase):
         cls.view = subprocess.Popen([BUILD / "bin" / "orcaview", cls.shown(), "--port", "0", "--web", TREE / "web", *cls.VIEW_OPTIONS],
                                     env=cls.environment, stdout=subprocess.PIPE, text=True)
         cls.addClassCleanup(cls.end, cls.view)
-        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(4 if "--listen" in cls.VIEW_OPTIONS else 2)]
+        cls.addresses = [cls.view.stdout.readline().strip() for _ in range(len(ROLES) * (2 if "--listen" in cls.VIEW_OPTIONS else 1))]
         cls.port = int(re.search(r":(\d+)/", cls.addresses[0])[1])
-        cls.operator, cls.reader = (address.split("token=")[1] for address in cls.addresses[:2])
+        cls.tokens = {role: address.split("token=")[1] for role, address in zip(ROLES, cls.addresses)}
 
     @classmethod
     def copy_of_tree(cls):

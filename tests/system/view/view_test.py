@@ -97,7 +97,7 @@ class Page(PageCase):
         self.pull(*ends)
         wait_for("the deployer has made it", lambda: ends in self.wires())
         wait_for("its line is back", lambda: self.point_of_wire(ends))
-        self.picture("system")
+        self.picture("system", after=5.0)
 
     def box(self, component):
         """Returns where a component stands on the sheet, [pixels] of its own."""
@@ -275,7 +275,7 @@ class Page(PageCase):
         wait_for("a way from a sensor to the wheels", lambda: re.search(r"(OdometryPush|ReadingsPush|RobotPosePush) → .+ → fuser\.base", self.text("#ways")))
         wait_for("the plot", lambda: self.browser.find_elements("css selector", "#plots canvas"))
         self.assertIn("localizer translational_velocity", self.text("#plots .legend"))
-        self.picture("time")
+        self.picture("time", height=1000, after=8.0)
         self.click("#trace")
 
     def begin_anew(self):
@@ -298,7 +298,8 @@ class Page(PageCase):
     def test_7_a_click_sends_it_to_another_room(self):
         self.begin_anew()
         self.order_drive([*(WAY_TO_KITCHEN if self.place()[1] < KITCHEN_FROM else ()), KITCHEN], pull=(0, -40))
-        self.picture("goal")
+        wait_for("it drives", self.drives)
+        self.picture("goal", after=1.0)
         wait_for("it has arrived in the kitchen", lambda: self.distance(KITCHEN) < 0.4, 60)
         wait_for("it stands and waits", lambda: self.text("#plain").startswith("Stands. It has no goal"))
         self.assertLess(abs(self.number("#figure-heading") - 90), 12, "it looks where the mouse was pulled to")
@@ -313,7 +314,7 @@ class Page(PageCase):
         self.mouse(self.pixel(BOX))
         wait_for("the box is there", lambda: "comes to" in self.text("#notices"))
         self.order_drive([BEHIND_BOX])
-        self.picture("obstacle")
+        self.picture("obstacle", after=1.5)
         places = []
 
         def has_passed():

@@ -9,13 +9,14 @@ using namespace orca::view;
 TEST_CASE("whoever knows a token has its role, and nobody else has one", "[view]") {
   const auto tokens = Tokens::draw();
   REQUIRE(tokens);
-  const std::string steering = tokens->of(Role::operator_);
-  CHECK(steering.size() == 32);
-  CHECK(tokens->role_of(steering) == Role::operator_);
-  CHECK(tokens->role_of(tokens->of(Role::reader)) == Role::reader);
+  for (const Role role : {Role::observe, Role::operate, Role::change}) {
+    const std::string token = tokens->of(role);
+    CHECK(token.size() == 32);
+    CHECK(tokens->role_of(token) == role);
+    CHECK_FALSE(tokens->role_of(token.substr(0, 31)));
+    CHECK_FALSE(tokens->role_of(token + "0"));
+  }
   CHECK_FALSE(tokens->role_of(""));
-  CHECK_FALSE(tokens->role_of(steering.substr(0, 31)));
-  CHECK_FALSE(tokens->role_of(steering + "0"));
   CHECK_FALSE(tokens->role_of(std::string(32, '0')));
 }
 
@@ -24,10 +25,9 @@ TEST_CASE("each run has other tokens", "[view]") {
   for (int i = 0; i < 20; ++i) {
     const auto tokens = Tokens::draw();
     REQUIRE(tokens);
-    seen.insert(tokens->of(Role::reader));
-    seen.insert(tokens->of(Role::operator_));
+    for (const Role role : Tokens::kRoles) seen.insert(tokens->of(role));
   }
-  CHECK(seen.size() == 40);
+  CHECK(seen.size() == 60);
 }
 
 TEST_CASE("a request must name this machine as its host", "[view]") {
@@ -74,15 +74,12 @@ TEST_CASE("a value of a request's query is found by its name", "[view]") {
   CHECK(query_value("token=1f", "token").empty());
 }
 
-TEST_CASE("a reader may ask what is so, and change nothing", "[view]") {
-  for (const char* const command :
-       {"ps", "graph", "machines", "team", "ports", "plugins", "counters", "log", "get", "missions", "names"})
-    CHECK(only_shows(command, true));
-  CHECK(only_shows("alarms", false));
-  CHECK_FALSE(only_shows("alarms", true));  // alarms ack all
-  CHECK(only_shows("pace", false));
-  CHECK_FALSE(only_shows("pace", true));  // pace 0
-  for (const char* const command : {"estop", "stop", "restart", "suspend", "resume", "swap", "apply",
-                                    "connect", "disconnect", "move", "set", "line", "diff", "whatever"})
-    CHECK_FALSE(only_shows(command, true));
+TEST_CASE("only an Ask or an AskReading, with nothing before it, asks without an order", "[view]") {
+  for (const char* const xml :
+       {"<Ask/>", "<AskReading/>", "<Ask about=\"map\"/>", "<AskReading\n/>", "<Ask></Ask>"})
+    CHECK(only_asks(xml));
+  for (const char* const xml :
+       {"", "<Ask", "Ask", "<Asking/>", "<AskReadings/>", "<TripOrder/>", " <Ask/>",
+        "<!-- <Ask/> --><TripOrder/>", "<?xml version=\"1.0\"?><Ask/>", "<Ask-/>", "<ask/>"})
+    CHECK_FALSE(only_asks(xml));
 }

@@ -43,7 +43,14 @@ class Talk extends EventTarget {
   constructor() {
     super();
     this.steers = false;
+    this.takes = new Map();
     this.streams = [];
+  }
+  may() {
+    return false;
+  }
+  refusal() {
+    return "";
   }
   async ask(command) {
     return { ok: true, records: command === "log" ? [{ who: "goto", time: 1, level: "info", text: "old" }] : [], text: "", notes: [], error: "" };

@@ -251,7 +251,7 @@ void FoxgloveClient::ask(std::string command, std::vector<std::string> words,
                          std::function<void(FoxgloveClient&, const json&)> then) {
   const auto parts = std::make_shared<AnswerInParts>(0);
   desk().link().ask(
-      {std::move(command), std::move(words), true},
+      for_it({std::move(command), std::move(words), true}),
       [parts](const supervisor::ControlAnswer& answer) { parts->take(answer); },
       [parts, then = std::move(then), self = weak_from_this()](const Status& outcome) {
         const auto client = std::static_pointer_cast<FoxgloveClient>(self.lock());
@@ -285,7 +285,6 @@ void FoxgloveClient::get_parameters(const json& message) {
 }
 
 void FoxgloveClient::set_parameters(const json& message) {
-  if (role() == Role::reader) return status(kError, kOnlyLooks);
   std::vector<std::string> words;
   std::vector<std::string> names;
   for (const json& one : message.at("parameters")) {
@@ -303,7 +302,6 @@ void FoxgloveClient::take_bytes(const std::string& bytes) {
   constexpr std::size_t kHead = 5;
   if (bytes.size() < kHead || bytes[0] != '\x01')
     return status(kWarning, "this server does not know this binary message");
-  if (role() == Role::reader) return status(kError, kOnlyLooks);
   publish(bytes);
 }
 
@@ -318,7 +316,9 @@ void FoxgloveClient::publish(const std::string& bytes) {
   const std::string port = port_with_end(ports_, request->port_end);
   if (port.empty())
     return status(kError, "the system has no port, or more than one, that ends in " + request->port_end);
-  desk().ports().offer(port, request->xml,
+  if (!desk().ports().reaches(port, request->xml, asker()) && !may_ask())
+    return status(kError, "too many objects to ports that were not reached before");
+  desk().ports().offer(port, request->xml, asker(),
                        [self = weak_from_this()](const Result<supervisor::OfferOutcome>& outcome) {
                          const auto client = std::static_pointer_cast<FoxgloveClient>(self.lock());
                          if (!client) return;

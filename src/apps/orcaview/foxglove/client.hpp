@@ -30,7 +30,7 @@ class FoxgloveClient final : public Session {
   static constexpr const char* kProtocols[] = {"foxglove.sdk.v1", "foxglove.websocket.v1"};
 
   FoxgloveClient(Stream stream, Role role, Desk& desk, std::string protocol)
-      : Session(std::move(stream), role, desk, std::move(protocol)) {}
+      : Session(std::move(stream), role, desk, std::move(protocol), "foxglove") {}
 
   void system_changed(bool is_up) override;
   void hear(std::uint32_t id, const nlohmann::json& line) override;

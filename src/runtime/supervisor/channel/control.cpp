@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/supervisor/control.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
 
 #include "channel/transfer.hpp"
 
@@ -13,7 +15,33 @@ Cell::Cell(std::string called, double number, int digits) : name(std::move(calle
   value = text;
 }
 
-void fields(auto& archive, Ask& m) { transfer_all(archive, m.command, m.words, m.as_json); }
+namespace {
+
+// The word stands in the audit log, of which nobody may forge a line.
+bool is_short_word(const std::string& word) {
+  constexpr std::size_t kLongest = 32;
+  return word.size() <= kLongest &&
+         std::ranges::all_of(word, [](char each) { return each >= 'a' && each <= 'z'; });
+}
+
+}  // namespace
+
+const char* to_string(Access access) {
+  switch (access) {
+    case Access::none: return "none";
+    case Access::observe: return "observe";
+    case Access::operate: return "operate";
+    case Access::change: return "change";
+  }
+  return "?";
+}
+
+void fields(auto& archive, Ask& m) {
+  transfer_all(archive, m.command, m.words, m.as_json);
+  transfer_up_to(archive, m.most, Access::change);
+  transfer(archive, m.via);
+  archive.require(is_short_word(m.via));
+}
 void fields(auto& archive, RecordAnswer& m) { transfer(archive, m.record); }
 void fields(auto& archive, TextAnswer& m) { transfer(archive, m.text); }
 void fields(auto& archive, NoteAnswer& m) { transfer(archive, m.text); }

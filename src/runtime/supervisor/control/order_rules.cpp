@@ -8,6 +8,7 @@
 #include <array>
 #include <ctime>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "orca/base/log.hpp"
@@ -31,12 +32,13 @@ Rule rule_for(const Ask& ask) {
   static const std::map<std::string, Rule, std::less<>> rules{
       {"ps", kLook},
       {"graph", kLook},
-      {"file", kLook},
       {"machines", kLook},
       {"team", kLook},
       {"ports", kLook},
       {"plugins", kLook},
       {"names", kLook},
+      {"objects", kLook},
+      {"roles", kLook},
       {"counters", kLook},
       {"missions", kLook},
       {"log", kLook},
@@ -51,12 +53,16 @@ Rule rule_for(const Ask& ask) {
       {"step", kOperate},
   };
   if (ask.command == "alarms" || ask.command == "pace") return ask.words.empty() ? kLook : kOperate;
+  // Whoever means to keep something beside the graph says so.
+  if (ask.command == "file") return {ask.words.empty() ? Access::observe : Access::operate, false};
   // At a line that taps, a host process takes no objects (PortLines).
   if (ask.command == "line")
     return std::ranges::find(ask.words, "--tap") != ask.words.end() ? kLook : kOperate;
   const auto found = rules.find(ask.command);
   return found == rules.end() ? Rule{} : found->second;
 }
+
+std::string shown_as(const Ask& ask) { return ask.command == "line" ? "talk to" : ask.command; }
 
 std::string name_of(uid_t user) {
   std::array<char, 4096> room{};
@@ -73,6 +79,14 @@ std::string program_of(pid_t process) {
   return name.empty() ? "process" : name;
 }
 
+std::string refusal_to(uid_t uid, Access access, Access needed) {
+  const std::string user = std::to_string(uid);
+  return " in this system, and user " + user + " has " +
+         (access == Access::none ? "none" : std::string("only ") + to_string(access)) +
+         "; who started it, user " + std::to_string(geteuid()) + ", can give it: deployer --allow " +
+         to_string(needed) + "=user:" + user;
+}
+
 std::string time_of_day() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -87,6 +101,16 @@ Access access_for(const Ask& ask) { return rule_for(ask).access; }
 
 bool is_order(const Ask& ask) { return rule_for(ask).is_order; }
 
+void show_roles(const std::vector<std::string>& orders, Reply& reply) {
+  for (const std::string& order : orders) {
+    std::istringstream text(order);
+    Ask ask;
+    text >> ask.command;
+    for (std::string word; text >> word;) ask.words.push_back(word);
+    reply.add(Record{{"order", order}, {"role", to_string(access_for(ask))}});
+  }
+}
+
 Audit::Audit() {
   for (const uid_t user : {uid_t{0}, geteuid()}) names_[user] = name_of(user);
 }
@@ -96,23 +120,21 @@ std::string Audit::describe(const Ask& ask, const ucred& asker) const {
   const std::string user = name == names_.end() || name->second.empty()
                                ? "user " + std::to_string(asker.uid)
                                : "user " + name->second + " (" + std::to_string(asker.uid) + ")";
-  std::vector<std::string> words{ask.command == "line" ? "talk to" : ask.command};
+  std::vector<std::string> words{shown_as(ask)};
   for (const std::string& word : ask.words) words.push_back(in_shell_quotes(word));
-  return user + ", " + program_of(asker.pid) + "[" + std::to_string(asker.pid) + "], at " + time_of_day() +
-         ": " + shortened(joined(words, " "), kLongestOrder);
+  const std::string via = ask.via.empty() ? "" : ", by " + ask.via + " as " + to_string(ask.most);
+  return user + ", " + program_of(asker.pid) + "[" + std::to_string(asker.pid) + "]" + via + ", at " +
+         time_of_day() + ": " + shortened(joined(words, " "), kLongestOrder);
 }
 
 Status Audit::allow(const Ask& ask, const Asker& asker, Access access) {
   const Access needed = access_for(ask);
-  if (access >= needed) return ok();
-  const std::string user = std::to_string(asker.who.uid);
-  const std::string role = to_string(needed);
-  const Error error =
-      fail(Code::failed_precondition,
-           in_quotes(ask.command) + " takes the role " + role + " in this system, and user " + user +
-               " has " + (access == Access::none ? "none" : std::string("only ") + to_string(access)) +
-               "; who started it, user " + std::to_string(geteuid()) + ", can give it: deployer --allow " +
-               role + "=user:" + user);
+  if (std::min(access, ask.most) >= needed) return ok();
+  const std::string takes = in_quotes(shown_as(ask)) + " takes the role " + to_string(needed);
+  const Error error = fail(Code::failed_precondition,
+                           access >= needed ? takes + ", and this address has " + to_string(ask.most) +
+                                                  "; who has started the page has one with that role"
+                                            : takes + refusal_to(asker.who.uid, access, needed));
   if (is_worth_a_line(asker.who.uid)) note(describe(ask, asker.who), error);
   return error;
 }

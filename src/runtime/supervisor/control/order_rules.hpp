@@ -7,7 +7,9 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "members/reply.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/access.hpp"
 #include "orca/supervisor/control.hpp"
@@ -23,6 +25,10 @@ namespace orca::supervisor {
 /// @thread  any.
 [[nodiscard]] bool is_order(const Ask& ask);
 
+/// Answers which role each order takes, a line for each.
+/// @param orders  each as on a command line, in one word: "alarms ack".
+void show_roles(const std::vector<std::string>& orders, Reply& reply);
+
 /// Writes who has ordered what, and what came of it, to the log: one line for each order, by kAuditName.
 ///
 /// Thread contract: one thread.
@@ -34,7 +40,8 @@ class Audit {
   /// Learns the names of this user and of root. Those of others may be with a server, which can be slow, so they are not asked for.
   Audit();
 
-  /// Describes an order and who gives it: "user anna (1000), orcactl[4711], at 2026-11-27T12:00:00Z: set avoid.speed 0.2".
+  /// Describes an order and who gives it: "user anna (1000), orcactl[4711], at 2026-11-27T12:00:00Z: set avoid.speed 0.2". One that
+  /// came by a page: "user orca (998), orcaview[4712], by page as change, at ...".
   /// @param asker  as the system knows it.
   [[nodiscard]] std::string describe(const Ask& ask, const ucred& asker) const;
   /// Checks that somebody may ask this. What is refused is noted, of each user at most kMostNoted times in a second.

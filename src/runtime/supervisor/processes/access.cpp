@@ -47,16 +47,6 @@ bool concerns(const Grant& grant, const Asker& asker) {
 
 }  // namespace
 
-const char* to_string(Access access) {
-  switch (access) {
-    case Access::none: return "none";
-    case Access::observe: return "observe";
-    case Access::operate: return "operate";
-    case Access::change: return "change";
-  }
-  return "?";
-}
-
 Asker asker_at(const Descriptor& socket) {
   const std::optional<ucred> peer = peer_of(socket);
   if (!peer) return {};

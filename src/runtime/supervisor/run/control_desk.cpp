@@ -11,6 +11,7 @@
 
 #include "control/alarm_desk.hpp"
 #include "control/lines.hpp"
+#include "control/order_rules.hpp"
 #include "control/pacing.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/log_name.hpp"
@@ -35,6 +36,8 @@ bool has(const Ask& ask, std::string_view option) {
 
 // Returns a word after the command; "" if there are not so many.
 std::string word(const Ask& ask, std::size_t at) { return at < ask.words.size() ? ask.words[at] : ""; }
+
+void show_file(const std::string& file, Reply& reply) { reply.add(Record{{"file", file}}); }
 
 // Reads the words after "log": "--follow", "--level", a level, and names.
 Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
@@ -150,16 +153,14 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) {
          has(ask, "--running") ? d.applying_.show_present(*r) : d.showing_.graph(*r);
        }},
-      {"file",
-       [](ControlDesk& d, const Ask&, const ReplyPtr& r) {
-         r->add(Record{{"file", d.graph_file_}});
-       }},
+      {"file", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { show_file(d.graph_file_, *r); }},
       {"machines", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.machines(*r); }},
       {"team", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.team(*r); }},
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"objects", [](ControlDesk&, const Ask&, const ReplyPtr& r) { Showing::objects(*r); }},
       {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},
+      {"roles", [](ControlDesk&, const Ask& ask, const ReplyPtr& r) { show_roles(ask.words, *r); }},
       {"counters", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.counters(r); }},
       {"alarms",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { handle_alarms(ask.words, d.ledger_, *r); }},

@@ -31,6 +31,21 @@ TEST_CASE("what a client asks arrives as it was asked", "[supervisor][control]")
   CHECK(ask->command == "set");
   CHECK(ask->words == std::vector<std::string>{"avoid.margin", "0.3 m"});
   CHECK(ask->as_json);
+  CHECK(ask->most == Access::change);
+  CHECK(ask->via.empty());
+  const Result<Ask> for_another = decode_ask(encode(Ask{"set", {}, true, Access::observe, "page"}, 7));
+  REQUIRE(for_another);
+  CHECK(for_another->most == Access::observe);
+  CHECK(for_another->via == "page");
+}
+
+TEST_CASE("how somebody has come is a short word, so that it forges no line of a log",
+          "[supervisor][control]") {
+  for (const std::string& via : {std::string("page: done\nuser root"), std::string("Page"),
+                                 std::string("a b"), std::string(33, 'a')}) {
+    CAPTURE(via);
+    CHECK(decode_ask(encode(Ask{"ps", {}, false, Access::observe, via}, 1)).error().code == Code::data_loss);
+  }
 }
 
 TEST_CASE("every answer arrives with its number, and encodes to the same bytes again",

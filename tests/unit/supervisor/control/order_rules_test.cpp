@@ -38,8 +38,9 @@ struct Written {
 }  // namespace
 
 TEST_CASE("what only looks is no order, and may be asked by whoever may look", "[supervisor][audit]") {
-  for (const char* const command : {"ps", "graph", "file", "machines", "team", "ports", "plugins", "names",
-                                    "counters", "alarms", "missions", "log", "get", "pace", "sources"}) {
+  for (const char* const command :
+       {"ps", "graph", "file", "machines", "team", "ports", "plugins", "names", "objects", "roles",
+        "counters", "alarms", "missions", "log", "get", "pace", "sources"}) {
     CAPTURE(command);
     CHECK_FALSE(is_order(ask(command)));
     CHECK(access_for(ask(command)) == Access::observe);
@@ -59,6 +60,8 @@ TEST_CASE("steering needs less than changing what runs", "[supervisor][audit]") 
     CHECK(is_order(ask(command, {"1"})));
     CHECK(access_for(ask(command, {"1"})) == Access::operate);
   }
+  CHECK_FALSE(is_order(ask("file", {"--keep"})));
+  CHECK(access_for(ask("file", {"--keep"})) == Access::operate);
   for (const char* const command :
        {"swap", "apply", "connect", "disconnect", "move", "set", "restart", "stop", "of a later version"}) {
     CAPTURE(command);
@@ -88,6 +91,46 @@ TEST_CASE("the log says who has ordered what, and what came of it", "[supervisor
   CHECK(written.lines[0] == order + ": done");
   CHECK(written.lines[1] == order + ": not done: too fast");
   CHECK(written.levels == std::vector{log::Level::info, log::Level::warning});
+}
+
+TEST_CASE("what comes by a page has the role of its address, less than that of its user",
+          "[supervisor][audit]") {
+  const Written written;
+  Audit audit;
+  const Asker owner{self(), {}};
+  Ask set = ask("set", {"avoid.speed", "0.2"});
+  set.via = "page";
+  set.most = Access::change;
+  CHECK(audit.allow(set, owner, Access::change).ok());
+  CHECK(has(audit.describe(set, owner.who), "], by page as change, at 20"));
+  set.most = Access::operate;
+  const Status refused = audit.allow(set, owner, Access::change);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(has(refused.error().message, R"("set" takes the role change, and this address has operate)"));
+  REQUIRE(written.lines.size() == 1);
+  CHECK(has(written.lines[0], ", by page as operate, at 20"));
+  CHECK(has(written.lines[0], "not done"));
+  // A role that a program claims for somebody gives nobody more than the program has.
+  set.most = Access::change;
+  CHECK(has(audit.allow(set, {{1, 60'001, 60'001}, {}}, Access::observe).error().message,
+            "user 60001 has only observe"));
+}
+
+TEST_CASE("who asks learns which role each order takes", "[supervisor][audit]") {
+  auto pair = make_socket_pair();
+  REQUIRE(pair);
+  const auto channel = std::make_shared<Channel>(std::move(pair->supervisor));
+  Channel client(std::move(pair->host));
+  {
+    Reply reply(channel, 1, false);
+    show_roles({"ps", "alarms", "alarms ack 3", "line base.OdometryPush --tap", "set", ""}, reply);
+  }
+  std::vector<std::string> roles;
+  for (auto answer = decode_answer(std::move(client.wait_for_message(1s)).value());
+       answer && std::holds_alternative<RecordAnswer>(*answer);
+       answer = decode_answer(std::move(client.wait_for_message(1s)).value()))
+    roles.push_back(std::get<RecordAnswer>(*answer).record.at(1).value);
+  CHECK(roles == std::vector<std::string>{"observe", "observe", "operate", "observe", "change", "change"});
 }
 
 TEST_CASE("a user without a known name is a number, and a long order is shortened", "[supervisor][audit]") {

@@ -9,17 +9,9 @@
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/result.hpp"
+#include "orca/supervisor/role.hpp"
 
 namespace orca::supervisor {
-
-/// What somebody may do at a system's socket; each includes those before it.
-enum class Access {
-  none,
-  observe,  ///< Look.
-  operate,  ///< Steer what runs: goals, tasks, pauses, the emergency stop.
-  change,   ///< Exchange what runs, or end it.
-};
-[[nodiscard]] const char* to_string(Access access);
 
 /// Who is at the other end of a socket, as the system says.
 struct Asker {

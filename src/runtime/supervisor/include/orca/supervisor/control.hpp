@@ -11,6 +11,7 @@
 #include "orca/base/result.hpp"
 #include "orca/supervisor/message.hpp"
 #include "orca/supervisor/record.hpp"
+#include "orca/supervisor/role.hpp"
 
 namespace orca::supervisor {
 
@@ -24,6 +25,9 @@ struct Ask {
   std::string command;             ///< As on the command line: "ps".
   std::vector<std::string> words;  ///< What follows it, options included.
   bool as_json = false;            ///< Texts are wanted as JSON.
+  Access most =
+      Access::change;  ///< The most that counts, for a program that asks for somebody whom it serves.
+  std::string via{};   ///< How that one has come, up to 32 small letters: "page"; empty: it asks for itself.
 };
 
 /// A line of a table.
