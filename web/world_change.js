@@ -5,11 +5,12 @@ import { xmlText } from "./dom.js";
 import { transform } from "./geometry.js";
 
 /**
- * Changes of a simulated world, by hand: things that come, move and go, a robot that is carried off, sensors that fail.
+ * Changes of a simulated world, by hand: things that come, move and go, doors that open and shut, a robot that is carried off, sensors
+ * that fail.
  * @typedef {import("./geometry.js").Point} Point
  * @typedef {import("./geometry.js").Pose} Pose
  * @typedef {import("./world_model.js").Scene} Scene
- * @typedef {{kind: "obstacle" | "robot", name: string, pose: Pose}} Thing
+ * @typedef {{kind: "obstacle" | "robot", name: string, pose: Pose} | {kind: "door", name: string, open: boolean}} Thing
  */
 
 const NEAR = 0.3;  // [m] beside a thing at which a hand still takes it
@@ -46,6 +47,7 @@ export function thingAt(scene, p) {
   /** @type {{thing: Thing, distance: number}[]} */
   const things = [
     ...scene.robots.map((each) => ({ thing: { kind: /** @type {const} */ ("robot"), name: each.name, pose: each }, distance: Math.hypot(each.x - p.x, each.y - p.y) - each.radius })),
+    ...scene.doors.map((each) => ({ thing: { kind: /** @type {const} */ ("door"), name: each.name, open: each.open }, distance: distanceToEdge(each.leaf, p) })),
     ...scene.obstacles.filter((each) => each.movable).map((each) => ({ thing: { kind: /** @type {const} */ ("obstacle"), name: each.name, pose: each }, distance: distanceTo(each, p) })),
   ];
   things.sort((a, b) => a.distance - b.distance);
@@ -63,8 +65,19 @@ function distanceTo(obstacle, p) {
 }
 
 /**
+ * @param {import("./world_model.js").Edge} edge
+ * @param {Point} p
+ * @returns {number} [m]
+ */
+function distanceToEdge({ a, b }, p) {
+  const [dx, dy] = [b.x - a.x, b.y - a.y];
+  const along = Math.max(0, Math.min(1, ((p.x - a.x) * dx + (p.y - a.y) * dy) / (dx * dx + dy * dy)));
+  return Math.hypot(a.x + along * dx - p.x, a.y + along * dy - p.y);
+}
+
+/**
  * Returns what a hand has done that pressed at one place and released at another one: on free floor it puts a box, a thing it moves,
- * and with Shift it takes it away.
+ * and with Shift it takes it away; the leaf of a door it opens or shuts.
  * @param {Scene} scene
  * @param {Point} from
  * @param {Point} to
@@ -74,6 +87,7 @@ function distanceTo(obstacle, p) {
 export function changeOf(scene, from, to, takes) {
   const thing = thingAt(scene, from);
   if (takes) return thing?.kind === "obstacle" ? changeXml("TAKE_OBSTACLE", { name: thing.name }) : null;
+  if (thing?.kind === "door") return changeXml(thing.open ? "SHUT_DOOR" : "OPEN_DOOR", { name: thing.name });
   if (thing === null) {
     const yaw = Math.hypot(to.x - from.x, to.y - from.y) < 0.15 ? 0 : Math.atan2(to.y - from.y, to.x - from.x);
     return changeXml("PUT_OBSTACLE", { name: freeName(scene), x: from.x, y: from.y, yaw, ...BOX });

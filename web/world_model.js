@@ -24,7 +24,8 @@ import { componentOf, shortPort } from "./system_model.js";
  * @typedef {{name: string, x: number, y: number, yaw: number, radius: number, outline: Edge[], silent: string[]}} TrueRobot
  * @typedef {{name: string, x: number, y: number, yaw: number, radius: number, outline: Edge[], movable: boolean}} Obstacle
  * @typedef {{name: string, x: number, y: number, radius: number}} Person
- * @typedef {{robots: TrueRobot[], people: Person[], obstacles: Obstacle[]}} Scene  what moves in a simulated world
+ * @typedef {{name: string, leaf: Edge, open: boolean}} Door  of a simulated world; its leaf is an obstacle as well
+ * @typedef {{robots: TrueRobot[], people: Person[], obstacles: Obstacle[], doors: Door[]}} Scene  what moves in a simulated world
  */
 
 const TRAIL_STEP = 0.02;

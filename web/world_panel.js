@@ -31,7 +31,10 @@ export class WorldPanel {
     this.chosen = "";
     world.addEventListener("changed", () => this.showRobots());
     world.addEventListener("ended", (event) => this.end(/** @type {CustomEvent} */ (event).detail));
-    world.addEventListener("happened", (event) => notify(/** @type {CustomEvent} */ (event).detail));
+    world.addEventListener("happened", (event) => {
+      notify(/** @type {CustomEvent} */ (event).detail);
+      this.showDoors();
+    });
     for (const event of ["gone", "state"]) connection.addEventListener(event, () => this.showFigures());
     connection.addEventListener("state", () => this.showOrders());
     system.addEventListener("figures", () => this.showOrders());
@@ -84,6 +87,7 @@ export class WorldPanel {
     byId("tool-pose").hidden = !steers || driver.posePort === undefined;
     byId("tool-change").hidden = !steers || this.changePort === undefined;
     this.showSensors();
+    this.showDoors();
     byId("give-up").hidden = !steers || !driver.takesGoals;
     const goals = steers && driver.command !== undefined ? driver.goals : [];
     byId("goals").hidden = goals.length === 0;
@@ -124,6 +128,42 @@ export class WorldPanel {
       box.checked = !(robot?.truth?.silent ?? []).some((each) => each.split(" ")[0] === box.value);
       permit(box, this.connection.refusal("line"));
     }
+  }
+
+  /** Offers to open and shut the doors of a simulated world. */
+  showDoors() {
+    const doors = this.changePort === undefined || !this.connection.steers ? [] : this.world.scene?.doors ?? [];
+    byId("doors").hidden = doors.length === 0;
+    const list = byId("door-list");
+    const names = doors.map(({ name }) => name).join();
+    if (list.dataset.names !== names) {
+      list.dataset.names = names;
+      list.replaceChildren(...doors.map(({ name }) => el("label", { class: "check" }, el("input", { type: "checkbox", value: name, change: (event) => this.turnDoor(name, event.target.checked) }), name)));
+    }
+    for (const [i, box] of [.../** @type {NodeListOf<HTMLInputElement>} */ (list.querySelectorAll("input"))].entries()) {
+      box.checked = doors[i].open;
+      permit(box, this.connection.refusal("line"));
+    }
+  }
+
+  /**
+   * @param {string} name
+   * @param {boolean} opens
+   */
+  turnDoor(name, opens) {
+    const port = this.changePort?.port;
+    if (port !== undefined) this.order(this.connection.send(port, changeXml(opens ? "OPEN_DOOR" : "SHUT_DOOR", { name })), "");
+  }
+
+  /**
+   * @param {string} sensor
+   * @param {boolean} works
+   */
+  switchSensor(sensor, works) {
+    const port = this.changePort?.port;
+    if (port === undefined) return;
+    const xml = changeXml(works ? "RESTORE_SENSOR" : "SILENCE_SENSOR", { name: this.robot?.name ?? "", sensor });
+    this.order(this.connection.send(port, xml), "");  // the world's events say what has become of it
   }
 
   /** Says in plain words what the robot does. */

@@ -26,7 +26,7 @@ const HINTS = {
   look: "",
   drive: "Press where the robot is to go, pull to where it is to look, release. Shift: a point on the way. Enter: the middle of the picture.",
   pose: "Press where the robot stands, pull to where it looks, release.",
-  change: "Press free floor to put a box there. Pull a thing, or the robot, to another place. Shift: take a thing away.",
+  change: "Press free floor to put a box there. Pull a thing, or the robot, to another place. Shift: take a thing away. Press the leaf of a door to open or shut it.",
   measure: "Press and pull to measure.",
 };
 /** @type {Record<string, Tool>} */

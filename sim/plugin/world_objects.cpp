@@ -72,7 +72,7 @@ idl::WorldPerson to_object(const Person& person) {
 }
 
 // A circle's centre need not be the origin of its own frame.
-idl::WorldObstacle to_object(const Standing& thing) {
+idl::WorldObstacle to_object(const Standing& thing, bool is_leaf) {
   idl::WorldObstacle object;
   object.name(thing.name);
   put_at(thing.X_WO, object);
@@ -84,8 +84,20 @@ idl::WorldObstacle to_object(const Standing& thing) {
   } else {
     object.outline(to_objects(edges_of(thing.shape)));
   }
-  object.movable(thing.id.has_value());
+  object.movable(thing.id && !is_leaf);
   return object;
+}
+
+idl::WorldDoor to_object(const DoorState& door) {
+  idl::WorldDoor object;
+  object.name(door.name);
+  object.leaf(to_object(door.leaf));
+  object.open(door.opens);
+  return object;
+}
+
+bool has_door(const std::vector<DoorState>& doors, const std::string& name) {
+  return std::ranges::find(doors, name, &DoorState::name) != doors.end();
 }
 
 // --- Changes ----------------------------------------------------------------------------------------------
@@ -113,12 +125,16 @@ Error no_such(const char* kind, const std::string& name, const std::vector<std::
 }
 
 Result<ObstacleId> obstacle(const World& world, const std::string& name) {
+  const std::vector<DoorState> doors = doors_in(world);
   std::vector<std::string> names;
   for (const Standing& thing : standing_in(world)) {
     if (thing.name == name && !thing.id)
       return fail(Code::failed_precondition, in_quotes(name) + " is for grippers: only a robot moves it");
+    const bool is_leaf = has_door(doors, thing.name);
+    if (thing.name == name && is_leaf)
+      return fail(Code::failed_precondition, in_quotes(name) + " is a door: it is only opened and shut");
     if (thing.name == name) return *thing.id;
-    if (thing.id) names.push_back(thing.name);
+    if (thing.id && !is_leaf) names.push_back(thing.name);
   }
   for (const Obstacle& fast : world.model().obstacles)
     if (fast.name == name)
@@ -170,6 +186,14 @@ Result<std::string> silence(const idl::WorldChange& change, World& world, bool s
   return with(set_silent(world, which, silent), who + (silent ? " fails" : " works again"));
 }
 
+Result<std::string> turn(const idl::WorldChange& change, World& world, bool opens) {
+  const std::vector<DoorState> doors = doors_in(world);
+  std::vector<std::string> names;
+  for (const DoorState& door : doors) names.push_back(door.name);
+  if (!has_door(doors, change.name())) return no_such("door", change.name(), names);
+  return with(turn_door(world, change.name(), opens), change.name() + (opens ? " opens" : " shuts"));
+}
+
 }  // namespace
 
 void fill(idl::WorldPlan& plan, const WorldModel& model) {
@@ -191,7 +215,11 @@ void fill(idl::WorldScene& scene, const World& world) {
   scene.people().clear();
   for (const Person& person : people_in(world)) scene.people().push_back(to_object(person));
   scene.obstacles().clear();
-  for (const Standing& thing : standing_in(world)) scene.obstacles().push_back(to_object(thing));
+  const std::vector<DoorState> doors = doors_in(world);
+  for (const Standing& thing : standing_in(world))
+    scene.obstacles().push_back(to_object(thing, has_door(doors, thing.name)));
+  scene.doors().clear();
+  for (const DoorState& door : doors) scene.doors().push_back(to_object(door));
 }
 
 Result<std::string> carry_out(const idl::WorldChange& change, World& world) {
@@ -202,6 +230,8 @@ Result<std::string> carry_out(const idl::WorldChange& change, World& world) {
     case idl::CARRY_ROBOT: return carry(change, world);
     case idl::SILENCE_SENSOR: return silence(change, world, true);
     case idl::RESTORE_SENSOR: return silence(change, world, false);
+    case idl::OPEN_DOOR: return turn(change, world, true);
+    case idl::SHUT_DOOR: return turn(change, world, false);
   }
   return fail(Code::invalid_argument,
               "no kind of change has the number " + std::to_string(static_cast<unsigned>(change.kind())));

@@ -28,6 +28,10 @@ double distance_to(const Segment& segment, Vec2 point) {
   return norm(segment.a + along * way - point);
 }
 
+bool is_at_hand(const Person& person, const Door& door) {
+  return distance_to(door.shut, person.position) <= person.radius + kAtHand;
+}
+
 Duration drawn_time(const DoorTurn& turn, RandomStream random) {
   if (!turn.latest) return turn.at;
   return from_seconds(random.uniform(to_seconds(turn.at), to_seconds(*turn.latest)));
@@ -67,17 +71,44 @@ void Doors::work(World& world, std::vector<std::string>& notes) {
   }
 }
 
-void Doors::turn(Leaf& leaf, bool opens, std::vector<std::string>& notes) {
-  if (leaf.opens == opens) return;
+// Returns false if it is so already.
+bool Doors::turn(Leaf& leaf, bool opens) {
+  if (leaf.opens == opens) return false;
   leaf.opens = opens;
   leaf.by_people = false;
-  notes.push_back(leaf.door->name + (opens ? " opens" : " shuts"));
+  return true;
+}
+
+void Doors::turn(Leaf& leaf, bool opens, std::vector<std::string>& notes) {
+  if (turn(leaf, opens)) notes.push_back(leaf.door->name + (opens ? " opens" : " shuts"));
+}
+
+std::vector<DoorState> Doors::states() const {
+  std::vector<DoorState> all;
+  for (const Leaf& leaf : leaves_) {
+    const Pose2 pose = pose_at(*leaf.door, leaf.share);
+    const Vec2 half = 0.5 * length_of(*leaf.door) * direction(pose.yaw);
+    all.push_back({leaf.door->name, {pose.position() - half, pose.position() + half}, leaf.opens});
+  }
+  return all;
+}
+
+Status Doors::turn(const World& world, std::string_view name, bool opens) {
+  const auto leaf = std::ranges::find(leaves_, name, [](const Leaf& one) { return one.door->name; });
+  if (leaf == leaves_.end()) return fail(Code::not_found, "there is no door '" + std::string(name) + "'");
+  if (!opens)
+    for (const Person& person : people_in(world))
+      if (is_at_hand(person, *leaf->door))
+        return fail(Code::failed_precondition, person.name + " is at the door and holds it open");
+  if (!turn(*leaf, opens))
+    return fail(Code::failed_precondition, leaf->door->name + (opens ? " is open" : " is shut") + " already");
+  return ok();
 }
 
 // Somebody who stands in the doorway holds the leaf.
 void Doors::follow_people(Leaf& leaf, const World& world, std::vector<std::string>& notes) {
   for (const Person& person : people_in(world)) {
-    if (distance_to(leaf.door->shut, person.position) > person.radius + kAtHand) continue;
+    if (!is_at_hand(person, *leaf.door)) continue;
     turn(leaf, true, notes);
     leaf.left = world.time();
     leaf.by_people = true;

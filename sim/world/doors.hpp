@@ -5,6 +5,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "orca/sim/world.hpp"
@@ -24,6 +25,11 @@ class Doors {
   // Lets the leaves move for one tick, and notes in words which begin to open or to shut.
   void work(World& world, std::vector<std::string>& notes);
 
+  // As doors_in().
+  [[nodiscard]] std::vector<DoorState> states() const;
+  // As turn_door().
+  Status turn(const World& world, std::string_view name, bool opens);
+
  private:
   struct Leaf {
     const Door* door;
@@ -39,6 +45,7 @@ class Doors {
     TimePoint at;
   };
 
+  static bool turn(Leaf& leaf, bool opens);
   static void turn(Leaf& leaf, bool opens, std::vector<std::string>& notes);
   static void follow_people(Leaf& leaf, const World& world, std::vector<std::string>& notes);
   static void move(Leaf& leaf, World& world);

@@ -44,7 +44,7 @@ class Movers {
   // Returns what there is of an obstacle.
   [[nodiscard]] Standing obstacle(std::size_t number) const {
     const Mover& mover = movers_.at(number);
-    return {mover.name, mover.shape, mover.pose};
+    return {mover.name, mover.shape, mover.pose, ObstacleId{number}};
   }
   // Returns the body that an obstacle would have at `X_WO`.
   [[nodiscard]] Body body_at(std::size_t number, const Pose2& X_WO) const;

@@ -391,13 +391,16 @@ std::vector<Standing> standing_in(const World& world) {
   const World::Impl& impl = *world.impl_;
   std::vector<Standing> all;
   for (std::size_t number = 0; number < impl.movers.size(); ++number)
-    if (impl.is_obstacle(number)) {
-      all.push_back(impl.movers.obstacle(number));
-      all.back().id = ObstacleId{number};
-    }
+    if (impl.is_obstacle(number)) all.push_back(impl.movers.obstacle(number));
   for (const Item& item : impl.model.items)
     all.push_back({item.name, Circle{{}, item.radius}, impl.items.pose(item.name).value_or(item.pose)});
   return all;
+}
+
+std::vector<DoorState> doors_in(const World& world) { return world.impl_->doors.states(); }
+
+Status turn_door(World& world, std::string_view name, bool opens) {
+  return world.impl_->doors.turn(world, name, opens);
 }
 
 const std::optional<CameraShot>& picture_in(const World& world, RobotId robot, std::size_t camera) {

@@ -124,6 +124,7 @@ const scene = {
   robots: [{ name: "Dewey", x: 0, y: 0, yaw: 1, radius: 0.2, outline: [], silent: [] }],
   people: [],
   obstacles: [{ name: "box1", x: 3, y: 0, yaw: 0, radius: 0, outline: [{ a: { x: 0.3, y: 0.2 }, b: { x: -0.3, y: 0.2 } }], movable: true }, { name: "block", x: 6, y: 0, yaw: 0, radius: 0.2, outline: [], movable: false }],
+  doors: [{ name: "gate", leaf: { a: { x: 5, y: 4 }, b: { x: 6, y: 4 } }, open: false }, { name: "hatch", leaf: { a: { x: 5, y: 8 }, b: { x: 5, y: 9 } }, open: true }],
 };
 
 test("a hand on free floor puts a box, with a name of its own", () => {
@@ -136,8 +137,15 @@ test("a hand moves what it takes hold of, by as much as it is pulled", () => {
   assert.equal(changeOf(scene, { x: 0.1, y: 0 }, { x: 0.1, y: -2 }, false), '<WorldChange kind="CARRY_ROBOT" name="Dewey" x="0.000" y="-2.000" yaw="1.000"/>');
 });
 
-test("with Shift a hand takes an obstacle away, but no robot and nothing that stands fast", () => {
+test("a hand on the leaf of a door opens it, or shuts it if it is open", () => {
+  assert.equal(changeOf(scene, { x: 5.5, y: 4.1 }, { x: 5.5, y: 4.1 }, false), '<WorldChange kind="OPEN_DOOR" name="gate"/>');
+  assert.equal(changeOf(scene, { x: 5.1, y: 8.5 }, { x: 5.3, y: 8.5 }, false), '<WorldChange kind="SHUT_DOOR" name="hatch"/>');
+  assert.match(changeOf(scene, { x: 5.5, y: 4.5 }, { x: 5.5, y: 4.5 }, false), /PUT_OBSTACLE/);
+});
+
+test("with Shift a hand takes an obstacle away, but no robot, no door and nothing that stands fast", () => {
   assert.equal(changeOf(scene, { x: 3, y: 0 }, { x: 3, y: 0 }, true), '<WorldChange kind="TAKE_OBSTACLE" name="box1"/>');
   assert.equal(changeOf(scene, { x: 0, y: 0 }, { x: 0, y: 0 }, true), null);
   assert.equal(changeOf(scene, { x: 6, y: 0 }, { x: 6, y: 0 }, true), null);
+  assert.equal(changeOf(scene, { x: 5.5, y: 4 }, { x: 5.5, y: 4 }, true), null);
 });

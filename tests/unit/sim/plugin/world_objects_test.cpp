@@ -3,6 +3,7 @@
 #include "world_objects.hpp"
 
 #include <catch2/catch.hpp>
+#include <numbers>
 
 #include "scout.hpp"
 #include "shared_world.hpp"
@@ -152,6 +153,41 @@ TEST_CASE("a change that cannot be is refused with the reason, and changes nothi
   refused(sensor(idl::SILENCE_SENSOR, "laser"), Code::not_found, "Dewey has no laser");
   refused(sensor(idl::RESTORE_SENSOR, "sonar"), Code::failed_precondition, "sonar of Dewey is not silent");
   CHECK(room.world.state_hash() == before);
+}
+
+TEST_CASE("a door is opened and shut, the scene shows its leaf, and no change moves that",
+          "[sim][world_objects]") {
+  WorldModel model = test_room();
+  model.doors = {{.name = "gate",
+                  .shut = {{-0.5, 3.0}, {0.5, 3.0}},
+                  .swing = std::numbers::pi / 2.0,
+                  .thickness = 0.04,
+                  .height = 2.0}};
+  World world(std::move(model), {.seed = 1, .realism = Realism::ideal});
+  world.step();
+  const auto scene = [&] {
+    idl::WorldScene all;
+    fill(all, world);
+    return all;
+  };
+  REQUIRE(scene().doors().size() == 1);
+  CHECK(scene().doors()[0].name() == "gate");
+  CHECK_FALSE(scene().doors()[0].open());
+  REQUIRE(scene().obstacles().size() == 1);
+  CHECK_FALSE(scene().obstacles()[0].movable());
+  CHECK(carry_out(change_of(idl::OPEN_DOOR, "gate"), world).value() == "gate opens");
+  CHECK(scene().doors()[0].open());
+  for (int tick = 0; tick < 160; ++tick) world.step();
+  CHECK(scene().doors()[0].leaf().b().y() == Approx(4.0));
+  const auto message = [&](idl::WorldChangeKind kind, const std::string& name) {
+    const Result<std::string> changed = carry_out(change_of(kind, name), world);
+    return changed ? *changed : changed.error().message;
+  };
+  CHECK_THAT(message(idl::OPEN_DOOR, "gate"), Contains("gate is open already"));
+  CHECK_THAT(message(idl::SHUT_DOOR, "gat"), Contains("there is no door \"gat\"; there are: gate"));
+  CHECK_THAT(message(idl::TAKE_OBSTACLE, "gate"), Contains("it is only opened and shut"));
+  CHECK_THAT(message(idl::MOVE_OBSTACLE, "gate"), Contains("it is only opened and shut"));
+  CHECK(message(idl::SHUT_DOOR, "gate") == "gate shuts");
 }
 
 TEST_CASE("a robot that is carried off stands elsewhere, and its odometry notices nothing",

@@ -109,6 +109,48 @@ TEST_CASE("people open a door, and it shuts behind them where it has a closer", 
   CHECK(see(world, 0.4) == Approx(kLeaf));
 }
 
+TEST_CASE("a door is opened and shut from outside as by an event, and stays open with a closer",
+          "[sim][door]") {
+  Door closing = door();
+  closing.closer = seconds(1);
+  World world = world_of(closing);
+  CHECK(turn_door(world, "gate", true).error().code == Code::not_found);
+  CHECK(turn_door(world, "door", false).error().code == Code::failed_precondition);
+  REQUIRE(turn_door(world, "door", true).ok());
+  CHECK(turn_door(world, "door", true).error().code == Code::failed_precondition);
+  CHECK(doors_in(world).at(0).opens);
+  (void)turn_to(world, 5.0);
+  CHECK(see(world) == Approx(kBehind));
+  const DoorState open = doors_in(world).at(0);
+  CHECK(norm(open.leaf.a - Vec2{-0.5, 3.0}) == Approx(0.0).margin(1e-9));  // its hinges
+  CHECK(norm(open.leaf.b - Vec2{-0.5, 4.0}) == Approx(0.0).margin(1e-9));
+  REQUIRE(turn_door(world, "door", false).ok());
+  (void)turn_to(world, 7.0);
+  CHECK(see(world) == Approx(kLeaf));
+}
+
+TEST_CASE("a door that is shut from outside stops at a robot, and a person holds it open", "[sim][door]") {
+  Door open = door();
+  open.open = true;
+  World world = world_of(open);
+  const RobotId robot = world.add_robot("scout", sim::test::scout(), {0.0, 3.0, 1.6}).value();
+  (void)turn_to(world, 0.1);
+  REQUIRE(turn_door(world, "door", false).ok());
+  (void)turn_to(world, 4.0);
+  CHECK(world.contacts().empty());
+  CHECK(see(world, 0.45) == Approx(kBehind));
+  REQUIRE(world.set_velocity_command(robot, -0.4, 0.0).ok());
+  (void)turn_to(world, 8.0);
+  CHECK(see(world) == Approx(kLeaf));
+
+  World held =
+      world_of(open, {}, {{.name = "anna", .track = {{0.0, 2.5}, {0.0, -2.0}}, .start = seconds(0)}});
+  (void)turn_to(held, 0.1);
+  const Status refused = turn_door(held, "door", false);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().message == "anna is at the door and holds it open");
+}
+
 TEST_CASE("a drawn time of a door lies within its bounds and depends on the seed", "[sim][door]") {
   const auto opened_at = [](std::uint64_t seed) {
     World world = world_of(door(), {{"door", true, seconds(2), seconds(10)}}, {}, seed);

@@ -34,6 +34,14 @@ struct Standing {
   std::optional<ObstacleId> id{};  ///< Nothing: it is an item.
 };
 
+/// A door of a running world. A plain value.
+struct DoorState {
+  std::string name;
+  Segment
+      leaf;  ///< Where it is now, in the world frame: from its hinges, or from where it slides to, to its free edge.
+  bool opens = false;  ///< Whether it is open, or on its way to be.
+};
+
 /// A running simulation: a world, the robots in it, and a time that only step() advances.
 ///
 /// Two worlds that are built and used in the same way with the same options are bit-identical at each tick. A
@@ -188,6 +196,8 @@ class World {
   friend std::vector<Person> people_in(const World& world);
   friend std::vector<std::string> robots_in(const World& world);
   friend std::vector<Standing> standing_in(const World& world);
+  friend std::vector<DoorState> doors_in(const World& world);
+  friend Status turn_door(World& world, std::string_view name, bool opens);
   friend const std::optional<CameraShot>& picture_in(const World& world, RobotId robot, std::size_t camera);
   friend std::optional<BatteryReading> battery_in(const World& world, RobotId robot);
   friend Status set_charge(World& world, RobotId robot, double charge);
@@ -205,9 +215,17 @@ class World {
 /// Returns the names of the robots in a world, in the order in which they came.
 [[nodiscard]] std::vector<std::string> robots_in(const World& world);
 
-/// Returns what stands in a world and may go again, also while a gripper holds it. The events of the model count as whoever
+/// Returns what stands in a world and may go again, also while a gripper holds it; leaves of doors have the doors' names. The events of the model count as whoever
 /// calls add_obstacle().
 [[nodiscard]] std::vector<Standing> standing_in(const World& world);
+
+/// Returns the doors of a world, in the order of its model.
+[[nodiscard]] std::vector<DoorState> doors_in(const World& world);
+
+/// Opens or shuts a door from now on, as an event of the model does: the leaf stops at a robot in its way, and goes on when that has
+/// gone. What is opened so stays open, also if the door has a closer.
+/// @errors  not_found: there is no such door. failed_precondition: it is so already, or a person holds it open.
+Status turn_door(World& world, std::string_view name, bool opens);
 
 /// Silences all sensors of a kind of a robot, or one of them, from now on, or ends that, whoever has silenced them.
 /// @param which  its times are not read.
