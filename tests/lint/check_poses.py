@@ -4,7 +4,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 OWN_POSE = {"odometry", "slam", "localized"}  # profiles whose pose is the robot's own
-OWN_GRAPHS = ("pioneer_tasks.xml", "pioneer_fetch_task.xml", "pioneer_map.xml", "scout_tasks.xml")  # graphs with a pose of their own in every profile
+OWN_GRAPHS = ("pioneer_tasks.xml", "pioneer_fetch_task.xml", "pioneer_roam.xml", "pioneer_map.xml", "scout_tasks.xml")  # graphs with a pose of their own in every profile
 
 
 def variants_of(text):

@@ -150,6 +150,7 @@ const std::set<std::string> kElsewhere{"emulated_devices",
                                        "camera",  // follow_test
                                        "scout_wall",
                                        "pioneer_tasks",
+                                       "pioneer_roam",  // rights_test
                                        "pioneer_fetch_task",
                                        "pioneer_planner_parts",
                                        "pioneer_slam",

@@ -59,6 +59,7 @@ const std::vector<Robot> kRobots{
     {"pioneer_localize", "", {"planner", "look_around"}},
     {"team_robot", "", {"planner", "look_around"}},
     {"pioneer_tasks", "", {"pilot", "dock", "traverse", "look_around"}},
+    {"pioneer_roam", "", {"pilot", "dock", "traverse", "look_around"}},
     {"pioneer_fetch_task", "", {"pilot", "porter", "dock", "traverse", "look_around"}},
     {"scout_localize", "", {"goto", "avoid"}},
     {"scout_tasks", "", {"pilot", "dock"}},

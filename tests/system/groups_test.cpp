@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Orders to several components in several processes: groups that are suspended and resumed, and parameters that are set
 // together. All obey, or none.
+#include <signal.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -31,17 +33,23 @@ bool comes_true(const std::function<bool()>& condition, Seconds limit) {
   return true;
 }
 
-// Returns the state of a component, as orcactl ps has it; "" if there is no answer.
-std::string state_of(const std::string& component) {
+// What orcactl ps says of a component; empty if there is no answer.
+struct Shown {
+  std::string name, type, process, pid, state;
+};
+
+Shown shown(const std::string& component) {
   std::istringstream ps(run_orcactl({"ps"}).out);
   for (std::string line; std::getline(ps, line);) {
     std::istringstream words(line);
-    std::string name, type, process, pid, state;
-    words >> name >> type >> process >> pid >> state;
-    if (name == component) return state;
+    Shown one;
+    words >> one.name >> one.type >> one.process >> one.pid >> one.state;
+    if (one.name == component) return one;
   }
-  return "";
+  return {};
 }
+
+std::string state_of(const std::string& component) { return shown(component).state; }
 
 bool are_all(const Words& components, const std::string& state) {
   return std::ranges::all_of(components, [&](const std::string& name) { return state_of(name) == state; });
@@ -250,5 +258,37 @@ TEST_CASE("a task in a process of its own sets a parameter in another one, and s
   };
   CHECK(comes_true([&] { return is("0.3"); }, Seconds(10)));
   CHECK(comes_true([&] { return is("0.5"); }, Seconds(10)));
+  stop(program);
+}
+
+TEST_CASE("what a task has suspended goes on when the process of the task is killed, and is suspended again",
+          "[system][groups]") {
+  const TempFolder folder;
+  const std::string task = folder.write("task.xml",
+                                        "<task name=\"test\" version=\"1\"><Suspend component=\"walk\">"
+                                        "<Wait for=\"6 s\"/></Suspend><Wait for=\"60 s\"/></task>\n");
+  ShippedGraph shipped("pioneer_roam");
+  shipped.add(
+      "<process name=\"thinking\"/><profile name=\"apart\">"
+      "<component name=\"task\" process=\"thinking\"/></profile>");
+  Subprocess program(deployer({folder.write("apart.xml", shipped.text()), "--profile", "sim", "--profile",
+                               "apart", "--set", "task=" + task}));
+  const auto says = [&](const std::string& text, std::size_t mark) {
+    const bool said =
+        comes_true([&] { return program.err().find(text, mark) != std::string::npos; }, Seconds(10));
+    INFO(program.err());
+    CAPTURE(text);
+    CHECK(said);
+  };
+  says("task has suspended it", 0);
+  CHECK(comes_true([] { return are_all({"walk"}, "SUSPENDED"); }, Seconds(2)));
+  const std::size_t mark = program.err().size();
+  kill(std::stoi(shown("task").pid), SIGKILL);
+  says("it was suspended for task, which has ended", mark);
+  says("task has let it go on", mark);
+  says("task has suspended it", mark);  // it has begun again
+  const std::size_t again = program.err().size();
+  says("task has let it go on", again);
+  CHECK(comes_true([] { return are_all({"walk"}, "WORK"); }, Seconds(2)));
   stop(program);
 }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <regex>
 #include <string>
 #include <utility>
 
@@ -59,6 +60,46 @@ TEST_CASE("a robot leads a slow visitor slowly, and comes back at its own speed"
   CHECK(left_behind > 3.0);
   CHECK(back < 0.75 * there);
   CHECK(std::fabs(back - back_fast) < 3.0);
+}
+
+TEST_CASE("a robot that roams drives to rooms sooner because its task suspends what makes it roam",
+          "[system][rights]") {
+  const auto roam = [](const std::string& task) {
+    Run run =
+        run_deployer(Words{source_file("graphs/pioneer_roam.xml"), "--set", "task=" + task} + virtual_clock(),
+                     Seconds(120));
+    INFO(run.err);
+    CHECK(names(run) == Words{"kitchen", "library", "office_2", "start"});
+    CHECK(run.contacts().empty());
+    return run;
+  };
+  constexpr double kRoams = 240.0;  // [s] in four parts, before each drive
+  const std::string file = source_file("graphs/tasks/roam.xml");
+  const Run run = roam(file);
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.says("walk: task has suspended it"));
+  CHECK(run.says("walk: task has let it go on"));
+  CHECK(roam(file).trace_hash() == run.trace_hash());
+
+  const TempFolder folder;
+  const std::string unquiet = std::regex_replace(read_text(file), std::regex("</?Suspend[^>]*>"), "");
+  const Run pulled = roam(folder.write("roam.xml", unquiet));
+  CHECK_FALSE(pulled.says("suspended"));
+  CHECK(pulled.arrivals().back().t - kRoams > 1.25 * (run.arrivals().back().t - kRoams));
+}
+
+TEST_CASE("a task may suspend only what its graph lets it", "[system][rights]") {
+  const Run refused = run_task(R"(<Suspend component="gate"><Wait for="1 s"/></Suspend>
+<Suspend component=""><Wait for="1 s"/></Suspend>
+<Parallel><Suspend component="a"><Wait for="1 s"/></Suspend><Suspend component="a"><Wait for="1 s"/></Suspend></Parallel>)",
+                               {"--check"});
+  INFO(refused.err);
+  CHECK(refused.exit_code() == 2);
+  CHECK(refused.says(
+      "task.xml:2:1: error K014: the graph does not let this task suspend gate; add may_suspend="));
+  CHECK(refused.says("task.xml:3:21: error K007"));
+  CHECK(refused.says("task.xml:4:1: error K011: two branches of <Parallel> suspend a at the same time"));
 }
 
 TEST_CASE("a task may set only what its graph lets it", "[system][rights]") {

@@ -23,6 +23,7 @@ enum class Kind {
   retry,
   timeout,
   with,
+  suspend,
   attempt,
   on,
   caught,
@@ -51,7 +52,7 @@ struct Step {
 
   go::Trip trip{};          ///< Drive.
   std::string words{};      ///< Say, ask; of a caught failure the kind, empty: any; with: the value.
-  std::string component{};  ///< With: that of the parameter.
+  std::string component{};  ///< With: that of the parameter; suspend.
   std::string param{};      ///< With.
   std::optional<Condition> condition{};  ///< Check, on.
   Then then = Then::fail;                ///< On, caught.

@@ -96,11 +96,11 @@ class TaskReader {
                     "two branches of <Parallel> ask at the same time; an answer would be to both");
     if (drivers > 1)
       element.error(codes::kTwoDrivers, "two branches of <Parallel> drive the one robot at the same time");
-    std::set<std::string> set;
+    std::set<std::string> changed;
     for (const std::size_t branch : branches)
-      for (const std::string& param : set_in(branch))
-        if (!set.insert(param).second)
-          element.error(codes::kTwoDrivers, "two branches of <Parallel> set " + param + " at the same time");
+      for (const std::string& change : changes_in(branch))
+        if (!changed.insert(change).second)
+          element.error(codes::kTwoDrivers, "two branches of <Parallel> " + change + " at the same time");
     if (const auto need = element.integer("need"); need && *need > static_cast<std::int64_t>(branches.size()))
       element.error_at("need", codes::kBadValue,
                        "there are " + std::to_string(branches.size()) + " branches only");
@@ -112,13 +112,14 @@ class TaskReader {
            std::ranges::any_of(s.children, [&](std::size_t child) { return holds(child, kind); });
   }
 
-  // Returns the parameters that are set in a step.
-  [[nodiscard]] std::set<std::string> set_in(std::size_t step) const {
+  // Returns what is changed of other components in a step: "set pilot.max_speed".
+  [[nodiscard]] std::set<std::string> changes_in(std::size_t step) const {
     const Step& s = task_.steps[step];
-    std::set<std::string> set;
-    if (s.kind == Kind::with) set.insert(s.component + "." + s.param);
-    for (const std::size_t child : s.children) set.merge(set_in(child));
-    return set;
+    std::set<std::string> changes;
+    if (s.kind == Kind::with) changes.insert("set " + s.component + "." + s.param);
+    if (s.kind == Kind::suspend) changes.insert("suspend " + s.component);
+    for (const std::size_t child : s.children) changes.merge(changes_in(child));
+    return changes;
   }
 
   [[nodiscard]] bool takes_time(std::size_t step) const {
@@ -157,6 +158,7 @@ class TaskReader {
       case Kind::retry: step.count = count(e, "attempts"); break;
       case Kind::timeout: step.time = e.number("after").value_or(0.0); break;
       case Kind::with: read_setting(e, step); break;
+      case Kind::suspend: read_suspended(e, step); break;
       case Kind::on: read_handler(e, step), read_condition(e, step); break;
       case Kind::caught: read_handler(e, step), read_reason(e, step); break;
       case Kind::drive: read_drive(e, step); break;
@@ -187,7 +189,7 @@ class TaskReader {
     const std::string what = e.text("set").value_or("");
     const std::size_t dot = what.rfind('.');
     if (dot == std::string::npos || dot == 0 || dot + 1 == what.size()) {
-      if (!what.empty())
+      if (e.has("set"))
         e.error_at(
             "set", codes::kBadValue,
             in_quotes(what) + " names no parameter; write COMPONENT.PARAM, for example pilot.max_speed");
@@ -195,6 +197,12 @@ class TaskReader {
     }
     step.component = what.substr(0, dot);
     step.param = what.substr(dot + 1);
+  }
+
+  static void read_suspended(const Attributes& e, Step& step) {
+    step.component = e.text("component").value_or("");
+    if (step.component.empty() && e.has("component"))
+      e.error_at("component", codes::kBadValue, "\"\" names no component; write its name in the graph");
   }
 
   static void read_handler(const Attributes& e, Step& step) {

@@ -35,6 +35,7 @@ constexpr std::array kRetry{AttributeRule{.name = "attempts", .required = true, 
 constexpr std::array kTimeout{AttributeRule{.name = "after", .required = true, .value = kTime}};
 constexpr std::array kWith{AttributeRule{.name = "set", .required = true, .value = kText},
                            AttributeRule{.name = "to", .required = true, .value = kText}};
+constexpr std::array kSuspend{AttributeRule{.name = "component", .required = true, .value = kText}};
 constexpr std::array kOn{AttributeRule{.name = "when", .required = true, .value = kText},
                          AttributeRule{.name = "then", .required = true, .value = kThen}};
 constexpr std::array kCatch{AttributeRule{.name = "reason", .required = true, .value = kReason},
@@ -50,7 +51,7 @@ constexpr std::array kCheck{AttributeRule{.name = "when", .required = true, .val
                             AttributeRule{.name = "within", .value = kTime}};
 
 extern const ElementRule kSequenceRule, kFallbackRule, kParallelRule, kRepeatRule, kRetryRule, kTimeoutRule,
-    kWithRule, kTryRule;
+    kWithRule, kSuspendRule, kTryRule;
 
 constexpr ElementRule kDriveRule{.name = "Drive", .attributes = kDrive};
 constexpr ElementRule kWaitRule{.name = "Wait", .attributes = kWait};
@@ -58,17 +59,17 @@ constexpr ElementRule kSayRule{.name = "Say", .attributes = kSay};
 constexpr ElementRule kAskRule{.name = "Ask", .attributes = kAsk};
 constexpr ElementRule kCheckRule{.name = "Check", .attributes = kCheck};
 
-constexpr std::array<const ElementRule*, 13> kSteps{
+constexpr std::array<const ElementRule*, 14> kSteps{
     &kSequenceRule, &kFallbackRule, &kParallelRule, &kRepeatRule, &kRetryRule, &kTimeoutRule, &kWithRule,
-    &kTryRule,      &kDriveRule,    &kWaitRule,     &kSayRule,    &kAskRule,   &kCheckRule};
+    &kSuspendRule,  &kTryRule,      &kDriveRule,    &kWaitRule,   &kSayRule,   &kAskRule,     &kCheckRule};
 
 constexpr ElementRule kOnRule{.name = "On", .attributes = kOn, .children = kSteps};
 constexpr ElementRule kCatchRule{.name = "Catch", .attributes = kCatch, .children = kSteps};
 
-constexpr std::array<const ElementRule*, 15> kInTry{
-    &kSequenceRule, &kFallbackRule, &kParallelRule, &kRepeatRule, &kRetryRule,
-    &kTimeoutRule,  &kWithRule,     &kTryRule,      &kDriveRule,  &kWaitRule,
-    &kSayRule,      &kAskRule,      &kCheckRule,    &kOnRule,     &kCatchRule};
+constexpr std::array<const ElementRule*, 16> kInTry{
+    &kSequenceRule, &kFallbackRule, &kParallelRule, &kRepeatRule, &kRetryRule, &kTimeoutRule,
+    &kWithRule,     &kSuspendRule,  &kTryRule,      &kDriveRule,  &kWaitRule,  &kSayRule,
+    &kAskRule,      &kCheckRule,    &kOnRule,       &kCatchRule};
 
 constinit const ElementRule kSequenceRule{.name = "Sequence", .children = kSteps};
 constinit const ElementRule kFallbackRule{.name = "Fallback", .children = kSteps};
@@ -77,6 +78,7 @@ constinit const ElementRule kRepeatRule{.name = "Repeat", .attributes = kRepeat,
 constinit const ElementRule kRetryRule{.name = "Retry", .attributes = kRetry, .children = kSteps};
 constinit const ElementRule kTimeoutRule{.name = "Timeout", .attributes = kTimeout, .children = kSteps};
 constinit const ElementRule kWithRule{.name = "With", .attributes = kWith, .children = kSteps};
+constinit const ElementRule kSuspendRule{.name = "Suspend", .attributes = kSuspend, .children = kSteps};
 constinit const ElementRule kTryRule{.name = "Try", .children = kInTry};
 
 }  // namespace
@@ -85,31 +87,24 @@ constinit const ElementRule kTaskRule{.name = "task", .attributes = kTaskAttribu
 
 namespace {
 
-constexpr std::array<const ElementRule*, 16> kElements{
+constexpr std::array<const ElementRule*, 17> kElements{
     &kTaskRule,    &kSequenceRule, &kFallbackRule, &kParallelRule, &kRepeatRule, &kRetryRule,
-    &kTimeoutRule, &kWithRule,     &kTryRule,      &kOnRule,       &kCatchRule,  &kDriveRule,
-    &kWaitRule,    &kSayRule,      &kAskRule,      &kCheckRule};
+    &kTimeoutRule, &kWithRule,     &kSuspendRule,  &kTryRule,      &kOnRule,     &kCatchRule,
+    &kDriveRule,   &kWaitRule,     &kSayRule,      &kAskRule,      &kCheckRule};
 
 struct NamedKind {
   std::string_view element;
   Kind kind;
 };
 
-constexpr std::array kKinds{NamedKind{"Sequence", Kind::sequence},
-                            NamedKind{"Fallback", Kind::fallback},
-                            NamedKind{"Parallel", Kind::parallel},
-                            NamedKind{"Repeat", Kind::repeat},
-                            NamedKind{"Retry", Kind::retry},
-                            NamedKind{"Timeout", Kind::timeout},
-                            NamedKind{"With", Kind::with},
-                            NamedKind{"Try", Kind::attempt},
-                            NamedKind{"On", Kind::on},
-                            NamedKind{"Catch", Kind::caught},
-                            NamedKind{"Drive", Kind::drive},
-                            NamedKind{"Wait", Kind::wait},
-                            NamedKind{"Say", Kind::say},
-                            NamedKind{"Ask", Kind::ask},
-                            NamedKind{"Check", Kind::check}};
+constexpr std::array kKinds{NamedKind{"Sequence", Kind::sequence}, NamedKind{"Fallback", Kind::fallback},
+                            NamedKind{"Parallel", Kind::parallel}, NamedKind{"Repeat", Kind::repeat},
+                            NamedKind{"Retry", Kind::retry},       NamedKind{"Timeout", Kind::timeout},
+                            NamedKind{"With", Kind::with},         NamedKind{"Suspend", Kind::suspend},
+                            NamedKind{"Try", Kind::attempt},       NamedKind{"On", Kind::on},
+                            NamedKind{"Catch", Kind::caught},      NamedKind{"Drive", Kind::drive},
+                            NamedKind{"Wait", Kind::wait},         NamedKind{"Say", Kind::say},
+                            NamedKind{"Ask", Kind::ask},           NamedKind{"Check", Kind::check}};
 
 }  // namespace
 

@@ -8,7 +8,10 @@
 namespace orca::tasks {
 namespace {
 
-constexpr double kObeyTime = 15.0;  // [s] for a parameter to be set
+constexpr double kObeyTime = 15.0;  // [s] for another component
+
+// Returns whether a step changes something of another component, and changes it back.
+bool changes_others(Kind kind) { return kind == Kind::with || kind == Kind::suspend; }
 
 bool is_action(Kind kind) { return kind == Kind::drive || kind == Kind::ask; }
 
@@ -109,9 +112,9 @@ void TaskRun::go_on_from(std::vector<Memory> memories, std::string last_failure)
   last_failure_ = std::move(last_failure);
   for (std::size_t i = 0; i < memory_.size(); ++i)
     if (is_action(step_of(i).kind) && memory_[i].state == State::running) memory_[i].state = State::idle;
-  // After the loss of a process the parameter may be as in the graph again.
+  // After the loss of a process the parameter may be as in the graph again, and the component go on.
   for (std::size_t i = 0; i < memory_.size(); ++i)
-    if (step_of(i).kind == Kind::with) memory_[i].known = false;
+    if (changes_others(step_of(i).kind)) memory_[i].known = false;
 }
 
 TaskRun::State TaskRun::run(std::size_t step) {
@@ -119,13 +122,13 @@ TaskRun::State TaskRun::run(std::size_t step) {
   if (memory.state == State::done || memory.state == State::failed) return memory.state;
   if (is_action(step_of(step).kind)) return run_action(step);
   if (memory.state == State::idle) memory = {.state = State::running, .since = time_, .known = memory.known};
+  if (changes_others(step_of(step).kind)) return memory.state = run_with(step);
   switch (step_of(step).kind) {
     case Kind::fallback: return memory.state = run_fallback(step);
     case Kind::parallel: return memory.state = run_parallel(step);
     case Kind::repeat: return memory.state = run_repeat(step);
     case Kind::retry: return memory.state = run_retry(step);
     case Kind::timeout: return memory.state = run_timeout(step);
-    case Kind::with: return memory.state = run_with(step);
     case Kind::attempt: return memory.state = run_attempt(step);
     case Kind::sequence: return memory.state = run_sequence(step);
     case Kind::on:
@@ -219,7 +222,8 @@ TaskRun::State TaskRun::run_with(std::size_t step) {
     if (!ending && time_ - memory.since < kObeyTime) return State::running;
     if (!ending) {
       set_back(step);
-      return fail(step, "timed out: nobody has set " + with.param);
+      return fail(step, "timed out: nobody has " +
+                            (with.kind == Kind::with ? "set " + with.param : "suspended " + with.component));
     }
     memory.order = 0;
     if (!ending->done) return fail(step, "refused: " + ending->reason);
@@ -231,7 +235,7 @@ TaskRun::State TaskRun::run_with(std::size_t step) {
   return state;
 }
 
-// The parameter of a step becomes as it was before, also if it is only about to be set.
+// A change of a step is undone, also if it is only about to change.
 void TaskRun::set_back(std::size_t step) {
   Memory& memory = memory_[step];
   if (memory.known || memory.order != 0)
@@ -342,7 +346,7 @@ void TaskRun::pause(std::size_t step) {
     memory.state = State::idle;
   }
   for (const std::size_t child : step_of(step).children) pause(child);
-  if (step_of(step).kind == Kind::with) set_back(step);
+  if (changes_others(step_of(step).kind)) set_back(step);
 }
 
 }  // namespace orca::tasks

@@ -17,16 +17,16 @@ struct Ending {
   std::string reason;  ///< Why it has failed, for people: "blocked: ...".
 };
 
-/// Who sets parameters of components for a task.
+/// Who sets parameters of components for a task, and suspends components.
 class Setter {
  public:
-  /// Orders that the parameter of a step be set. @return the number of the order, not 0.
+  /// Orders what a step With or Suspend says. @return the number of the order, not 0.
   virtual std::uint64_t order(const Step& step) = 0;
-  /// Returns how such an order has ended, if it has; done with the value before as its reason.
+  /// Returns how such an order has ended, if it has; done with what was so before as its reason.
   virtual std::optional<Ending> outcome(std::uint64_t number) = 0;
-  /// Sets the parameter of a step back.
+  /// Makes it as it was before.
   /// @param number  of the order that must end before; 0: none.
-  /// @param before  the value; empty: the one before that order.
+  /// @param before  what was so; empty: the outcome of that order.
   virtual void set_back(const Step& step, std::uint64_t number, const std::string& before) = 0;
 
  protected:
@@ -44,7 +44,7 @@ class Actor {
   virtual std::optional<Ending> go_on(const Step& step) = 0;
   /// Gives up what has begun and has not ended.
   virtual void halt(const Step& step) = 0;
-  /// Returns who sets parameters for the steps With.
+  /// Returns who carries out the steps With and Suspend.
   [[nodiscard]] virtual Setter& setter() = 0;
   virtual void say(const std::string& text) = 0;
   [[nodiscard]] virtual bool holds(const Condition& condition) = 0;
@@ -68,11 +68,11 @@ class TaskRun {
     State state = State::idle;
     std::uint32_t at = 0;     ///< Which of its children is on.
     std::uint32_t count = 0;  ///< Rounds, attempts, or how often it has caught.
-    std::uint64_t order = 0;  ///< With: number of the order that is under way; 0: none.
+    std::uint64_t order = 0;  ///< With, suspend: number of the order that is under way; 0: none.
     double since = 0.0;       ///< [s] When it began.
-    bool known = false;       ///< On: its condition was seen, and has held since. With: its parameter is set.
+    bool known = false;       ///< On: its condition was seen, and has held since. With, suspend: it is so.
     std::string reason{};     ///< Why it has failed.
-    std::string before{};     ///< With: the value that the parameter had.
+    std::string before{};     ///< With, suspend: what was so before.
   };
 
   /// @param task  outlives this object.

@@ -266,6 +266,7 @@ class TaskTree final : public orca::Component, private Actor {
       log_warning("the task is another one than before, so it begins anew");
       return orca::ok();
     }
+    for (TaskRun::Memory& memory : memories) settings_.settle(memory);
     run_->go_on_from(std::move(memories), std::move(last_failure));
     paused_ = paused;
     paused_at_ = paused_at;

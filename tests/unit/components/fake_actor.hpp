@@ -53,7 +53,8 @@ struct FakeActor final : Actor, Setter {
   }
   Setter& setter() override { return *this; }
   std::uint64_t order(const Step& step) override {
-    log.push_back("set " + step.param + " " + step.words);
+    log.push_back(step.kind == Kind::suspend ? "suspend " + step.component
+                                             : "set " + step.param + " " + step.words);
     return ++orders;
   }
   std::optional<Ending> outcome(std::uint64_t number) override {
@@ -62,7 +63,8 @@ struct FakeActor final : Actor, Setter {
     return may_set ? Ending{true, "0.5 m/s"} : Ending{false, "no right"};
   }
   void set_back(const Step& step, std::uint64_t number, const std::string& before) override {
-    log.push_back("back " + step.param + " " + (number != 0 ? "after its order" : before));
+    log.push_back("back " + (step.kind == Kind::suspend ? step.component : step.param) + " " +
+                  (number != 0 ? "after its order" : before));
   }
   void halt(const Step& step) override { log.push_back("halt " + step.trip.name); }
   void say(const std::string& text) override { log.push_back("say " + text); }

@@ -67,3 +67,39 @@ TEST_CASE("a With goes on in another object, sets its parameter once more and ba
   CHECK(second.to_the_end() == State::done);
   CHECK(second.actor.log == Strings{"set max_speed 0.3 m/s", "begin a", "at a", "back max_speed 0.5 m/s"});
 }
+
+TEST_CASE("a component is suspended while the steps in a Suspend are done, and resumed however they end",
+          "[components][tasks]") {
+  const auto done_by = [&](const auto& prepare) {
+    Run run(R"(<Suspend component="walk"><Drive to="a"/><Say text="x"/></Suspend><Drive to="b"/>)");
+    prepare(run.actor);
+    run.to_the_end();
+    return run;
+  };
+  CHECK(done_by([](FakeActor&) {}).actor.log ==
+        Strings{"suspend walk", "begin a", "at a", "say x", "back walk 0.5 m/s", "begin b", "at b"});
+  const Run fails = done_by([](FakeActor& a) { a.failures["a"] = {"blocked: x"}; });
+  CHECK(fails.actor.log == Strings{"suspend walk", "begin a", "back walk 0.5 m/s"});
+  CHECK(reason_of(fails) == "blocked: x");
+  const Run forbidden = done_by([](FakeActor& a) { a.may_set = false; });
+  CHECK(forbidden.actor.log == Strings{"suspend walk"});
+  CHECK(reason_of(forbidden) == "refused: no right");
+  const Run unheard = done_by([](FakeActor& a) { a.is_deaf = true; });
+  CHECK(reason_of(unheard) == "timed out: nobody has suspended walk");
+  CHECK(unheard.actor.log == Strings{"suspend walk", "back walk after its order"});
+
+  SECTION("also while something interrupts it, and suspended again after that") {
+    Run run(R"(<Try><Suspend component="walk"><Drive to="a"/></Suspend>
+               <On when="alarm X" then="resume"><Drive to="dock"/></On></Try>)");
+    run.actor.endless = {"a"};
+    run.tick(3);
+    run.actor.alarms = {"X"};
+    run.tick();
+    CHECK(run.actor.log == Strings{"suspend walk", "begin a", "halt a", "back walk 0.5 m/s", "begin dock"});
+    run.actor.alarms.clear();
+    run.actor.endless.clear();
+    CHECK(run.to_the_end() == State::done);
+    CHECK(Strings(run.actor.log.begin() + 5, run.actor.log.end()) ==
+          Strings{"at dock", "suspend walk", "begin a", "at a", "back walk 0.5 m/s"});
+  }
+}

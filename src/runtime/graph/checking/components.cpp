@@ -109,6 +109,7 @@ class ComponentReader {
     checked_.value.may_fail = attribute<bool>("may_fail").value_or(false);
     checked_.value.start_after = split_names(node_.value("start_after"));
     checked_.value.may_set = split_names(node_.value("may_set"));
+    checked_.value.may_suspend = split_names(node_.value("may_suspend"));
   }
 
   void read_loading() {
@@ -248,7 +249,19 @@ std::string fault_of_right(const std::string& param, const Contract& contract, R
          report.hint(param, names);
 }
 
-void check_rights(const std::vector<Node>& nodes, const Model& model, Report& report) {
+// Nobody would let a component go on that has suspended itself.
+void check_rights_to_suspend(const Node& node, const Model& model, Report& report) {
+  const std::string title = node.title() + ": may_suspend";
+  for (const std::string& name : split_names(node.value("may_suspend"))) {
+    if (!check_component_exists(name, node.place("may_suspend"), title, model, report)) continue;
+    if (name == node.value("name"))
+      report.error(codes::kRight, node.place("may_suspend"),
+                   title + ": " + in_quotes(name) +
+                       " is the component itself, which could not let itself go on; name another one");
+  }
+}
+
+void check_rights_to_set(const std::vector<Node>& nodes, const Model& model, Report& report) {
   for (const Node& node : nodes)
     for (const std::string& right : split_names(node.value("may_set"))) {
       const std::size_t dot = right.rfind('.');
@@ -284,7 +297,8 @@ void check_components(const std::vector<Node>& nodes, Types& types, Model& model
               !node.value("name").empty() && !node.duplicate);
   }
   check_start_after(nodes, model, report);
-  check_rights(nodes, model, report);
+  check_rights_to_set(nodes, model, report);
+  for (const Node& node : nodes) check_rights_to_suspend(node, model, report);
 }
 
 }  // namespace orca::graph

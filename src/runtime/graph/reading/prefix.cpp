@@ -35,6 +35,7 @@ void prefix_component(Node& node, const std::string& context) {
   prefix_process(node, "process", context);
   prefix_names(node, "start_after", context);
   prefix_names(node, "may_set", context);
+  prefix_names(node, "may_suspend", context);
 }
 
 }  // namespace

@@ -217,6 +217,8 @@ constexpr std::array kComponent{
     AttributeRule{"may_set", false,
                   "Parameters of other components that the component may set while it runs, for example "
                   "pilot.max_speed."},
+    AttributeRule{"may_suspend", false,
+                  "Other components that the component may suspend while it runs, for example walk."},
     AttributeRule{"may_fail", false,
                   "Whether a run may count as finished well although the component ends in WORK_FAILED.",
                   kBoolean}};

@@ -122,6 +122,7 @@ Attributes attributes_of(const ComponentNode& node) {
   if (node.on_demand && !node.stay_warm) add(result, "idle_time", seconds_text(node.idle_time));
   add(result, "start_after", joined(node.start_after, " "));
   add(result, "may_set", joined(node.may_set, " "));
+  add(result, "may_suspend", joined(node.may_suspend, " "));
   if (node.restore_last) add(result, "restore", "last");
   if (node.may_fail) add(result, "may_fail", "true");
   return result;

@@ -37,6 +37,7 @@ Fields fields_of(const ComponentNode& node) {
   ComponentNode sorted = node;
   std::ranges::sort(sorted.start_after);
   std::ranges::sort(sorted.may_set);
+  std::ranges::sort(sorted.may_suspend);
   Fields fields = fields_of(attributes_of(sorted));
   add_params(node.params, fields);
   for (const auto& [name, value] : node.properties) fields["property " + name] = property_text(value);

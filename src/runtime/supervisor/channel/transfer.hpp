@@ -144,7 +144,7 @@ void transfer(auto& archive, graph::PortSetting& setting) {
 
 void transfer(auto& archive, graph::ComponentNode& node) {
   transfer_all(archive, node.name, node.type, node.hardware, node.process, node.priority, node.autonomous,
-               node.watchable, node.trigger, node.restore_last, node.may_set);
+               node.watchable, node.trigger, node.restore_last, node.may_set, node.may_suspend);
   std::vector<std::pair<std::string, graph::PortSetting>> ports(node.ports.begin(), node.ports.end());
   transfer(archive, ports);
   for (auto& [port, setting] : ports) node.ports[port] = std::move(setting);

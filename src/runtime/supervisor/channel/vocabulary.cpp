@@ -84,6 +84,7 @@ void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.moto
 void fields(auto& /*archive*/, Leaving& /*m*/) {}
 void fields(auto& archive, LogWished& m) { transfer(archive, m.is_wanted); }
 void fields(auto& archive, PeerCalled& m) {
+  transfer_up_to(archive, m.act, PeerCalled::Act::resume);
   transfer_all(archive, m.by, m.number, m.component, m.param, m.value);
 }
 

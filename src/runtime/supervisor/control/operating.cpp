@@ -302,20 +302,16 @@ Status Operating::change(const std::vector<Setting>& settings, const std::string
   return ok();
 }
 
-Result<std::string> Operating::set_for(const PeerCalled& call) {
-  const graph::ComponentNode* const by = graph_.find_component(call.by);
-  const std::string what = call.component + "." + call.param;
-  if (by == nullptr || std::ranges::find(by->may_set, what) == by->may_set.end())
-    return fail(Code::failed_precondition, "the graph gives no right to set " + what, call.by);
-  const graph::ComponentNode* const node = graph_.find_component(call.component);
-  const Contract* const contract = contract_of(facts_.contracts, call.component);
-  if (node == nullptr || contract == nullptr) return gone(call.component);
-  const Result<graph::Params> read = graph::read_settings(contract->params, {{call.param, call.value}});
+Result<std::string> Operating::set_for(const std::string& by, const PeerOrder& order) {
+  const std::string& component = order.component;
+  const Contract* const contract = contract_of(facts_.contracts, component);
+  if (graph_.find_component(component) == nullptr || contract == nullptr) return gone(component);
+  const Result<graph::Params> read = graph::read_settings(contract->params, {{order.param, order.value}});
   if (!read) return read.error();
-  const Setting setting{call.component, {{call.param, call.value}}, *read};
-  const Status end = change({setting}, call.by);
+  const Setting setting{component, {{order.param, order.value}}, *read};
+  const Status end = change({setting}, by);
   if (!end.ok()) return end.error();
-  return graph::print_value(setting.before->at(call.param));
+  return graph::print_value(setting.before->at(order.param));
 }
 
 // Returns the present values of what is to change. Since the order was given, the component may have gone or got another

@@ -53,10 +53,10 @@ class Operating {
   void set(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Does the same with values that have been read and checked, by component. It waits.
   Status change(const std::map<std::string, graph::Params>& wanted);
-  /// Sets a parameter for a component that the graph gives the right. It waits.
+  /// Sets a parameter for a component. It waits.
   /// @return the value before.
-  /// @errors  failed_precondition without the right; as change().
-  Result<std::string> set_for(const PeerCalled& call);
+  /// @errors  as change().
+  Result<std::string> set_for(const std::string& by, const PeerOrder& order);
   /// Carries out steps of several components, all of them or none, when no other joint order is under way. It waits.
   Status carry_out(const std::vector<JointStep>& steps) { return joint_orders_.carry_out(steps); }
   /// Learns where components are that are not in the graph, because they come or go; by name.

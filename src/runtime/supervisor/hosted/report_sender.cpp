@@ -107,7 +107,9 @@ void ReportSender::state_kept(const std::string& component, const host::KeptStat
 }
 
 void ReportSender::peer_called(const host::PeerCall& call) {
-  send(PeerCalled{call.by, call.number, call.setting.component, call.setting.param, call.setting.value});
+  const PeerOrder& order = call.order;
+  send(PeerCalled{call.by, call.number, static_cast<PeerCalled::Act>(order.kind), order.component,
+                  order.param, order.value});
 }
 
 void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{error}); }

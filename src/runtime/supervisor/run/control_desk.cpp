@@ -66,6 +66,7 @@ ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const 
       ledger_(ledger),
       names_(whole, here, facts.ports, members),
       operating_(conductor, here, facts, names_, ledger.reports(), levers),
+      peers_(conductor, here, names_, operating_, ledger.reports()),
       exchanging_(conductor, here, facts, names_, operating_),
       applying_({conductor, here, facts, members, operating_, exchanging_, starter, renewal, ledger},
                 std::move(applying)),
@@ -83,12 +84,9 @@ void ControlDesk::recall(const Standing& standing) {
   operating_.recall(standing.params);
 }
 
-void ControlDesk::obey(const PeerCalled& call) {
-  conductor_.begin("an order of " + call.by, [this, call] {
-    const Result<std::string> before = operating_.set_for(call);
-    ConcludeCall end{call.by, call.number, before ? ok() : Status(before.error()), before ? *before : ""};
-    operating_.tell(call.by, std::move(end));
-  });
+void ControlDesk::pause_components(const std::string& name, bool suspends, const ReplyPtr& reply) {
+  peers_.overrule(name);
+  suspends ? operating_.suspend(name, reply) : operating_.resume(name, reply);
 }
 
 void ControlDesk::add_to(std::vector<pollfd>& all) const { doors_.add_to(all); }
@@ -99,6 +97,7 @@ void ControlDesk::serve(Moment now) {
   if (watch_) look_at_files(now);
   exchanging_.go_on();
   applying_.go_on();
+  peers_.go_on();
   log_.pass_on();
 }
 
@@ -172,9 +171,9 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"restart",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.restart(word(ask, 0), r); }},
       {"suspend",
-       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.suspend(word(ask, 0), r); }},
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.pause_components(word(ask, 0), true, r); }},
       {"resume",
-       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.operating_.resume(word(ask, 0), r); }},
+       [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.pause_components(word(ask, 0), false, r); }},
       {"swap", [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) { d.exchanging_.swap(ask.words, r); }},
       {"fits", [](ControlDesk& d, const Ask& ask,
                   const ReplyPtr& r) { d.exchanging_.show_fitting(word(ask, 0), r); }},

@@ -16,6 +16,7 @@
 #include "control/log_book.hpp"
 #include "control/motor_hold.hpp"
 #include "control/operating.hpp"
+#include "control/peer_desk.hpp"
 #include "control/showing.hpp"
 #include "control/system_names.hpp"
 #include "machines/system_hold.hpp"
@@ -77,7 +78,7 @@ class ControlDesk {
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code) { exchanging_.note(code); }
   /// Carries out what a component orders about another one, and gives it the outcome.
-  void obey(const PeerCalled& call);
+  void obey(const PeerCalled& call) { peers_.take(call); }
   /// Notes what a process was built from.
   void note(const Built& built, const std::string& process) { exchanging_.note(built, process); }
   /// Notes that a process has ended, or is about to be started.
@@ -99,6 +100,7 @@ class ControlDesk {
   void carry_out(const Ask& ask, const ReplyPtr& reply);
   using Rewiring = void (Applying::*)(const std::vector<std::string>& words, const ReplyPtr& reply);
   void rewire(const Ask& ask, const ReplyPtr& reply, Rewiring rewiring);
+  void pause_components(const std::string& name, bool suspends, const ReplyPtr& reply);
   void show_log(const Ask& ask, const ReplyPtr& reply);
   void show_missions(const Ask& ask, Reply& reply) const;
   void look_at_files(Moment now);
@@ -108,6 +110,7 @@ class ControlDesk {
   Ledger& ledger_;
   const SystemNames names_;
   Operating operating_;
+  PeerDesk peers_;
   Exchanging exchanging_;
   Applying applying_;
   std::optional<CodeWatch> watch_;

@@ -120,7 +120,7 @@ inline std::vector<supervisor::Report> all_reports() {
       ExchangedCode{"avoid", "orca.VfhPlus", "/tmp/vfh_plus.so", "abc", 3},
       Standing{{{"base", some_bytes()}}, true, {{"avoid", {{"stop_distance", "0.5 m"}}}}}, Leaving{},
       LogWished{true}, StateKept{"command", "orca.Command", 2, some_bytes()},
-      PeerCalled{"task", 3, "pilot", "max_speed", "0.8 m/s"});
+      PeerCalled{"task", 3, PeerCalled::Act::set, "pilot", "max_speed", "0.8 m/s"});
 }
 
 /// Returns one of each word that a client of the control socket hears.

@@ -45,12 +45,22 @@ class PluginHost {
   virtual void write_log(log::Level level, std::string_view text) const = 0;
 };
 
-/// A wish of a component that a parameter of another one be set.
-struct PeerSetting {
+/// An order of a component about another one.
+struct PeerOrder {
+  enum class Kind : std::uint8_t {
+    set,      ///< Sets a parameter.
+    suspend,  ///< Pauses the component between two of its laps, as an operator does.
+    resume,   ///< Lets it go on, unless somebody else keeps it suspended.
+  };
+
+  Kind kind = Kind::set;
   std::string component;  ///< By its name in the graph.
-  std::string param;
-  std::string value;  ///< As written in a graph, with its unit.
+  std::string param{};    ///< To set.
+  std::string value{};    ///< To set: as written in a graph, with its unit.
 };
+
+inline constexpr const char* kPeerWorks = "works";
+inline constexpr const char* kPeerIsSuspended = "suspended";
 
 /// The services that a process offers to a component. The runtime implements it; a component author does not
 /// need it.
@@ -89,12 +99,16 @@ class ComponentHost : public PluginHost {
   [[nodiscard]] virtual bool may_set(const std::string& /*component*/, const std::string& /*param*/) const {
     return false;
   }
-  /// Orders that a parameter of another component be set, between two of its laps, in whatever process it is.
+  /// Returns whether the graph gives this component the right to suspend another one: may_suspend="walk".
+  [[nodiscard]] virtual bool may_suspend(const std::string& /*component*/) const { return false; }
+  /// Orders another component, in whatever process it is. A component that it has suspended goes on when this one has ended or its process is
+  /// lost.
   /// @return the number of the order.
-  virtual std::uint64_t set_peer(const PeerSetting& /*setting*/) { return 0; }
-  /// Returns the outcome of such an order once it is there, and forgets it: the value before, as text.
+  virtual std::uint64_t order_peer(const PeerOrder& /*order*/) { return 0; }
+  /// Returns the outcome of such an order once it is there, and forgets it: the value before, as text; of a pause kPeerWorks, or
+  /// kPeerIsSuspended if the order has changed nothing.
   /// @errors  failed_precondition without the right; those of the component and of the runtime, with their reasons.
-  [[nodiscard]] virtual std::optional<Result<std::string>> take_set(std::uint64_t /*number*/) {
+  [[nodiscard]] virtual std::optional<Result<std::string>> take_outcome(std::uint64_t /*number*/) {
     return std::nullopt;
   }
 };

@@ -249,13 +249,14 @@ class HostedPart::Inside {
   }
 
   void report_change(const ComponentInstance& component) {
-    while (const auto order = component.parts().peer_orders->take_order())
-      place_.listener.peer_called({component.name(), order->first, order->second});
     const ComponentReport report = component.report();
     const auto [known, is_new] = reported_.try_emplace(component.name(), report);
-    if (!is_new && known->second == report) return;
-    known->second = report;
-    place_.listener.component_changed(component.name(), report);
+    if (is_new || known->second != report) {
+      known->second = report;
+      place_.listener.component_changed(component.name(), report);
+    }
+    while (const auto order = component.parts().peer_orders->take_order())
+      place_.listener.peer_called({component.name(), order->first, order->second});
   }
 
   // A component hangs, and perhaps all others with it.

@@ -11,6 +11,7 @@
 #include "orca/base/doorbell.hpp"
 #include "orca/base/executive.hpp"
 #include "orca/host/kept_state.hpp"
+#include "orca/host/peer_call.hpp"
 #include "orca/host/planned_failure.hpp"
 #include "orca/patterns/endpoints/cores.hpp"
 #include "orca/patterns/endpoints/courier.hpp"
@@ -55,6 +56,8 @@ struct RunContext {
   std::map<std::string, Cores> cores{};
   /// Carries what is under way between components in virtual time.
   Courier courier{executive};
+  /// For whom components are suspended, in a run whose components are all in this process. Main task only.
+  PeerPauses peer_pauses{};
 };
 
 }  // namespace orca::host

@@ -21,6 +21,7 @@ ComponentSettings settings_of(const graph::ComponentNode& node, const std::vecto
   settings.idle_time = node.idle_time;
   settings.keeps_state = node.restore_last;
   settings.may_set = node.may_set;
+  settings.may_suspend = node.may_suspend;
   settings.params = node.params;
   for (const auto& [port, setting] : node.ports)
     if (!setting.alias.empty()) settings.port_names[port] = setting.alias;

@@ -75,6 +75,7 @@ struct ComponentNode {
   std::optional<Trigger> trigger;  ///< Starts a lap; nothing: the author's choice.
   std::vector<std::string> start_after;  ///< Components that must be up before this one.
   std::vector<std::string> may_set;      ///< Parameters of others that it may set: "pilot.max_speed".
+  std::vector<std::string> may_suspend;  ///< Other components that it may suspend.
   Params params;
   Properties properties;                     ///< Those that the graph declares.
   std::map<std::string, PortSetting> ports;  ///< By the author's name; only ports with settings.

@@ -29,6 +29,7 @@ struct ComponentSettings {
   bool keeps_state = false;          ///< Its state is kept for the case that its process is lost.
   std::optional<KeptState> state;    ///< That it begins with, because its process was lost.
   std::vector<std::string> may_set;  ///< Parameters of others that it may set: "pilot.max_speed".
+  std::vector<std::string> may_suspend;  ///< Other components that it may suspend.
   std::map<std::string, ParamValue> params;
   std::optional<PlannedFailure> failure;  ///< How it is made to fail.
   /// Names of ports in the graph, by the author's names.

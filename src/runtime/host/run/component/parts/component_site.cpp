@@ -68,14 +68,22 @@ bool ComponentSite::may_set(const std::string& component, const std::string& par
          parts_->settings.may_set.end();
 }
 
-// The main task of whoever runs the system looks for it. In a trial nobody does.
-std::uint64_t ComponentSite::set_peer(const PeerSetting& setting) {
-  const std::string what = setting.component + "." + setting.param;
-  if (!may_set(setting.component, setting.param))
-    return parts_->peer_orders->refuse(
-        fail(Code::failed_precondition, "the graph gives no right to set " + what + "; add may_set=" +
-                                            in_quotes(what) + " to component " + in_quotes(name())));
-  const std::uint64_t number = parts_->peer_orders->begin(setting);
+bool ComponentSite::may_suspend(const std::string& component) const {
+  return std::ranges::find(parts_->settings.may_suspend, component) != parts_->settings.may_suspend.end();
+}
+
+// The main task of whoever runs the system looks for it. In a trial nobody does. To let another one go on needs no right.
+std::uint64_t ComponentSite::order_peer(const PeerOrder& order) {
+  const bool sets = order.kind == PeerOrder::Kind::set;
+  const bool may = sets ? may_set(order.component, order.param)
+                        : order.kind == PeerOrder::Kind::resume || may_suspend(order.component);
+  const std::string what = sets ? order.component + "." + order.param : order.component;
+  if (!may)
+    return parts_->peer_orders->refuse(fail(
+        Code::failed_precondition, "the graph gives no right to " + std::string(sets ? "set " : "suspend ") +
+                                       what + "; add " + (sets ? "may_set=" : "may_suspend=") +
+                                       in_quotes(what) + " to component " + in_quotes(name())));
+  const std::uint64_t number = parts_->peer_orders->begin(order);
   parts_->run.changed();
   return number;
 }

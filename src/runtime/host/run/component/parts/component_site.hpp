@@ -58,8 +58,9 @@ class ComponentSite final : public ComponentHost {
   [[nodiscard]] std::vector<idl::Alarm> take_alarms() override;
   [[nodiscard]] std::vector<idl::Alarm> kept_alarms() const override;
   [[nodiscard]] bool may_set(const std::string& component, const std::string& param) const override;
-  std::uint64_t set_peer(const PeerSetting& setting) override;
-  [[nodiscard]] std::optional<Result<std::string>> take_set(std::uint64_t number) override {
+  [[nodiscard]] bool may_suspend(const std::string& component) const override;
+  std::uint64_t order_peer(const PeerOrder& order) override;
+  [[nodiscard]] std::optional<Result<std::string>> take_outcome(std::uint64_t number) override {
     return parts_->peer_orders->take(number);
   }
 

@@ -255,7 +255,7 @@ struct ConcludeCall {
   std::string component;
   std::uint64_t number = 0;
   Status outcome;
-  std::string before{};  ///< The value that the parameter had.
+  std::string before{};  ///< As of ComponentHost::take_outcome().
 };
 
 using Order =
@@ -394,14 +394,16 @@ struct Standing {
   bool motors_held = false;                           ///< By StopMotors.
   std::vector<std::pair<std::string, Pairs>> params;  ///< By component: those that SetParams has changed.
 };
-/// A component orders that a parameter of another one be set.
+/// A component orders another one.
 struct PeerCalled {
   static constexpr Kind kKind = Kind::peer_called;
+  enum class Act : std::uint8_t { set, suspend, resume };  ///< As PeerOrder::Kind.
   std::string by;
   std::uint64_t number = 0;  ///< Of the order, among those of the component.
+  Act act = Act::set;
   std::string component;
-  std::string param;
-  std::string value;  ///< As in the graph, with its unit.
+  std::string param;  ///< To set.
+  std::string value;  ///< To set: as in the graph, with its unit.
 };
 /// Everything is taken down on order or at a signal, and the process ends.
 struct Leaving {
