@@ -51,6 +51,18 @@ Status check_ranges(const idl::RangeReadings& readings) {
   return ok();
 }
 
+// Checks a round of sensors that each have a pose. @param sensor  what each of them is, for people.
+template <class Round>
+Status check_round(const Round& round, const std::string& sensor) {
+  if (Status sound = check_ranges(round); !sound.ok()) return sound;
+  for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
+    if (is_number(round.ranges()[i]) && is_possible(round.poses()[i].position(), round.poses()[i].rotation()))
+      return ok();
+  return wrong("none of its " + std::to_string(round.ranges().size()) +
+               " ranges is a number that comes with a finite pose of its " + sensor + "; it has " +
+               std::to_string(round.poses().size()) + " poses");
+}
+
 std::optional<std::string> doubt_about_speed(double speed) {
   if (std::abs(speed) <= kFastest) return std::nullopt;
   return "a speed of " + in_digits(speed) + " m/s: was it meant in mm/s or cm/s?";
@@ -98,14 +110,10 @@ Status check_reading(const idl::LaserRangeReadings& scan) {
   return ok();
 }
 
-Status check_reading(const idl::SonarRangeReadings& round) {
-  if (Status sound = check_ranges(round); !sound.ok()) return sound;
-  for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
-    if (is_number(round.ranges()[i]) && is_possible(round.poses()[i].position(), round.poses()[i].rotation()))
-      return ok();
-  return wrong("none of its " + std::to_string(round.ranges().size()) +
-               " ranges is a number that comes with a finite pose of its sonar; it has " +
-               std::to_string(round.poses().size()) + " poses");
+Status check_reading(const idl::SonarRangeReadings& round) { return check_round(round, "sonar"); }
+
+Status check_reading(const idl::InfraredRangeReadings& round) {
+  return check_round(round, "infrared sensor");
 }
 
 Status check_reading(const idl::RobotPose& pose) {

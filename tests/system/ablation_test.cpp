@@ -107,6 +107,13 @@ const std::vector<Case> kCases{
     {"nomad_xr4000", "base", How::silent, Worse::stands},
     {"nomad_xr4000", "localizer", How::crashed, Worse::nowhere},
 
+    {"nomad_200", "command", How::silent, Worse::stands},
+    {"nomad_200", "goto", How::silent, Worse::nowhere},
+    {"nomad_200", "avoid", How::removed, Worse::contact},
+    {"nomad_200", "fuser", How::silent, Worse::stands},
+    {"nomad_200", "base", How::silent, Worse::stands},
+    {"nomad_200", "localizer", How::crashed, Worse::nowhere},
+
     {"pioneer_fetch", "command", How::silent, Worse::stands},
     {"pioneer_fetch", "porter", How::silent, Worse::stands},
     {"pioneer_fetch", "goto", How::silent, Worse::nowhere},

@@ -52,6 +52,7 @@ const std::vector<Robot> kRobots{
     {"player_robot", "", {"goto", "avoid"}},
     {"peoplebot", "", {"goto", "avoid"}},
     {"nomad_scout", "", {"goto", "avoid"}},
+    {"nomad_200", "", {"goto", "avoid"}},
     {"nomad_xr4000", "", {"goto", "avoid"}, 1.5},
     {"pioneer_planner", "", {"planner"}},
     {"pioneer_planner_parts", "", {"pilot"}},

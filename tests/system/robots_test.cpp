@@ -74,6 +74,24 @@ TEST_CASE("a synchro base with a turret and a holonomic base drive the run of th
   }
 }
 
+TEST_CASE("a robot passes by infrared the boxes that lie below its sonars", "[system][robots]") {
+  const Run run = run_deployer(Words{source_file("graphs/nomad_200.xml")} + virtual_clock());
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK(run.arrivals().size() == 3);
+  CHECK(run.contacts().empty());
+
+  std::string by_sonar = ShippedGraph("nomad_200").text();
+  by_sonar = std::regex_replace(by_sonar, std::regex("orca\\.InfraredAvoid"), "orca.SonarAvoid");
+  by_sonar =
+      std::regex_replace(by_sonar, std::regex("base\\.InfraredRangeReadingsPush\" to=\"avoid\\.infrared"),
+                         "base.SonarRangeReadingsPush\" to=\"avoid.sonar");
+  const TempFolder folder;
+  const Run deaf = run_deployer(Words{folder.write("by_sonar.xml", by_sonar)} + virtual_clock());
+  INFO(deaf.err);
+  CHECK_FALSE(deaf.contacts().empty());
+}
+
 TEST_CASE("a holonomic base moves sideways on command", "[system][robots]") {
   const Run run = run_deployer(Words{system_graph("sidestep.xml")} + with_test_plugins() + virtual_clock());
   INFO(run.err);

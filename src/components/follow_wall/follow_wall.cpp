@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "orca/avoidance/sonar_ear.hpp"
+#include "orca/avoidance/ring_ear.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
@@ -73,7 +73,7 @@ class FollowWall final : public orca::Component {
 
   void listen(const orca::idl::SonarRangeReadings& round) {
     if (!senders_.accepts(round) || !moved_at_) return;
-    heard_at_ = orca::avoid::SonarEar::last_firing(round).value_or(now());
+    heard_at_ = orca::avoid::RingEar::last_firing(round).value_or(now());
     ear_.take(round, now(), false, [&](orca::Vec2 echo, orca::TimePoint fired) {
       memory_.hear(seen_from(orca::moved(twist_, orca::to_seconds(*moved_at_ - fired)), echo), kKeep);
     });
@@ -149,7 +149,7 @@ class FollowWall final : public orca::Component {
 
   orca::SenderWatch senders_{host()};
   orca::SenderLife odometer_;
-  orca::avoid::SonarEar ear_;
+  orca::avoid::RingEar ear_;
   orca::avoid::EchoMemory memory_;
   std::vector<orca::Vec2> confirmed_;
   orca::Pose2 pose_;  // in the frame of the odometry

@@ -18,10 +18,11 @@ namespace orca {
 ///
 /// @errors  invalid_argument, with what was found and what was expected: a scan without beams, without a range that is a
 ///          number, or whose angles, limits or pose are none that a sensor can have.
-/// @thread  pure function, as the next three; any thread.
+/// @thread  pure function, as the next four; any thread.
 [[nodiscard]] Status check_reading(const idl::LaserRangeReadings& scan);
 /// @errors  invalid_argument, likewise; a range without a pose of its sonar says nothing.
 [[nodiscard]] Status check_reading(const idl::SonarRangeReadings& round);
+[[nodiscard]] Status check_reading(const idl::InfraredRangeReadings& round);
 /// @errors  invalid_argument for a number that is not finite or of no possible size, and for a negative variance.
 [[nodiscard]] Status check_reading(const idl::RobotPose& pose);
 /// @errors  invalid_argument, likewise.

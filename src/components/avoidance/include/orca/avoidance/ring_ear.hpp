@@ -13,21 +13,22 @@
 
 namespace orca::avoid {
 
-/// The ear for one ring of sonars: it takes each firing once. A base reports its whole ring more often than the ring makes its
+/// The ear for one ring of sonars, or of infrared sensors: it takes each firing once. A base reports its whole ring more often than the ring makes its
 /// round, and a repeated echo would confirm itself, each time at another place, as the motion since it was heard is a guess.
 ///
-/// An echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below the minimum range
+/// A sonar's echo may come from anywhere on the arc of the cone; the middle of the arc is used. An obstacle below the minimum range
 /// may be at the sonar itself.
 ///
 /// Thread contract: as for a container.
-class SonarEar {
+class RingEar {
  public:
   /// Calls `note(echo, fired)` for each echo of a sonar that has fired since the last round: its place in the robot frame of that
   /// moment [m], and when that was.
   /// @param now      the moment of firings without a stamp.
   /// @param repeats  whether firings that were reported before count again.
-  template <class Note>
-  void take(const idl::SonarRangeReadings& round, TimePoint now, bool repeats, Note note) {
+  /// @tparam Round  SonarRangeReadings or InfraredRangeReadings.
+  template <class Round, class Note>
+  void take(const Round& round, TimePoint now, bool repeats, Note note) {
     const std::size_t count = std::min(round.ranges().size(), round.poses().size());
     fired_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -41,7 +42,8 @@ class SonarEar {
     }
   }
   /// Returns when a sonar of the round has fired last; nothing if they have no stamps.
-  [[nodiscard]] static std::optional<TimePoint> last_firing(const idl::SonarRangeReadings& round) {
+  template <class Round>
+  [[nodiscard]] static std::optional<TimePoint> last_firing(const Round& round) {
     std::optional<TimePoint> last;
     for (const idl::TimeValue& stamp : round.stamps())
       last = std::max(last, std::optional(to_time_point(stamp)));
