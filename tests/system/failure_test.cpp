@@ -228,6 +228,8 @@ TEST_CASE("every behaviour of every shipped graph has its rehearsal", "[system][
   const std::set<std::string> still{"replay", "intel_log", "localize_log", "ros2_robot"};
   for (const std::string& graph : shipped_graphs())
     if (!still.contains(graph)) shipped.merge(behaviours_of(graph));
+  // It may be silent, since a task suspends it: the robot stands then without a word, until it has a goal.
+  CHECK(shipped.erase("pioneer_roam: walk") == 1);
   std::vector<Robot> robots = kRobots;
   robots.push_back(kTeleop);
   robots.push_back(kPlayer);
