@@ -2,18 +2,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/base/result.hpp"
 
 namespace orca::hw::link {
-
-/// Says why a serial device cannot be opened and what to do.
-/// @param path    what was to be opened.
-/// @param reason  errno of the attempt.
-/// @param name    of the link, for messages.
-[[nodiscard]] Error explain_refusal(const std::string& path, int reason, const SerialPlaces& places,
-                                    const std::string& name);
 
 /// The names that the system gives to serial adapters: by their make and number in by-id, by the socket they are in in
 /// by-path. The names in by-id stay with an adapter, whatever /dev/ttyUSB number it gets when it is plugged in again.
@@ -36,5 +30,12 @@ class SerialPlaces {
  private:
   const std::string folder_;
 };
+
+/// Says why a serial device cannot be opened and what to do.
+/// @param path    what was to be opened.
+/// @param reason  errno of the attempt.
+/// @param name    of the link, for messages.
+[[nodiscard]] Error explain_refusal(const std::string& path, int reason, const SerialPlaces& places,
+                                    const std::string& name);
 
 }  // namespace orca::hw::link
