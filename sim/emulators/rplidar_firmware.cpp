@@ -45,9 +45,10 @@ std::vector<std::uint8_t> little_endian(std::uint32_t value, int bytes) {
   return all;
 }
 
-std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
+std::uint32_t number_at(std::span<const std::uint8_t> bytes, std::size_t at, std::size_t size) {
   std::uint32_t value = 0;
-  for (int i = 0; i < size && at + i < bytes.size(); ++i) value |= std::uint32_t{bytes[at + i]} << (8 * i);
+  for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i)
+    value |= std::uint32_t{bytes[at + i]} << (8 * i);
   return value;
 }
 
