@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "orca/base/text.hpp"
 #include "orca/idl/checks.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/idl/time.hpp"
