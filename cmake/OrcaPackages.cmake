@@ -62,7 +62,7 @@ package orca_robots uses both."
 orca_package(dev libdevel "component framework for mobile robots: files for development"
   DETAILS "Headers, libraries and the CMake package with which components and drivers
 are compiled and tested."
-  DEPENDS "${same}" g++ cmake pkg-config catch2 libcairo2-dev libeigen3-dev libfastrtps-dev liblz4-dev libtinyxml2-dev libzstd-dev zlib1g-dev
+  DEPENDS "${same}" g++ cmake pkg-config catch2 libcairo2-dev libeigen3-dev libfastrtps-dev liblz4-dev libsqlite3-dev libtinyxml2-dev libzstd-dev zlib1g-dev
   RECOMMENDS ninja-build orca-simulator python3)
 orca_package(doc doc "component framework for mobile robots: documents"
   DETAILS "Pages about components, graphs, the simulator, hardware and comparisons, and

@@ -28,14 +28,11 @@ Message copy_of(const Message& message, std::size_t descriptors) {
   return copy;
 }
 
-// What was read once means the same when it is written and read again.
+// What is read is written as it came.
 template <class Decode, class Encode>
 void try_words(const Message& message, std::size_t descriptors, Decode decode, Encode encode) {
   auto words = decode(copy_of(message, descriptors));
-  if (!words) return;
-  const Message once = encode(std::move(*words));
-  auto again = decode(copy_of(once, once.descriptors.size()));
-  if (!again || encode(std::move(*again)).body != once.body) std::abort();
+  if (words && encode(std::move(*words)).body != message.body) std::abort();
 }
 
 void try_all(const Message& message, std::size_t descriptors) {

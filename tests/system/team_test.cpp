@@ -15,9 +15,11 @@
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
+#include "pair_of_machines.hpp"
 #include "process_table.hpp"
 #include "slow_run.hpp"
 #include "temp_folder.hpp"
+#include "two_machines.hpp"
 
 using namespace orca::test;
 using Catch::Contains;
@@ -39,13 +41,29 @@ const Words kBeside{"--set", "place=beside",    "--set", "goals=far: 4.5 4.5; ne
 // Two tests at a time have a team each.
 std::string team_of_this_test() { return "team_of_" + std::to_string(getpid()); }
 
+// The computer of a robot.
+struct Computer {
+  const TwoMachines* network = nullptr;  // null: this one
+  int machine = 0;
+  int clock_ahead = 0;  // [s] of its time of day
+
+  [[nodiscard]] Words command(const Words& words) const {
+    if (network == nullptr) return words;
+    return network->on(machine, Words{"/usr/bin/env", "LD_PRELOAD=" ORCA_SET_CLOCK,
+                                      "ORCA_TEST_CLOCK_AHEAD=" + std::to_string(clock_ahead)} +
+                                    words);
+  }
+};
+
 // A robot of the team, in a world of its own.
 class Robot {
  public:
-  explicit Robot(std::string name, const Words& settings = kAcross, const std::string& graph = kMate)
+  explicit Robot(std::string name, const Words& settings = kAcross, const std::string& graph = kMate,
+                 const Computer& computer = {})
       : name_(std::move(name)),
-        program_(std::make_unique<Subprocess>(
-            deployer(Words{graph, "--name", name_, "--set", "team=" + team_of_this_test()} + settings))) {}
+        computer_(computer),
+        program_(std::make_unique<Subprocess>(computer.command(
+            deployer(Words{graph, "--name", name_, "--set", "team=" + team_of_this_test()} + settings)))) {}
   ~Robot() {
     if (program_) kill_all();
   }
@@ -54,7 +72,7 @@ class Robot {
   // Returns what `orcactl team` says: a line for each system, by name.
   [[nodiscard]] std::map<std::string, std::string> team() const {
     std::map<std::string, std::string> lines;
-    for (const std::string& line : split_lines(run_orcactl({"--system", name_, "team"}).out))
+    for (const std::string& line : split_lines(answer({"team"})))
       lines[line.substr(0, line.find(' '))] = line;
     lines.erase("SYSTEM");
     return lines;
@@ -66,8 +84,7 @@ class Robot {
   }
   // Returns how many robots are among those that it lets pass.
   [[nodiscard]] std::size_t others_nearby() const {
-    const std::string moving =
-        run_orcactl({"--system", name_, "echo", "team.MovingThingsPush", "--count", "1", "--for", "2s"}).out;
+    const std::string moving = answer({"echo", "team.MovingThingsPush", "--count", "1", "--for", "2s"});
     std::size_t count = 0;
     for (std::size_t at = 0; (at = moving.find("<things ", at)) != std::string::npos; ++at) ++count;
     return count;
@@ -89,7 +106,14 @@ class Robot {
   [[nodiscard]] std::string log() const { return program_->err(); }
 
  private:
+  // Returns what orcactl prints on the robot's computer.
+  [[nodiscard]] std::string answer(const Words& words) const {
+    Subprocess program(computer_.command(orcactl(Words{"--system", name_} + words)));
+    return finish(program, Seconds(20)).out;
+  }
+
   std::string name_;
+  Computer computer_;
   std::unique_ptr<Subprocess> program_;
 };
 
@@ -144,6 +168,28 @@ TEST_CASE("a robot waits for one that it only hears of, and no order of its oper
   CHECK(run_orcactl({"--system", "bert", "estop"}).exit_code() == 0);
   const std::size_t before = anna.arrivals();
   CHECK(comes_true([&] { return anna.arrivals() > before; }, Seconds(40)));
+}
+
+TEST_CASE("robots of two computers whose clocks differ let each other pass, and find each other again",
+          "[system][team][tool]") {
+  if (is_skipped()) return;
+  const TwoMachines network;
+  const Words by_cable{"--set", "interface=orca0"};
+  Robot anna("anna", kAcross + by_cable, kMate, {&network, 0});
+  Robot bert("bert", kAlong + by_cable, kMate, {&network, 1, 3});
+  REQUIRE(comes_true([&] { return anna.sees({"bert"}) && bert.sees({"anna"}); }, Seconds(15)));
+  CHECK(comes_true([&] { return bert.others_nearby() == 1; }, Seconds(10)));
+  CHECK(bert.says("stops the robot: somebody passes", Seconds(60)));
+  CHECK_THAT(anna.log(), !Contains("somebody passes"));
+
+  network.connect(false);
+  CHECK(anna.says("bert is lost from the team", Seconds(5)));
+  CHECK(bert.says("anna is lost from the team", Seconds(5)));
+  const std::size_t before = anna.arrivals();
+  CHECK(comes_true([&] { return anna.arrivals() > before; }, Seconds(60)));  // alone, too
+  network.connect(true);
+  CHECK(comes_true([&] { return anna.sees({"bert"}) && bert.sees({"anna"}); }, Seconds(15)));
+  CHECK(comes_true([&] { return bert.others_nearby() == 1; }, Seconds(10)));
 }
 
 TEST_CASE("two robots that have taken one name are told of it, and are heard as two", "[system][team]") {

@@ -90,11 +90,7 @@ void transfer(auto& archive, QueuePolicy& policy) {
   transfer(archive, policy.min_interval);
   transfer(archive, policy.deadline);
   transfer(archive, policy.block_limit);
-  bool has_limit = policy.drop_limit.has_value();
-  std::uint32_t limit = policy.drop_limit.value_or(0);
-  transfer(archive, has_limit);
-  transfer(archive, limit);
-  policy.drop_limit = has_limit ? std::optional(limit) : std::nullopt;
+  transfer(archive, policy.drop_limit);
   transfer_up_to(archive, policy.confirm, QueuePolicy::Confirm::handled);
 }
 
@@ -118,10 +114,11 @@ void transfer(auto& archive, EdgeChange& change) {
 template <class T>
 void transfer(auto& archive, std::optional<T>& value) {
   bool is_there = value.has_value();
-  T content = value.value_or(T{});
   transfer(archive, is_there);
+  if (!is_there) return value.reset();
+  T content = value.value_or(T{});
   transfer(archive, content);
-  value = is_there ? std::optional(std::move(content)) : std::nullopt;
+  value = std::move(content);
 }
 
 void transfer(auto& archive, int& value) {
