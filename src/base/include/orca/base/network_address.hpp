@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 
 namespace orca {
+
+/// How long a process that begins waits for its network, which may be switched on with the machine, or be cut for a moment.
+inline constexpr Duration kNetworkPatience = std::chrono::seconds(5);
 
 /// Returns the IPv4 address under which this machine is to be reached, as a text.
 /// @param interface  name of its network interface; empty: `address` decides.

@@ -15,7 +15,6 @@
 namespace orca::host {
 namespace {
 
-constexpr Duration kPatience = 5s;  // with a network that is cut while this process is started again
 constexpr const char* kDdsLibrary = "liborca_dds.so";
 
 // An edge at this process, whose end here is `port`.
@@ -223,7 +222,7 @@ Result<DdsOptions> OuterEdges::dds_options() const {
     const bool is_here = node.name == machine;
     if (!is_here && node.address.empty()) continue;
     Result<std::string> address =
-        is_here ? own_address(node.interface, node.address, kPatience) : address_of_host(node.address);
+        is_here ? own_address(node.interface, node.address, kNetworkPatience) : address_of_host(node.address);
     if (!address) return address.error();
     if (is_here)
       options.address = std::move(address).value();

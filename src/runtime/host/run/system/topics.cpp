@@ -96,7 +96,7 @@ Status Topics::open_ros() {
 Status Topics::open_team() {
   if (team_ != nullptr) return ok();
   const graph::Team& team = graph_.team;
-  Result<std::string> address = own_address(team.interface, "");
+  Result<std::string> address = own_address(team.interface, "", kNetworkPatience);
   if (!address) return address.error();
   const TeamOptions options{team.name, graph_.name, number_of(run_), team.domain, std::move(address).value()};
   Result<std::unique_ptr<TeamTopics>> opened = open_team_topics(beside_own_library(kLibrary), options);
