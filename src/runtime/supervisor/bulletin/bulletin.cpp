@@ -51,7 +51,7 @@ class LogConsumer final : public dds::LogConsumer {
 };
 
 Result<dds::DomainParticipantQos> participant_qos(const MeetingPlace& place) {
-  const Result<std::string> own = own_address(place.interface, place.address, kNetworkPatience);
+  const Result<std::string> own = own_address(place.interface, place.address);
   if (!own) return own.error();
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   if (!own->empty()) udp->interfaceWhiteList = {*own};
