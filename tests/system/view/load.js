@@ -64,7 +64,8 @@ class Load extends EventTarget {
   constructor(system) {
     super();
     this.system = system;
-    this.hello = { system: "load", role: "operator", time: 0, version: "" };
+    this.hello = { system: "load", role: "change", time: 0, version: "" };
+    this.role = this.hello.role;
     this.steers = true;
     this.laps = 0;
     this.scan = scanFrame();
@@ -80,6 +81,14 @@ class Load extends EventTarget {
 
   stream() {
     return () => {};
+  }
+
+  refusal() {
+    return "";
+  }
+
+  may() {
+    return true;
   }
 
   async ask(command) {
