@@ -28,12 +28,12 @@ def check(is_so, what):
         sys.exit(f"FAILED: {what}")
 
 
-def messages():
-    """The types of ROS 2 that are spoken here, as classes of the library."""
+def parts_of_messages():
+    """The types of ROS 2 of which those that are spoken here consist, as classes of the library."""
     from dataclasses import dataclass
 
     from cyclonedds.idl import IdlStruct
-    from cyclonedds.idl.types import array, float32, float64, int32, sequence, uint32
+    from cyclonedds.idl.types import float64, int32, uint32
 
     @dataclass
     class Time(IdlStruct, typename="builtin_interfaces::msg::dds_::Time_"):
@@ -70,14 +70,26 @@ def messages():
         orientation: Quaternion
 
     @dataclass
-    class PoseWithCovariance(IdlStruct, typename="geometry_msgs::msg::dds_::PoseWithCovariance_"):
-        pose: Pose
-        covariance: array[float64, 36]
-
-    @dataclass
     class Twist(IdlStruct, typename="geometry_msgs::msg::dds_::Twist_"):
         linear: Vector3
         angular: Vector3
+
+    return Header, Vector3, Pose, Twist
+
+
+def messages():
+    """The types of ROS 2 that are spoken here."""
+    from dataclasses import dataclass
+
+    from cyclonedds.idl import IdlStruct
+    from cyclonedds.idl.types import array, float32, float64, sequence
+
+    Header, Vector3, Pose, Twist = parts_of_messages()
+
+    @dataclass
+    class PoseWithCovariance(IdlStruct, typename="geometry_msgs::msg::dds_::PoseWithCovariance_"):
+        pose: Pose
+        covariance: array[float64, 36]
 
     @dataclass
     class TwistWithCovariance(IdlStruct, typename="geometry_msgs::msg::dds_::TwistWithCovariance_"):

@@ -158,6 +158,7 @@ TEST_CASE("a robot with keys drives on whatever strangers say, and its log says 
   talk.join();
   INFO(run.err);
   CHECK((geteuid() != 0 || replayed > 10));
+  CHECK((geteuid() != 0 || run.says("127.0.0.1 repeats what process ")));
   CHECK(run.exit_code() == 0);
   CHECK(run.arrivals().size() == 1);
   CHECK_FALSE(run.says("PROCESS_ENDED"));

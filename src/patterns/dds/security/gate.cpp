@@ -54,7 +54,13 @@ bool Gate::lets_in(std::span<const std::uint8_t> packet, const eprosima::fastrtp
   const keys::Mark mark = mark_in(std::as_bytes(packet.subspan(kPrefix)));
   const MutexLock lock(mutex_);
   const std::string fault = fault_of(mark);
-  if (!fault.empty()) refuse(eprosima::fastrtps::rtps::IPLocator::ip_to_string(sender), fault);
+  const auto address = [&sender] { return eprosima::fastrtps::rtps::IPLocator::ip_to_string(sender); };
+  if (!fault.empty()) refuse(address(), fault);
+  // It is passed on: whoever could guess the head of a cipher would otherwise keep the true packet away.
+  if (fault.empty() && repeats_.has_come(packet))
+    warn_once(address() + " repeats what " + name_of(ring_.known().at(mark)) +
+              " has said over DDS: somebody has recorded it, or the network brings it by two ways; nothing "
+              "is taken twice");
   return fault.empty();
 }
 
@@ -67,11 +73,15 @@ std::string Gate::fault_of(const keys::Mark& mark) const {
   return {};
 }
 
-// Each sender once: a stranger would otherwise fill the log.
 void Gate::refuse(const std::string& sender, const std::string& why) {
-  if (refused_.size() >= kMostRefused || !refused_.insert(sender + " " + why).second) return;
-  log::warning(kLogName, "what " + sender + " says over DDS is dropped: " + why);
-  if (refused_.size() == kMostRefused) log::warning(kLogName, "further senders are dropped without a word");
+  warn_once("what " + sender + " says over DDS is dropped: " + why);
+}
+
+// Each text once: a stranger would otherwise fill the log.
+void Gate::warn_once(const std::string& text) {
+  if (warned_of_.size() >= kMostRefused || !warned_of_.insert(text).second) return;
+  log::warning(kLogName, text);
+  if (warned_of_.size() == kMostRefused) log::warning(kLogName, "further senders are dropped without a word");
 }
 
 std::optional<keys::Certificate> Gate::certificate_of(std::span<const std::byte> guid) const {

@@ -18,6 +18,7 @@
 
 #include "orca/base/mutex.hpp"
 #include "orca/base/result.hpp"
+#include "orca/dds/repeats.hpp"
 #include "orca/keys/key_ring.hpp"
 
 namespace orca::dds {
@@ -25,7 +26,7 @@ namespace orca::dds {
 /// The gate of a secured participant: each packet that it sends or receives passes it, before anything else looks at it. It lets in
 /// only packets of participants whose certificates are in the authority's list, neither revoked nor expired; and none in either
 /// direction once the own certificate is that no longer. (Fast DDS 2.9.1 looks at a certificate only when it meets its owner.) What a
-/// packet says of its sender is proven by Fast DDS afterwards. Refusals are in the log, with the sender's address.
+/// packet says of its sender is proven by Fast DDS afterwards. Refusals, and packets that are repeated, are in the log, with the sender's address.
 ///
 /// Thread contract: any thread.
 class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
@@ -63,6 +64,7 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
                                    eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override;
   [[nodiscard]] std::string fault_of(const keys::Mark& mark) const ORCA_REQUIRES(mutex_);
   void refuse(const std::string& sender, const std::string& why) ORCA_REQUIRES(mutex_);
+  void warn_once(const std::string& text) ORCA_REQUIRES(mutex_);
   void read_list() ORCA_REQUIRES(mutex_);
   void watch_end() ORCA_REQUIRES(mutex_);
 
@@ -70,9 +72,10 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
   keys::KeyRing ring_ ORCA_GUARDED_BY(mutex_);
   std::atomic<bool> is_closed_{false};
   Steady::time_point looked_ ORCA_GUARDED_BY(mutex_){};
-  std::int64_t now_ ORCA_GUARDED_BY(mutex_) = 0;           // the time of the last look [s since 1970 UTC]
-  std::int64_t warned_ ORCA_GUARDED_BY(mutex_) = 0;        // of the end, at that time
-  std::set<std::string> refused_ ORCA_GUARDED_BY(mutex_);  // what the log has said
+  std::int64_t now_ ORCA_GUARDED_BY(mutex_) = 0;             // the time of the last look [s since 1970 UTC]
+  std::int64_t warned_ ORCA_GUARDED_BY(mutex_) = 0;          // of the end, at that time
+  std::set<std::string> warned_of_ ORCA_GUARDED_BY(mutex_);  // what the log has said
+  Repeats repeats_ ORCA_GUARDED_BY(mutex_);
 };
 
 /// Makes a participant a secured one: its settings get the keys, and each of its transports the gate.
