@@ -4,6 +4,10 @@
 
     tests/system/view/doors_test.py [-k PART_OF_A_CASE'S_NAME] [--pictures FOLDER] BUILD_FOLDER
 """
+import math
+import re
+import time
+
 from page_case import PageCase, main, wait_for
 from selenium.webdriver.common.keys import Keys
 from view_case import TREE
@@ -24,6 +28,16 @@ class Doors(PageCase):
         begin = line.index(f'<doors name="{door}"')
         return 'open="true"' in line[begin:line.index(">", begin)]
 
+    def wait_for_leaf(self, door, place):
+        """Waits until a leaf has swung to a place, and the page has a scene of that."""
+        def is_there():
+            scene = self.orcactl("echo", "world.ScenePush", "--count", "1", "--for", "10s").stdout
+            x, y = re.search(rf'<obstacles name="{door}" x="([^"]*)" y="([^"]*)"', scene).groups()
+            return math.dist(place, (float(x), float(y))) < 0.05
+
+        wait_for(f"the leaf at {place}", is_there)
+        time.sleep(1.5)  # scenes come once a second
+
     def box(self, door):
         return self.part(f'#door-list input[value="{door}"]')
 
@@ -39,6 +53,7 @@ class Doors(PageCase):
         wait_for("the leaf opens", lambda: f"{SHUT} opens" in self.text("#notices"))
         wait_for("the page shows it open", lambda: self.box(SHUT).is_selected())
         self.assertTrue(self.is_open(SHUT))
+        self.wait_for_leaf(SHUT, OPEN_LEAF)
         self.mouse(self.pixel(SHUT_LEAF))  # nothing is there any more but free floor, so a box comes
         wait_for("a box in the opening", lambda: "comes to" in self.text("#notices"))
         self.picture("doors")
