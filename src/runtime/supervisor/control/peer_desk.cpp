@@ -27,7 +27,9 @@ std::string lacking_right(const graph::ComponentNode* by, const PeerOrder& order
 
 }  // namespace
 
-void PeerDesk::take(const PeerCalled& called) {
+Status PeerDesk::take(const PeerCalled& called, const std::string& process) {
+  if (operating_.process_of(called.by) != process)
+    return fail(Code::data_loss, "it gives an order of " + called.by + ", which it does not have");
   const host::PeerCall call{
       called.by, called.number, {static_cast<Act>(called.act), called.component, called.param, called.value}};
   conductor_.begin("an order of " + call.by, [this, call] {
@@ -35,6 +37,7 @@ void PeerDesk::take(const PeerCalled& called) {
     ConcludeCall end{call.by, call.number, before ? ok() : Status(before.error()), before ? *before : ""};
     operating_.tell(call.by, std::move(end));
   });
+  return ok();
 }
 
 Result<std::string> PeerDesk::obey(const host::PeerCall& call) {

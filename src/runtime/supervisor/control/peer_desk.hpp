@@ -29,7 +29,9 @@ class PeerDesk {
         reports_(std::move(reports)) {}
 
   /// Carries out what a component orders about another one, and gives it the outcome. Never waits.
-  void take(const PeerCalled& called);
+  /// @param process  which says so.
+  /// @errors  data_loss if that process does not have the component.
+  [[nodiscard]] Status take(const PeerCalled& called, const std::string& process);
   /// Lets components go on that were suspended for others which have ended, or whose processes are lost. Never waits.
   void go_on();
   /// Notes that an operator orders a pause of a component, or of a group, or its end: from now on it is his.

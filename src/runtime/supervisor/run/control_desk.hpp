@@ -78,7 +78,10 @@ class ControlDesk {
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code) { exchanging_.note(code); }
   /// Carries out what a component orders about another one, and gives it the outcome.
-  void obey(const PeerCalled& call) { peers_.take(call); }
+  /// @errors  as PeerDesk::take().
+  [[nodiscard]] Status obey(const PeerCalled& call, const std::string& process) {
+    return peers_.take(call, process);
+  }
   /// Notes what a process was built from.
   void note(const Built& built, const std::string& process) { exchanging_.note(built, process); }
   /// Notes that a process has ended, or is about to be started.

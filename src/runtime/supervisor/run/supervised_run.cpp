@@ -271,7 +271,7 @@ class SupervisedRun {
     if (const auto* standing = std::get_if<Standing>(&report)) control_.recall(*standing);
     if (const auto* built = std::get_if<Built>(&report)) control_.note(*built, member.name());
     if (const auto* code = std::get_if<ExchangedCode>(&report)) return control_.note(*code), ok();
-    if (const auto* call = std::get_if<PeerCalled>(&report)) return control_.obey(*call), ok();
+    if (const auto* call = std::get_if<PeerCalled>(&report)) return control_.obey(*call, member.name());
     if (const auto* kept = std::get_if<StateKept>(&report)) return starter_.keep(*kept), ok();
     if (const auto* wish = std::get_if<LogWished>(&report))
       return log_relay_.note_wish(member, wish->is_wanted), ok();

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "control/peer_desk.hpp"
 #include "orca/supervisor/own_process.hpp"
 
 using namespace orca;
@@ -96,6 +97,17 @@ class Desk {
     return refusal_of([&](Operating& desk, const ReplyPtr& reply) { desk.suspend(name, reply); });
   }
 
+  // Lets a process say that a component orders another one to be set.
+  Status order_of(const std::string& by, const std::string& process) {
+    Status taken = ok();
+    conductor_.run([&] {
+      taken = peers_.take(
+          {.by = by, .number = 1, .act = {}, .component = "goto", .param = "speed", .value = "1"}, process);
+      conductor_.go_on(Moment{});
+    });
+    return taken;
+  }
+
   // Makes both processes look as if they worked, although nobody answers in them.
   void bring_up() {
     for (Member* const member : members_) member->enter(Member::Phase::up);
@@ -114,6 +126,8 @@ class Desk {
   Conductor conductor_{[] {}};
   Operating operating_{
       conductor_, graph_, facts_, names_, [](const std::string&) { return host::ComponentReport{}; }, {}};
+  PeerDesk peers_{conductor_, graph_, names_, operating_,
+                  [](const std::string&) { return host::ComponentReport{}; }};
 };
 
 }  // namespace
@@ -192,4 +206,14 @@ TEST_CASE("a name that is neither a component nor a group is answered by the nea
   Desk desk;
   CHECK(desk.refusal_of_suspend("drivin") ==
         "there is no component or group \"drivin\"; did you mean \"driving\"?");
+}
+
+TEST_CASE("a process gives no orders of components that it does not have", "[supervisor][operating]") {
+  Desk desk;
+  CHECK(desk.order_of("avoid", "p").ok());
+  const Status taken = desk.order_of("avoid", "q");
+  REQUIRE_FALSE(taken.ok());
+  CHECK(taken.error().code == Code::data_loss);
+  CHECK(taken.error().message == "it gives an order of avoid, which it does not have");
+  CHECK_FALSE(desk.order_of("nobody", "q").ok());
 }
