@@ -33,7 +33,7 @@ std::unique_ptr<DdsBackend> make_dds(const std::string& process, const std::stri
   options.process = process;
   options.domain = dds_test_domain();
   options.keys = keys;
-  auto made = open_dds(ORCA_BINARY_DIR "/lib/liborca_dds.so", options);
+  auto made = open_dds(options);
   if (!made) throw std::runtime_error(made.error().text());
   return std::move(made).value();
 }

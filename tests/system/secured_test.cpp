@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Systems with security="on": what starts, and what strangers in the network achieve.
 #include <arpa/inet.h>
-#include <dlfcn.h>
 #include <netinet/ip.h>
 #include <netinet/udp.h>
 #include <sys/socket.h>
@@ -21,6 +20,7 @@
 #include "forged_keys.hpp"
 #include "hosted_system.hpp"
 #include "key_home.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/idl/machines.hpp"
 #include "orca/idl/object_type.hpp"
 #include "orca/keys/authority.hpp"
@@ -249,10 +249,10 @@ TEST_CASE("keys are renewed and a process is revoked while the others run", "[sy
 TEST_CASE("a machine with keys speaks for itself, and for no other machine", "[system][security]") {
   const KeyHome home;
   home.make({kDrive}, {"--set", "security=on"});
-  void* const library = dlopen(ORCA_BINARY_DIR "/lib/liborca_bulletin.so", RTLD_NOW | RTLD_LOCAL);
-  REQUIRE(library != nullptr);
-  const auto open_one =
-      reinterpret_cast<decltype(&supervisor::orca_open_bulletin)>(dlsym(library, "orca_open_bulletin"));
+  const auto& open_one =
+      late_function<decltype(supervisor::orca_open_bulletin)>("liborca_bulletin.so", "orca_open_bulletin")
+          .value()
+          .get();
   const auto opened = [&](const std::string& machine, const supervisor::HearState& hear) {
     Error error;
     std::unique_ptr<supervisor::Bulletin> made(open_one({"orca::idl::MachineState",

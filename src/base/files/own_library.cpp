@@ -17,12 +17,23 @@ fs::path own_prefix() {
   return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
 }
 
-}  // namespace
-
+// Returns the path of a library that lies beside this one. The loader would find it by name, but not under the sanitizers, which stand
+// between the caller and the loader.
 std::string beside_own_library(const std::string& name) {
   Dl_info own{};
-  if (dladdr(reinterpret_cast<const void*>(&beside_own_library), &own) == 0) return name;
+  if (dladdr(reinterpret_cast<const void*>(&own_plugin_folder), &own) == 0) return name;
   return (fs::path(own.dli_fname).parent_path() / name).string();
+}
+
+}  // namespace
+
+Result<void*> late_function(const std::string& library, const char* name) {
+  void* const opened = dlopen(beside_own_library(library).c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* const function = opened != nullptr ? dlsym(opened, name) : nullptr;
+  if (function != nullptr) return function;
+  const char* const error = dlerror();
+  return fail(Code::unavailable,
+              library + " cannot be used: " + (error != nullptr ? error : "it is damaged"));
 }
 
 std::string own_plugin_folder() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "peers_process.hpp"
 
-#include <dlfcn.h>
 #include <poll.h>
 
 #include <chrono>
@@ -20,19 +19,6 @@ namespace {
 constexpr std::size_t kLongest = std::size_t{64} << 10;  // [bytes] of a state
 constexpr int kMostInASecond = 500;                      // states; more are a flood
 
-// The function of a library that is loaded when it is needed.
-struct Opener {
-  decltype(&orca_open_bulletin) open;
-};
-
-// Loads the library. It stays in memory.
-Result<Opener> load_opener() {
-  void* const library = dlopen(beside_own_library("liborca_bulletin.so").c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const opener = library != nullptr ? dlsym(library, "orca_open_bulletin") : nullptr;
-  if (opener == nullptr) return fail(Code::unavailable, dlerror());
-  return Opener{reinterpret_cast<decltype(&orca_open_bulletin)>(opener)};
-}
-
 // Lets through what a supervisor can cope with, whoever floods the network.
 class FloodGate {
  public:
@@ -48,8 +34,8 @@ class FloodGate {
 };
 
 Result<std::unique_ptr<Bulletin>> open_bulletin(const Meet& meet, Channel& channel) {
-  const auto opener = load_opener();
-  if (!opener) return opener.error();
+  const auto open = late_function<decltype(orca_open_bulletin)>("liborca_bulletin.so", "orca_open_bulletin");
+  if (!open) return open.error();
   auto gate = std::make_shared<FloodGate>();
   const auto hear = [&channel, gate](std::span<const std::byte> state) {
     if (gate->lets_through(state.size()))
@@ -57,8 +43,8 @@ Result<std::unique_ptr<Bulletin>> open_bulletin(const Meet& meet, Channel& chann
   };
   Error error;
   std::unique_ptr<Bulletin> bulletin(
-      opener->open({meet.type, meet.topic, meet.address, meet.interface, meet.others, meet.domain, meet.keys},
-                   hear, error));
+      open->get()({meet.type, meet.topic, meet.address, meet.interface, meet.others, meet.domain, meet.keys},
+                  hear, error));
   if (bulletin == nullptr) return error;
   return bulletin;
 }

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "orca/base/files/key_folder.hpp"
-#include "orca/base/files/own_library.hpp"
 #include "orca/base/network_address.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
@@ -14,8 +13,6 @@
 
 namespace orca::host {
 namespace {
-
-constexpr const char* kDdsLibrary = "liborca_dds.so";
 
 // An edge at this process, whose end here is `port`.
 struct Joint {
@@ -172,7 +169,7 @@ Status OuterEdges::connect_dds(const graph::Edge& edge, Endpoint& port) {
   if (dds_ == nullptr) {
     const Result<DdsOptions> options = dds_options();
     if (!options) return options.error();
-    Result<std::unique_ptr<DdsBackend>> opened = open_dds(beside_own_library(kDdsLibrary), *options);
+    Result<std::unique_ptr<DdsBackend>> opened = open_dds(*options);
     if (!opened) return opened.error();
     dds_ = std::move(opened).value();
   }

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "orca/base/files/own_library.hpp"
 #include "orca/base/hash.hpp"
 #include "orca/base/network_address.hpp"
 #include "orca/base/steady_clock.hpp"
@@ -16,8 +15,6 @@
 
 namespace orca::host {
 namespace {
-
-constexpr const char* kLibrary = "liborca_dds.so";
 
 // A topic on which nobody speaks and which everybody may speak on.
 class Silence final : public PushSource, public SendTarget, public LinkEnd {
@@ -87,7 +84,7 @@ Status Topics::open_ros() {
   if (ros_ != nullptr) return ok();
   const Result<RosOptions> options = ros_options_of_environment();
   if (!options) return options.error();
-  Result<std::unique_ptr<RosTopics>> opened = open_ros_topics(beside_own_library(kLibrary), *options);
+  Result<std::unique_ptr<RosTopics>> opened = open_ros_topics(*options);
   if (!opened) return opened.error();
   ros_ = std::move(opened).value();
   return ok();
@@ -99,7 +96,7 @@ Status Topics::open_team() {
   Result<std::string> address = own_address(team.interface, "", kNetworkPatience);
   if (!address) return address.error();
   const TeamOptions options{team.name, graph_.name, number_of(run_), team.domain, std::move(address).value()};
-  Result<std::unique_ptr<TeamTopics>> opened = open_team_topics(beside_own_library(kLibrary), options);
+  Result<std::unique_ptr<TeamTopics>> opened = open_team_topics(options);
   if (!opened) return opened.error();
   team_ = std::move(opened).value();
   return ok();

@@ -1,13 +1,28 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
+
+#include "orca/base/result.hpp"
 
 namespace orca {
 
-/// Returns the path of a library that lies beside this one, for dlopen(). The loader would find it by name, but not under the
-/// sanitizers, which stand between the caller and the loader.
-[[nodiscard]] std::string beside_own_library(const std::string& name);
+/// Loads one of Orca's libraries, which lies beside this one, if this process has not done so yet, and returns one of its functions.
+/// The library stays in memory. So a process has only what it uses of large libraries of others: loading FCL or cairo takes it longer than
+/// all of Orca.
+/// Thread contract: any thread.
+/// @errors  unavailable: there is no such library, or no such function in it.
+[[nodiscard]] Result<void*> late_function(const std::string& library, const char* name);
+
+/// The same with the type of the function, which the library exports as extern "C".
+template <class Function>
+[[nodiscard]] Result<std::reference_wrapper<Function>> late_function(const std::string& library,
+                                                                     const char* name) {
+  const Result<void*> found = late_function(library, name);
+  if (!found) return found.error();
+  return std::ref(*reinterpret_cast<Function*>(*found));
+}
 
 /// Returns the folder of Orca's own plugins, seen from the program: `../lib/orca/plugins` where Orca is installed, `../plugins` where
 /// it was built.

@@ -75,14 +75,12 @@ class DdsBackend {
 };
 
 /// Opens the library of the link, if this process has not done so yet, and takes part in DDS.
-/// @param library  its path.
 /// @errors  unavailable if there is no such library, or if DDS does not start.
-[[nodiscard]] Result<std::unique_ptr<DdsBackend>> open_dds(const std::string& library,
-                                                           const DdsOptions& options);
+[[nodiscard]] Result<std::unique_ptr<DdsBackend>> open_dds(const DdsOptions& options);
 
 /// The result of the library's function.
 using MadeDdsBackend = std::optional<Result<std::unique_ptr<DdsBackend>>>;
 /// The one function that the library exports, as orca_make_dds_backend.
-using MakeDdsBackend = void (*)(const DdsOptions& options, MadeDdsBackend& made);
+using MakeDdsBackend = void(const DdsOptions& options, MadeDdsBackend& made);
 
 }  // namespace orca

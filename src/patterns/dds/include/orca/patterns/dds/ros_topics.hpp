@@ -53,12 +53,11 @@ class RosTopics {
 
 /// Opens the library, if this process has not done so yet, and takes part.
 /// @errors  unavailable if there is no such library, or if DDS does not start.
-[[nodiscard]] Result<std::unique_ptr<RosTopics>> open_ros_topics(const std::string& library,
-                                                                 const RosOptions& options);
+[[nodiscard]] Result<std::unique_ptr<RosTopics>> open_ros_topics(const RosOptions& options);
 
 /// The result of the library's function.
 using MadeRosTopics = std::optional<Result<std::unique_ptr<RosTopics>>>;
 /// The library exports it as orca_make_ros_topics.
-using MakeRosTopics = void (*)(const RosOptions& options, MadeRosTopics& made);
+using MakeRosTopics = void(const RosOptions& options, MadeRosTopics& made);
 
 }  // namespace orca

@@ -42,12 +42,11 @@ class TeamTopics {
 
 /// Opens the library, if this process has not done so yet, and takes part.
 /// @errors  unavailable if there is no such library, or if DDS does not start.
-[[nodiscard]] Result<std::unique_ptr<TeamTopics>> open_team_topics(const std::string& library,
-                                                                   const TeamOptions& options);
+[[nodiscard]] Result<std::unique_ptr<TeamTopics>> open_team_topics(const TeamOptions& options);
 
 /// The result of the library's function.
 using MadeTeamTopics = std::optional<Result<std::unique_ptr<TeamTopics>>>;
 /// The library exports it as orca_make_team_topics.
-using MakeTeamTopics = void (*)(const TeamOptions& options, MadeTeamTopics& made);
+using MakeTeamTopics = void(const TeamOptions& options, MadeTeamTopics& made);
 
 }  // namespace orca
