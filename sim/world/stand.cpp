@@ -60,28 +60,32 @@ void add(const Part& part, RigidBody& body) {
 // The room that something takes. A robot takes that of its parts and of the paddles of its gripper, open and down, as they are at first.
 struct Stander {
   explicit Stander(const Item& item)
-      : parts{{Part::Cylinder{item.radius, item.height}, {.z = 0.5 * item.height}}}, reach(item.radius) {
-    add(parts.front(), body);
-  }
+      : parts{{Part::Cylinder{item.radius, item.height}, {.z = 0.5 * item.height}}}, reach(item.radius) {}
   Stander(const RobotModel& robot, Extent extent) : parts(robot.parts) {
-    for (const Part& part : parts) add(part, body);
     for (const Segment& edge : edges_of(robot.footprint)) reach = std::max(reach, norm(edge.a));
     if (const auto* round = std::get_if<Circle>(&robot.footprint))
       reach = norm(round->center) + round->radius;
     if (!robot.gripper || extent == Extent::solid) return;
     for (const robot_file::BodyPart& paddle : robot_file::paddles_of(*robot.gripper, 0.0)) {
-      std::vector<Vector3d> corners;
+      std::vector<Vector3d>& corners = paddles.emplace_back();
       for (const Vec2 p : paddle.corners) {
         for (const double z : {paddle.bottom, paddle.top}) corners.emplace_back(p.x, p.y, z);
         reach = std::max(reach, norm(p));
       }
-      body.add_hull(std::move(corners));
     }
   }
 
+  // Asks FCL, so it is called only where something is near.
+  [[nodiscard]] RigidBody body() const {
+    RigidBody body;
+    for (const Part& part : parts) add(part, body);
+    for (const std::vector<Vector3d>& corners : paddles) body.add_hull(corners);
+    return body;
+  }
+
   std::vector<Part> parts;
-  RigidBody body{};
-  double reach = 0.0;  // [m] of the farthest point from the middle
+  std::vector<std::vector<Vector3d>> paddles{};  // [m]
+  double reach = 0.0;                            // [m] of the farthest point from the middle
 };
 
 // The area around a robot in which its surroundings count.
@@ -93,6 +97,7 @@ struct Area {
     const Vec2 nearest{std::clamp(middle.x, low.x, high.x), std::clamp(middle.y, low.y, high.y)};
     return norm(nearest - middle) <= radius;
   }
+  [[nodiscard]] bool has(Vec2 place, double reach) const { return norm(place - middle) <= radius + reach; }
   [[nodiscard]] bool has(const Facet& f) const {
     const Vector3d low = f[0].cwiseMin(f[1]).cwiseMin(f[2]);
     const Vector3d high = f[0].cwiseMax(f[1]).cwiseMax(f[2]);
@@ -159,12 +164,14 @@ std::vector<Thing> things_in(const Area& area, const WorldModel& world, std::spa
   for (const Door& door : world.doors) {
     const Pose2 X_WL = detail::pose_at(door, door.open ? 1.0 : 0.0);
     const double length = norm(door.shut.b - door.shut.a);
+    if (!area.has(X_WL.position(), 0.5 * norm({length, door.thickness}))) continue;
     named(door.name, things)
         .body.add_block(in_space(X_WL, 0.5 * door.height), {length, door.thickness, door.height});
   }
   for (const Item& item : items)
-    named(item.name, things)
-        .body.add_cylinder(in_space(item.pose, 0.5 * item.height), item.radius, item.height);
+    if (area.has(item.pose.position(), item.radius))
+      named(item.name, things)
+          .body.add_cylinder(in_space(item.pose, 0.5 * item.height), item.radius, item.height);
   return things;
 }
 
@@ -178,8 +185,8 @@ bool is_within(const Part& part, const Pose2& X_WB, const Obstacle& obstacle) {
   return contains(obstacle.shape, 0.5 * (plan.low + plan.high));
 }
 
-bool meets(const Stander& stander, const Pose2& X_WB, const Thing& thing) {
-  if (stander.body.meets(thing.body, in_space(X_WB).inverse())) return true;
+bool meets(const Stander& stander, const RigidBody& body, const Pose2& X_WB, const Thing& thing) {
+  if (body.meets(thing.body, in_space(X_WB).inverse())) return true;
   return std::ranges::any_of(thing.hollow, [&](const Obstacle* obstacle) {
     return std::ranges::any_of(stander.parts,
                                [&](const Part& part) { return is_within(part, X_WB, *obstacle); });
@@ -207,13 +214,17 @@ StandsIn way_out(std::string name, const Pose2& X_WB, const std::function<bool(c
 
 std::vector<StandsIn> what_holds(const Stander& stander, const Pose2& X_WB, const WorldModel& world,
                                  std::span<const Item> items) {
+  const std::vector<Thing> near = things_in({X_WB.position(), stander.reach}, world, items);
+  if (near.empty()) return {};
+  const RigidBody body = stander.body();
   std::vector<StandsIn> holds;
   std::vector<Thing> wider;  // What is around on the way out, found when something holds it.
-  for (const Thing& thing : things_in({X_WB.position(), stander.reach}, world, items)) {
-    if (!meets(stander, X_WB, thing)) continue;
+  for (const Thing& thing : near) {
+    if (!meets(stander, body, X_WB, thing)) continue;
     if (wider.empty()) wider = things_in({X_WB.position(), stander.reach + kFarOut}, world, items);
     const Thing& all = named(thing.name, wider);
-    holds.push_back(way_out(thing.name, X_WB, [&](const Pose2& at) { return meets(stander, at, all); }));
+    holds.push_back(
+        way_out(thing.name, X_WB, [&](const Pose2& at) { return meets(stander, body, at, all); }));
   }
   return holds;
 }
@@ -233,8 +244,11 @@ std::vector<StandsIn> what_holds(const Item& item, const WorldModel& world) {
 std::optional<std::string> obstacle_in(const RobotModel& robot, const Pose2& X_WB, const WorldModel& world) {
   if (robot.fixed) return std::nullopt;
   const Stander stander(robot, Extent::solid);
-  for (const Thing& thing : obstacles_in({X_WB.position(), stander.reach}, world))
-    if (meets(stander, X_WB, thing)) return thing.name;
+  const std::vector<Thing> near = obstacles_in({X_WB.position(), stander.reach}, world);
+  if (near.empty()) return std::nullopt;
+  const RigidBody body = stander.body();
+  for (const Thing& thing : near)
+    if (meets(stander, body, X_WB, thing)) return thing.name;
   return std::nullopt;
 }
 
@@ -250,15 +264,14 @@ bool stand_in_each_other(const RobotModel& robot, const Pose2& X_WB, const Robot
   const Stander one(robot, extent);
   const Stander two(other, extent);
   const bool near = norm(X_WB.position() - X_WO.position()) <= one.reach + two.reach;
-  return near && one.body.meets(two.body, in_space(X_WB).inverse() * in_space(X_WO));
+  return near && one.body().meets(two.body(), in_space(X_WB).inverse() * in_space(X_WO));
 }
 
 StandsIn way_out_of(const RobotModel& other, const Pose2& X_WO, const RobotModel& robot, const Pose2& X_WB) {
-  const Stander one(robot, Extent::with_paddles);
-  const Stander two(other, Extent::with_paddles);
-  return way_out("", X_WB, [&](const Pose2& at) {
-    return one.body.meets(two.body, in_space(at).inverse() * in_space(X_WO));
-  });
+  const RigidBody one = Stander(robot, Extent::with_paddles).body();
+  const RigidBody two = Stander(other, Extent::with_paddles).body();
+  return way_out("", X_WB,
+                 [&](const Pose2& at) { return one.meets(two, in_space(at).inverse() * in_space(X_WO)); });
 }
 
 }  // namespace orca::sim

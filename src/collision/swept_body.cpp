@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/collision/swept_body.hpp"
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/narrowphase/distance.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"
+#include "solver.hpp"
 
 namespace orca::collision {
 namespace {
@@ -34,8 +30,8 @@ struct Shape {
   Vec2 middle;              // of the circle that holds the plan
   double radius{0.0};       // [m] of that circle
   std::vector<Edge> edges;  // none: the circle is the plan
-  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
-  fcl::Transform3d place;
+  Geometry geometry;
+  Eigen::Isometry3d place;
 };
 
 bool is_solid(const Solid& solid) {
@@ -54,25 +50,24 @@ Vec2 middle_of(const std::vector<Vec2>& corners) {
 }
 
 // Returns the prism over a plan: below its corners, and above them.
-std::shared_ptr<const fcl::CollisionGeometryd> prism(const std::vector<Vec2>& corners, double height) {
+Geometry prism(const std::vector<Vec2>& corners, double height) {
   const auto sides = static_cast<int>(corners.size());
-  auto points = std::make_shared<std::vector<fcl::Vector3d>>();
+  std::vector<Eigen::Vector3d> points;
   for (const double z : {-0.5 * height, 0.5 * height})
-    for (const Vec2 p : corners) points->emplace_back(p.x, p.y, z);
-  auto faces = std::make_shared<std::vector<int>>();
-  faces->push_back(sides);
-  for (int i = sides; i-- > 0;) faces->push_back(i);
-  faces->push_back(sides);
-  for (int i = 0; i < sides; ++i) faces->push_back(sides + i);
+    for (const Vec2 p : corners) points.emplace_back(p.x, p.y, z);
+  std::vector<int> faces{sides};
+  for (int i = sides; i-- > 0;) faces.push_back(i);
+  faces.push_back(sides);
+  for (int i = 0; i < sides; ++i) faces.push_back(sides + i);
   for (int i = 0; i < sides; ++i) {
     const int next = (i + 1) % sides;
-    faces->insert(faces->end(), {4, i, next, sides + next, sides + i});
+    faces.insert(faces.end(), {4, i, next, sides + next, sides + i});
   }
-  return std::make_shared<fcl::Convexd>(points, sides + 2, faces);
+  return solver().hull(std::move(points), {sides + 2, std::move(faces)});
 }
 
-fcl::Transform3d placed(Vec2 where, double z) {
-  fcl::Transform3d place = fcl::Transform3d::Identity();
+Eigen::Isometry3d placed(Vec2 where, double z) {
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
   place.translation() << where.x, where.y, z;
   return place;
 }
@@ -83,7 +78,7 @@ Shape shape_of(const Solid& solid) {
   shape.place = placed(shape.middle, 0.5 * (solid.bottom + solid.top));
   if (solid.corners.size() == 1) {
     shape.radius = solid.radius;
-    shape.geometry = std::make_shared<fcl::Cylinderd>(solid.radius, height);
+    shape.geometry = solver().cylinder(solid.radius, height);
     return shape;
   }
   std::vector<Vec2> around;
@@ -125,12 +120,9 @@ double distance(const Shape& shape, const Post& post) {
   const double bottom = std::max(post.bottom, shape.solid.bottom - Approach::kFar);
   const double top = std::min(post.top, shape.solid.top + Approach::kFar);
   if (bottom >= top) return Approach::kFar;
-  const fcl::Boxd line(2.0 * kThin, 2.0 * kThin, top - bottom);
-  fcl::DistanceRequestd request;
-  request.gjk_solver_type = fcl::GST_LIBCCD;
-  fcl::DistanceResultd result;
-  const double apart = fcl::distance(shape.geometry.get(), shape.place, &line,
-                                     placed(post.place, 0.5 * (bottom + top)), request, result);
+  const double apart =
+      solver().distance(shape.geometry, shape.place, {2.0 * kThin, 2.0 * kThin, top - bottom},
+                        placed(post.place, 0.5 * (bottom + top)));
   return apart > 0.0 ? apart : std::min(0.0, off_plan(shape, post.place));
 }
 
