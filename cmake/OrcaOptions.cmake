@@ -58,3 +58,11 @@ find_program(ORCA_MOLD mold)
 if(ORCA_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
+
+# Python itself. What is called so may be a launcher such as pyenv's, a shell script that takes six times as long at each of hundreds of starts.
+if(NOT Python3_EXECUTABLE)
+  execute_process(COMMAND python3 -c "import sys; print(sys.executable)" OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(python)
+    set(Python3_EXECUTABLE ${python} CACHE FILEPATH "Python's interpreter")
+  endif()
+endif()
