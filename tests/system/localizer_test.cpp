@@ -295,6 +295,32 @@ TEST_CASE("a robot that is carried off notices within 3 s or 1 m, and is found a
   CHECK(found >= 0.95 * driving);
 }
 
+TEST_CASE("people who hide 30 % of the beams do not lead astray where a robot is", "[system][localizer]") {
+  const Drives drives;
+  const std::string csv = drives.folder.file("poses.csv");
+  const Words people{"--profile", "sim",
+                     "--profile", "people",
+                     "--set",     "plugins=" ORCA_BINARY_DIR "/tests/plugins",
+                     "--set",     "scans=crowd.laser_out"};
+  for (const bool is_told : {true, false}) {
+    std::filesystem::remove(csv);
+    const Run run =
+        run_deployer(Words{system_graph("kidnapped.xml"), "--seed", "3", "--until", "100 s", "--record",
+                           csv + "=localizer.RobotPosePush,truth.RobotPosePush"} +
+                         people + (is_told ? Words{"--profile", "told"} : Words{}) + virtual_clock(),
+                     Seconds(60));
+    INFO(is_told << '\n' << run.err);
+    REQUIRE(run.exit_code() == 0);
+    const std::size_t said = run.err.find("people hid ");
+    REQUIRE(said != std::string::npos);
+    CHECK(std::fabs(std::stod(run.err.substr(said + 11)) - 30.0) < 3.0);
+    const Errors errors = errors_of(read_text(csv));
+    CHECK(errors.unknown < (is_told ? 20U : errors.place.size()));
+    CHECK(errors.share(0.5) <= 0.02);
+    CHECK(errors.share(0.95) <= 0.05);
+  }
+}
+
 TEST_CASE("a robot that is put in a corner is not sure of one of the many that look alike",
           "[system][localizer]") {
   const Run run = run_deployer(Words{source_file("sim/experiments/lost/localize.xml"), "--profile", "sim",
