@@ -31,7 +31,10 @@ TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][rep
   add(rows, "bad", 0, 50.0);
   add(rows, "good", 0, 60.0);
   move_into_one_world(rows);
-  for (Row& row : rows) row.outcome.trace_hash = row.variant;  // as without errors
+  for (Row& row : rows) {  // as without errors
+    row.outcome.trace_hash = row.variant;
+    row.outcome.time = row.variant == "bad" ? 51.0 : 61.0;
+  }
   const auto same = compare(rows, {pairs_in(rows, {"success", "time"}), {}});
   REQUIRE(same);
   CHECK(in(*same, "time").finding.runs == 1);
@@ -39,10 +42,32 @@ TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][rep
   CHECK(same->variants[0].runs == 1);
   CHECK(same->matrix.at({"bad", "w10"}) == std::pair<std::size_t, std::size_t>(1, 1));
   for (const std::string& text : {report_on(rows).summary, report_on(rows).markdown})
-    CHECK_THAT(text, Contains("20 seeds gave 1 run in world w10: without errors a seed changes nothing"));
+    CHECK_THAT(text, Contains("20 seeds gave 1 run in world w10: no seed changed how the robots drove"));
   CHECK_THAT(report_on(rows).summary,
              Contains("time [s]: -10.0 (of one), not established: too few runs (1 of each"));
   CHECK_THAT(report_on(rows).summary, Contains("bad: 1 run, 100.0 % (0.0 % to 100.0 %)"));
+}
+
+TEST_CASE("noise that moves no robot is no evidence, though the traces differ", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "slow", 0);
+  add(rows, "quick", 0);
+  move_into_one_world(rows);
+  for (Row& row : rows) {
+    row.outcome.trace_hash = row.variant + std::to_string(row.seed);
+    row.outcome.time = row.variant == "slow" ? 22.8 : 14.2;
+  }
+  const auto result = compare(rows, {pairs_in(rows, {"time"}), {}});
+  REQUIRE(result);
+  CHECK(result->variants[0].runs == 1);
+  CHECK_FALSE(in(*result, "time").verdict.established());
+  SECTION("but robots that never moved had no motion to compare: each trace is a run") {
+    for (Row& row : rows)
+      if (row.variant == "slow") row.outcome.measures.way = 0.0;
+    const auto one_stands = compare(rows, {pairs_in(rows, {"time"}), {}});
+    REQUIRE(one_stands);
+    CHECK(in(*one_stands, "time").finding.runs == 20);
+  }
 }
 
 TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
@@ -50,8 +75,10 @@ TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][repor
   add(rows, "fixed", 0, 50.0);
   add(rows, "noisy", 0, 60.0);
   move_into_one_world(rows);
-  for (Row& row : rows)
+  for (Row& row : rows) {
     row.outcome.trace_hash = row.variant == "fixed" ? "f" : "n" + std::to_string(row.seed / 2);
+    row.outcome.time = row.variant == "fixed" ? 51.0 : 61.0 + 0.1 * static_cast<double>(row.seed / 2);
+  }
   const auto result = compare(rows, {pairs_in(rows, {"time"}), {}});
   REQUIRE(result);
   CHECK(in(*result, "time").finding.runs == 10);
@@ -59,7 +86,7 @@ TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][repor
   CHECK(result->variants[1].runs == 10);
   REQUIRE(result->same_runs.size() == 2);
   CHECK(line_of(result->same_runs[0], 2) ==
-        "20 seeds gave 1 run of fixed in world w10: without errors a seed changes nothing");
+        "20 seeds gave 1 run of fixed in world w10: no seed changed how the robots drove");
   CHECK(line_of(result->same_runs[1], 2) ==
         "20 seeds gave 10 runs of noisy in world w10: the other seeds repeat these");
 }

@@ -19,13 +19,25 @@ using Values = std::vector<std::vector<double>>;                               /
 using Runs = std::map<std::pair<std::string, std::uint64_t>, const Outcome*>;  // by world and seed
 using RunsOfVariants = std::map<std::string, Runs>;
 
+// Returns what tells a run from others of its variant and world; empty: nothing does, so it counts. Where robots drove, it is their true
+// motion to the last bit: noise of sensors that moves no robot makes another trace, and no other run. Else it is the trace.
+std::string identity_of(const Outcome& outcome) {
+  if (outcome.measures.way.value_or(0.0) <= 0.0) return outcome.trace_hash;
+  Outcome motion = outcome;
+  motion.reason.clear();
+  motion.trace_hash.clear();
+  return to_text(motion);
+}
+
 // Returns the runs without those that repeat an earlier seed of their world: they say nothing new.
 Runs distinct(const Runs& runs) {
-  std::set<std::pair<std::string, std::string>> seen;  // worlds and trace hashes
+  std::set<std::pair<std::string, std::string>> seen;  // worlds and identities
   Runs some;
-  for (const auto& [place, outcome] : runs)
-    if (outcome->trace_hash.empty() || seen.emplace(place.first, outcome->trace_hash).second)
+  for (const auto& [place, outcome] : runs) {
+    std::string identity = identity_of(*outcome);
+    if (identity.empty() || seen.emplace(place.first, std::move(identity)).second)
       some.emplace(place, outcome);
+  }
   return some;
 }
 
@@ -45,15 +57,15 @@ struct Paired {
 
 // A place is left out where both variants repeat what they did in that world with an earlier seed.
 Paired paired(const Runs& some, const Runs& others, const Metric& metric) {
-  std::set<std::tuple<std::string, std::string, std::string>> seen;  // worlds and both trace hashes
+  std::set<std::tuple<std::string, std::string, std::string>> seen;  // worlds and both identities
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> worlds;
   for (const auto& [place, outcome] : some) {
     const auto other = others.find(place);
     if (other == others.end()) continue;
-    const std::string& one_hash = outcome->trace_hash;
-    const std::string& other_hash = other->second->trace_hash;
-    const bool is_known = !one_hash.empty() && !other_hash.empty();
-    if (is_known && !seen.emplace(place.first, one_hash, other_hash).second) continue;
+    const std::string its = identity_of(*outcome);
+    const std::string of_other = identity_of(*other->second);
+    const bool is_known = !its.empty() && !of_other.empty();
+    if (is_known && !seen.emplace(place.first, its, of_other).second) continue;
     const std::optional<double> one = metric.of(*outcome);
     const std::optional<double> two = metric.of(*other->second);
     if (!one || !two) continue;

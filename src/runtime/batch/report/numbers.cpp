@@ -110,7 +110,7 @@ std::string line_of(const SameRuns& same, std::size_t variants) {
       same.worlds.size() == 1 ? "world " + same.worlds.front() : "each of the worlds " + listed(same.worlds);
   return counted(same.seeds, "seed") + " gave " + counted(same.runs, "run") +
          (same.variants.size() == variants ? "" : " of " + listed(same.variants)) + " in " + worlds +
-         (same.runs == 1 ? ": without errors a seed changes nothing" : ": the other seeds repeat these");
+         (same.runs == 1 ? ": no seed changed how the robots drove" : ": the other seeds repeat these");
 }
 
 std::string line_of(const VariantResult& variant) {
