@@ -227,6 +227,19 @@ TEST_CASE("an order about something on another machine is refused with the name 
   pair.stop(kBase);
 }
 
+TEST_CASE("a behaviour whose sensors are on another machine is exchanged while it runs", "[system][machines][tool]") {
+  if (is_skipped()) return;
+  Pair pair({"interface=orca0"}, kDrive);
+  start_driving(pair);
+  CHECK_THAT(pair.orcactl(kBrain, {"fits", "avoid"}).out, Contains("orca.SonarAvoid"));
+  const Run swap = pair.orcactl(kBrain, {"swap", "avoid", ORCA_BINARY_DIR "/plugins/sonar_avoid.so"});
+  INFO(swap.out << swap.err);
+  CHECK(swap.exit_code() == 0);
+  CHECK_THAT(pair.at(kBrain).err(), Contains("the new code was tried out: it got "));
+  CHECK_THAT(pair.at(kBrain).err(), !Contains("the new code was tried out: it got 0 objects"));
+  pair.stop(kBrain);
+}
+
 TEST_CASE("an emergency stop on either of two machines rests the robot, and says who has confirmed it",
           "[system][machines][tool]") {
   if (is_skipped()) return;

@@ -143,7 +143,7 @@ void Exchanging::show_fitting(const std::string& component, const ReplyPtr& repl
                               "it serves hardware, and cannot be exchanged while that runs; orcactl swap " +
                                   (*node)->hardware + " exchanges the driver",
                               component));
-  const graph::Graph graph = graph_;  // both may change meanwhile
+  const graph::Graph graph = names_.surroundings_of(component);  // both may change meanwhile
   const std::vector<PortContract> ports = ports_of(component);
   const plugin::PluginIndex index(facts_.plugin_folders);
   Result<std::vector<host::OfferedCode>> offers = std::vector<host::OfferedCode>{};
@@ -227,7 +227,7 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
 }
 
 host::ShadowOrder Exchanging::trial_of(const SwapWish& wish, const graph::ComponentNode& node) const {
-  return {graph_,
+  return {names_.surroundings_of(wish.component),
           wish.component,
           wish.type.empty() ? code_of(node).type : wish.type,
           ports_of(wish.component),
@@ -278,7 +278,7 @@ Result<Record> Exchanging::exchange_driver(const SwapWish& wish, const graph::Ha
 Result<host::ShadowReport> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& order,
                                                Member& member, plugin::PluginImage& image) {
   std::vector<WatchedPort> ports;
-  if (wish.tryout > Duration{0}) ports = watch(graph_, wish.component, member);
+  if (wish.tryout > Duration{0}) ports = watch(order.graph, wish.component, member);
   TryoutLines lines{std::move(ports), lines_to_servers_of(wish.component)};
   Result<host::ShadowReport> tried = host::ShadowReport{};
   conductor_.run_aside("tryout", [&](const std::function<bool()>& give_up) {

@@ -90,6 +90,18 @@ std::string SystemNames::machine_of(const std::string& process) const {
   return node == whole_.processes.end() ? "" : node->machine;
 }
 
+// The graph of a system on several machines does not change while it runs, so there `whole` is what runs.
+graph::Graph SystemNames::surroundings_of(const std::string& component) const {
+  graph::Graph graph = here_;
+  if (!graph::has_neighbours(whole_)) return graph;
+  for (const graph::Edge& edge : whole_.edges) {
+    const bool is_its = edge.from.component == component || edge.to.component == component;
+    const std::string& other = edge.from.component == component ? edge.to.component : edge.from.component;
+    if (is_its && here_.find_component(other) == nullptr) graph.edges.push_back(edge);
+  }
+  return graph;
+}
+
 std::optional<std::string> SystemNames::other_machines() const {
   std::vector<std::string> others;
   for (const graph::MachineNode& node : whole_.machines)

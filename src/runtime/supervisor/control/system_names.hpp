@@ -43,6 +43,9 @@ class SystemNames {
   /// Finds a process by its name, or by that of one of its components.
   [[nodiscard]] Result<Member*> process(const std::string& name) const;
 
+  /// Returns the graph of this machine, with the connections of a component to those on others.
+  [[nodiscard]] graph::Graph surroundings_of(const std::string& component) const;
+
   /// Returns a note on what is only this machine's, that names the others; nothing: there are none.
   [[nodiscard]] std::optional<std::string> other_machines() const;
 
