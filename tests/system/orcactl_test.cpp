@@ -277,6 +277,8 @@ TEST_CASE("an operator pauses a component, changes its parameters, and starts it
   system.await_work();
   CHECK(run_orcactl({"suspend", "avoid"}).exit_code() == 0);
   CHECK_THAT(run_orcactl({"ps"}).out, Contains("SUSPENDED"));
+  const Run echo = run_orcactl({"echo", "avoid.motion", "--for", "0.3 s"});
+  CHECK(echo.says("orcactl: avoid is SUSPENDED: it does no laps, so perhaps nothing passes here"));
   CHECK(run_orcactl({"resume", "avoid"}).exit_code() == 0);
   CHECK_THAT(run_orcactl({"ps"}).out, !Contains("SUSPENDED"));
   const Run set = run_orcactl({"set", "avoid.robot_radius", "30 cm"});
@@ -322,6 +324,7 @@ TEST_CASE("the objects that pass a port can be seen, counted and timed", "[syste
   CHECK(echo.exit_code() == 0);
   CHECK(System::count_of(echo.out, "<Odometry ") == 3);
   CHECK_THAT(echo.out, Contains("origin=\"base\""));
+  CHECK(echo.err.empty());
   const Run arriving = run_orcactl({"echo", "avoid.sonar", "--count", "2", "--json"});
   CHECK(System::count_of(arriving.out, "\"type\": \"SonarRangeReadings\"") == 2);
   const Run field = run_orcactl({"echo", "base.OdometryPush", "--for", "1 s", "--field", "x"});

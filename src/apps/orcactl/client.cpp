@@ -4,6 +4,7 @@
 
 #include <pwd.h>
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -91,6 +92,8 @@ Result<supervisor::LineAnswer> Client::open_line(const std::string& port,
   std::optional<supervisor::LineAnswer> line;
   const auto take = [&](supervisor::ControlAnswer& answer) {
     if (auto* const found = std::get_if<supervisor::LineAnswer>(&answer)) line.emplace(std::move(*found));
+    if (const auto* const note = std::get_if<supervisor::NoteAnswer>(&answer))
+      std::fprintf(stderr, "orcactl: %s\n", note->text.c_str());
   };
   if (const Status asked = this->ask(ask, take, kLimit); !asked.ok()) return asked.error();
   if (!line) return fail(Code::internal, "the supervisor has sent no line");

@@ -41,7 +41,7 @@ class Client {
   /// @errors  unavailable if the system ends meanwhile; deadline_exceeded if the supervisor does not answer.
   Status ask(const supervisor::Ask& ask, const Taker& taker, Duration limit);
 
-  /// Asks for a line to a port.
+  /// Asks for a line to a port. What the supervisor notes to it goes to stderr.
   /// @errors  as ask().
   Result<supervisor::LineAnswer> open_line(const std::string& port, const std::vector<std::string>& options);
 

@@ -88,12 +88,29 @@ Status open_line(Member& member, const Ports& ports, const Wish& wish, Conductor
   return ok();
 }
 
+// Tells who looks at a port why nothing may pass there: its component does no laps.
+void note_rest(const Wish& wish, const SystemNames& names, const host::Reports& reports, Reply& reply) {
+  if (!wish.taps || wish.ports.size() != 1) return;
+  const Result<const graph::ListedPort*> port = names.port(wish.ports.front());
+  if (!port || (*port)->contract.pattern != Pattern::push || (*port)->contract.role != Role::server) return;
+  const std::string& name = (*port)->ref.component;
+  const Result<const graph::ComponentNode*> node = names.component(name);
+  const host::ComponentState state = reports(name).state;
+  if (!node || state == host::ComponentState::work || state == host::ComponentState::connect) return;
+  if (state == host::ComponentState::init || (*node)->watchable) return;
+  const bool is_unused = state == host::ComponentState::idle || state == host::ComponentState::unloaded;
+  reply.note(name + " is " + host::to_string(state) +
+             (is_unused ? ", because nobody uses it, and to look makes no component work" : "") +
+             ": it does no laps, so perhaps nothing passes here");
+}
+
 }  // namespace
 
-bool open_lines(const std::vector<std::string>& words, const SystemNames& names, Conductor& conductor,
-                Reply& reply) {
+bool open_lines(const std::vector<std::string>& words, const SystemNames& names,
+                const host::Reports& reports, Conductor& conductor, Reply& reply) {
   const Result<Wish> wish = read(words);
   if (!wish) return reply.refuse(wish.error()), false;
+  note_rest(*wish, names, reports, reply);
   const Result<std::map<std::string, Ports>> found = find(*wish, names, reply);
   if (!found) return reply.refuse(found.error()), false;
   for (const auto& [process, ports] : *found) {

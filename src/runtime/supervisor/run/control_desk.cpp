@@ -197,7 +197,7 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
        [](ControlDesk& d, const Ask&, const ReplyPtr& r) { list_sources(d.names_, d.ledger_.start(), *r); }},
       {"line",
        [](ControlDesk& d, const Ask& ask, const ReplyPtr& r) {
-         if (open_lines(ask.words, d.names_, d.conductor_, *r)) ++d.recorders_;
+         if (open_lines(ask.words, d.names_, d.ledger_.reports(), d.conductor_, *r)) ++d.recorders_;
        }},
   };
   return all;
