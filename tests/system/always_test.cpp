@@ -104,6 +104,9 @@ TEST_CASE("a graph that is always recorded keeps its runs, and they can be read 
   const Run nothing = bag({"cut", kName, folder.file("none.mcap"), "1999-01-01T00:00", "1999-01-01T00:01"});
   CHECK(nothing.exit_code() == 1);
   CHECK_THAT(nothing.err, Contains("nothing of that time is there; the recording goes from 20"));
+  const Run turned = bag({"cut", kName, folder.file("none.mcap"), "1.5s", "1s"});
+  CHECK(turned.exit_code() == 2);
+  CHECK_THAT(turned.err, Contains("TO, 1s, is not after FROM, 1.5s"));
   CHECK_THAT(bag({"cut", kName, folder.file("none.mcap"), "noon"}).err, Contains("\"noon\" is no time"));
 }
 

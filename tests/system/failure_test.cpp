@@ -282,6 +282,9 @@ TEST_CASE("a rehearsed failure is told as one, and a run without it has another 
   const Run failing = run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock());
   CHECK(failing.says("avoid: fails from now on, because --fail asks for it"));
   CHECK_FALSE(whole.says("--fail"));
+  const Run too_late = run_deployer(graph + Words{"--fail", "avoid=silent@20s"} + virtual_clock());
+  CHECK(too_late.says("the failure of avoid at 20 s did not come: the run ended after 12.00 s"));
+  CHECK_FALSE(failing.says("did not come"));
   CHECK(failing.trace_hash() != whole.trace_hash());
   CHECK(failing.trace_hash() ==
         run_deployer(graph + Words{"--fail", "avoid=silent@10s"} + virtual_clock()).trace_hash());

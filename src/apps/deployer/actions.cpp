@@ -318,6 +318,15 @@ ExitCode run_steered(Loaded& loaded, const Options& options, host::RunOptions ru
   return run_here(loaded, options, run, stop, console);
 }
 
+std::vector<Console::Planned> planned_by(const Options& options) {
+  std::vector<Console::Planned> planned;
+  for (const host::PlannedFailure& one : options.run.planned_failures)
+    planned.push_back({"the failure of " + one.component, one.at});
+  for (const graph::PlannedChange& one : options.changes)
+    planned.push_back({"the change to " + one.file, one.at});
+  return planned;
+}
+
 ExitCode run(const Options& options) {
   // First of all, so that a signal at any moment ends the run properly, and never destroyed, so that it also does
   // while the last destructors and atexit handlers run.
@@ -332,6 +341,7 @@ ExitCode run(const Options& options) {
   run.changes = *std::move(changes);
   run.looks_on = options.progress.value_or(stderr_can_live());
   Console console(options.stats, run.looks_on);
+  console.expect(planned_by(options));
   if (has_host_processes(options)) {
     if (!run.changes.empty())
       return refuse_option(codes::kExcluding,

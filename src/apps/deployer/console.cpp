@@ -9,8 +9,10 @@
 
 #include "exit_code.hpp"
 #include "figures.hpp"
+#include "orca/base/log.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/time.hpp"
+#include "orca/xml/number.hpp"
 #include "stats.hpp"
 #include "streams.hpp"
 
@@ -45,11 +47,24 @@ void Console::contact(const idl::Contact& contact) {
 
 void Console::ended(const host::RunResult& result) {
   progress_line_.reset();
+  name_what_did_not_come(result);
   if (result.outcome != host::RunOutcome::not_started) std::fputs(closing_text(result).c_str(), stderr);
   if (!result.trace_hash) return;
   char line[32];
   std::snprintf(line, sizeof line, "trace-hash %016" PRIx64 "\n", *result.trace_hash);
   write_out(line);
+}
+
+// Who rehearses a failure must not take its absence for a robot that copes with it.
+void Console::name_what_did_not_come(const host::RunResult& result) const {
+  if (result.outcome == host::RunOutcome::not_started || result.outcome == host::RunOutcome::bad_options)
+    return;
+  const Duration length = result.end - result.start;
+  for (const Planned& one : planned_)
+    if (one.at >= length)
+      log::warning("deployer", one.what + " at " + xml::number_text(to_seconds(one.at)) +
+                                   " s did not come: the run ended after " + fixed(to_seconds(length), 2) +
+                                   " s");
 }
 
 std::string Console::closing_text(const host::RunResult& result) const {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "orca/host/run_listener.hpp"
 #include "progress.hpp"
@@ -23,6 +25,14 @@ class Console final : public host::RunListener {
   /// @param progress  whether to write a summary at the end, and, to a terminal, a line that lives until then.
   Console(bool stats, bool progress) : stats_(stats), progress_(progress) {}
 
+  /// Something that the command line plans for a time of the run.
+  struct Planned {
+    std::string what;  ///< "the failure of avoid".
+    Duration at{0};    ///< [s after the start]
+  };
+  /// Has the log say at the end which of these did not come, because the run ended before.
+  void expect(std::vector<Planned> planned) { planned_ = std::move(planned); }
+
   void started(TimePoint now) override { start_ = now; }
   void robots(const host::RobotNames& robots) override { robots_ = robots; }
   void built(const host::RunView& view) override;
@@ -38,8 +48,11 @@ class Console final : public host::RunListener {
 
   [[nodiscard]] std::string closing_text(const host::RunResult& result) const;
 
+  void name_what_did_not_come(const host::RunResult& result) const;
+
   const bool stats_;
   const bool progress_;
+  std::vector<Planned> planned_;
   const std::chrono::steady_clock::time_point wall_start_ = std::chrono::steady_clock::now();
   std::optional<Progress> progress_line_;
   TimePoint start_;

@@ -287,6 +287,8 @@ Status cut(const std::vector<std::string>& words) {
     const bool is_of_day = words[i].find(':') != std::string::npos && words[i].find('T') == std::string::npos;
     if (i == 3 && is_of_day && wanted.end <= wanted.begin) wanted.end += kStampSecond * 24 * 3600;
   }
+  if (words.size() == 4 && wanted.end <= wanted.begin)
+    return fail(Code::invalid_argument, "TO, " + words[3] + ", is not after FROM, " + words[2]);
   if (std::ranges::none_of(*parts, [&](const Part& part) { return overlaps(part, wanted); }))
     return fail(Code::not_found, "nothing of that time is there; the recording goes from " +
                                      local_time(all.begin) + " to " + local_time(all.end));
