@@ -34,6 +34,7 @@ TEST_CASE("seeds that change nothing are one run, and no evidence", "[batch][rep
   for (Row& row : rows) {  // as without errors
     row.outcome.trace_hash = row.variant;
     row.outcome.time = row.variant == "bad" ? 51.0 : 61.0;
+    row.outcome.measures.way = 30.0;
   }
   const auto same = compare(rows, {pairs_in(rows, {"success", "time"}), {}});
   REQUIRE(same);
@@ -56,6 +57,7 @@ TEST_CASE("noise that moves no robot is no evidence, though the traces differ", 
   for (Row& row : rows) {
     row.outcome.trace_hash = row.variant + std::to_string(row.seed);
     row.outcome.time = row.variant == "slow" ? 22.8 : 14.2;
+    row.outcome.measures.way = 30.0;
   }
   const auto result = compare(rows, {pairs_in(rows, {"time"}), {}});
   REQUIRE(result);
@@ -70,6 +72,26 @@ TEST_CASE("noise that moves no robot is no evidence, though the traces differ", 
   }
 }
 
+TEST_CASE("worlds in which all is the same are one world", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 50.0);
+  add(rows, "good", 0, 60.0);
+  for (Row& row : rows) {
+    row.outcome.time = row.variant == "bad" ? 51.0 : 61.0;
+    row.outcome.measures.way = 30.0;
+  }
+  const auto result = compare(rows, {pairs_in(rows, {"success", "time"}), {}});
+  REQUIRE(result);
+  CHECK(result->variants[0].runs == 1);
+  CHECK_FALSE(in(*result, "time").verdict.established());
+  CHECK_FALSE(in(*result, "time").finding.scope.over_worlds());
+  CHECK(result->matrix.at({"bad", "w29"}) == std::pair<std::size_t, std::size_t>(1, 1));
+  REQUIRE(result->same_runs.size() == 1);
+  CHECK(result->same_runs[0].worlds.size() == 19);
+  CHECK_THAT(line_of(result->same_runs[0], 2),
+             StartsWith("all runs in each of the worlds w11") && Contains("repeat those in another world"));
+}
+
 TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "fixed", 0, 50.0);
@@ -78,6 +100,7 @@ TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][repor
   for (Row& row : rows) {
     row.outcome.trace_hash = row.variant == "fixed" ? "f" : "n" + std::to_string(row.seed / 2);
     row.outcome.time = row.variant == "fixed" ? 51.0 : 61.0 + 0.1 * static_cast<double>(row.seed / 2);
+    row.outcome.measures.way = 30.0;
   }
   const auto result = compare(rows, {pairs_in(rows, {"time"}), {}});
   REQUIRE(result);

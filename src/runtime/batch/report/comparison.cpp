@@ -19,7 +19,7 @@ using Values = std::vector<std::vector<double>>;                               /
 using Runs = std::map<std::pair<std::string, std::uint64_t>, const Outcome*>;  // by world and seed
 using RunsOfVariants = std::map<std::string, Runs>;
 
-// Returns what tells a run from others of its variant and world; empty: nothing does, so it counts. Where robots drove, it is their true
+// Returns what tells a run from others of its variant; empty: nothing does, so it counts. Where robots drove, it is their true
 // motion to the last bit: noise of sensors that moves no robot makes another trace, and no other run. Else it is the trace.
 std::string identity_of(const Outcome& outcome) {
   if (outcome.measures.way.value_or(0.0) <= 0.0) return outcome.trace_hash;
@@ -29,15 +29,24 @@ std::string identity_of(const Outcome& outcome) {
   return to_text(motion);
 }
 
-// Returns the runs without those that repeat an earlier seed of their world: they say nothing new.
+// Returns the runs without those that repeat one of an earlier seed or world: they say nothing new. Two worlds in which all is the same
+// are one.
 Runs distinct(const Runs& runs) {
-  std::set<std::pair<std::string, std::string>> seen;  // worlds and identities
+  std::set<std::string> seen;  // identities
   Runs some;
   for (const auto& [place, outcome] : runs) {
     std::string identity = identity_of(*outcome);
-    if (identity.empty() || seen.emplace(place.first, std::move(identity)).second)
-      some.emplace(place, outcome);
+    if (identity.empty() || seen.insert(std::move(identity)).second) some.emplace(place, outcome);
   }
+  return some;
+}
+
+// Returns the runs without those that repeat an earlier seed of their world.
+Runs distinct_in_worlds(const Runs& runs) {
+  std::map<std::string, Runs> worlds;
+  for (const auto& [place, outcome] : runs) worlds[place.first].emplace(place, outcome);
+  Runs some;
+  for (const auto& [world, its] : worlds) some.merge(distinct(its));
   return some;
 }
 
@@ -55,9 +64,9 @@ struct Paired {
   Values first, second;
 };
 
-// A place is left out where both variants repeat what they did in that world with an earlier seed.
+// A place is left out where both variants repeat what they did with an earlier seed, or in another world.
 Paired paired(const Runs& some, const Runs& others, const Metric& metric) {
-  std::set<std::tuple<std::string, std::string, std::string>> seen;  // worlds and both identities
+  std::set<std::pair<std::string, std::string>> seen;  // identities of both
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> worlds;
   for (const auto& [place, outcome] : some) {
     const auto other = others.find(place);
@@ -65,7 +74,7 @@ Paired paired(const Runs& some, const Runs& others, const Metric& metric) {
     const std::string its = identity_of(*outcome);
     const std::string of_other = identity_of(*other->second);
     const bool is_known = !its.empty() && !of_other.empty();
-    if (is_known && !seen.emplace(place.first, its, of_other).second) continue;
+    if (is_known && !seen.emplace(its, of_other).second) continue;
     const std::optional<double> one = metric.of(*outcome);
     const std::optional<double> two = metric.of(*other->second);
     if (!one || !two) continue;
@@ -195,7 +204,7 @@ std::vector<SameRuns> same_runs_of(const RunsOfVariants& runs) {
 
 void count_successes(const RunsOfVariants& runs, BatchResult& result) {
   for (const auto& [name, its] : runs) {
-    for (const auto& [place, outcome] : distinct(its)) {
+    for (const auto& [place, outcome] : distinct_in_worlds(its)) {
       auto& [successes, count] = result.matrix[{name, place.first}];
       ++count;
       if (outcome->ending == Ending::success) ++successes;

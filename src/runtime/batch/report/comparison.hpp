@@ -46,7 +46,8 @@ struct Difference {
 /// Returns whether both answer the same question.
 [[nodiscard]] bool same_question(const Difference& one, const Difference& other);
 
-/// Seeds that gave fewer runs than there are seeds: in some the robots drove the same to the last bit, or the traces are equal.
+/// Seeds that gave fewer runs than there are seeds: in some the robots drove the same to the last bit, or the traces are equal, as with
+/// other seeds or in other worlds.
 struct SameRuns {
   std::vector<std::string> variants;
   std::vector<std::string> worlds;  ///< In each of them.

@@ -108,8 +108,9 @@ std::string test_text(const Finding& finding) {
 std::string line_of(const SameRuns& same, std::size_t variants) {
   const std::string worlds =
       same.worlds.size() == 1 ? "world " + same.worlds.front() : "each of the worlds " + listed(same.worlds);
-  return counted(same.seeds, "seed") + " gave " + counted(same.runs, "run") +
-         (same.variants.size() == variants ? "" : " of " + listed(same.variants)) + " in " + worlds +
+  const std::string whose = same.variants.size() == variants ? "" : " of " + listed(same.variants);
+  if (same.runs == 0) return "all runs" + whose + " in " + worlds + " repeat those in another world";
+  return counted(same.seeds, "seed") + " gave " + counted(same.runs, "run") + whose + " in " + worlds +
          (same.runs == 1 ? ": no seed changed how the robots drove" : ": the other seeds repeat these");
 }
 
