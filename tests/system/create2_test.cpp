@@ -79,6 +79,17 @@ TEST_CASE("a Roomba whose firmware reports its mode plus one drives to its goals
   create.check_at_goal(run());
 }
 
+TEST_CASE("a Create 2 whose battery is nearly empty drives on, and it is said once", "[system][hardware]") {
+  Create2Settings settings;
+  settings.charge = 250;  // of 2,500 mAh
+  Create create("create", settings);
+  const Run ended = run();
+  CHECK(ended.exit_code() == 0);
+  const std::size_t first = ended.err.find("its battery is low, at 10 % of its charge");
+  CHECK(first != std::string::npos);
+  CHECK(ended.err.find("its battery is low", first + 1) == std::string::npos);
+}
+
 TEST_CASE("without a Create 2 on the line nothing starts, and what to look at is said",
           "[system][hardware]") {
   Create create("create");

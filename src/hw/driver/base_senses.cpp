@@ -10,6 +10,12 @@
 #include "orca/idl/time.hpp"
 
 namespace orca::hw {
+namespace {
+
+constexpr double kLowCharge = 0.15;     // [1] below which a battery is low
+constexpr double kEnoughCharge = 0.25;  // [1] from which on one that was is not any more
+
+}  // namespace
 
 void BaseSonars::add(const Pose2& place, double height) {
   sonars_.push_back({level_frame(place, height), traits_.max_range, traits_.max_range, {}});
@@ -99,6 +105,14 @@ void BaseBumpers::publish(TimePoint stamp, std::size_t most) {
   }
   object->stamp(to_time_value(stamp));
   endpoint_.publish(std::move(object));
+}
+
+void ChargeWatch::take(const BatteryReading& reading) {
+  if (std::isnan(reading.charge)) return;
+  const bool is_low = !reading.charging && reading.charge < (is_low_ ? kEnoughCharge : kLowCharge);
+  if (!std::exchange(is_low_, is_low) && is_low)
+    remark_ = "its battery is low, at " + std::to_string(std::lround(100.0 * reading.charge)) +
+              " % of its charge; charge it";
 }
 
 void publish_battery(SensorHW<idl::Battery>& endpoint, const BatteryReading& reading, TimePoint stamp) {

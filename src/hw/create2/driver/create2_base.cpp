@@ -110,6 +110,7 @@ class Create2Base final : public BaseDriver {
     if (!is_active()) return;
     guard();
     senses_->publish();
+    if (const std::string remark = senses_->take_remark(); !remark.empty()) warn(remark);
   }
 
   // Stops the base where it cannot go on. What needs a person needs an operator to go on.

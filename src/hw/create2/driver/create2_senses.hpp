@@ -40,6 +40,8 @@ class Create2Senses {
 
   /// Returns the bumpers and cliffs, for MotionHW::press(): where the robot must not go.
   [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const;
+  /// Returns what is to be said of the battery now; empty: nothing.
+  [[nodiscard]] std::string take_remark() { return charge_.take_remark(); }
   /// Returns the last frame.
   [[nodiscard]] const Sensors& sensors() const { return sensors_; }
 
@@ -50,6 +52,7 @@ class Create2Senses {
   BaseOdometry odometry_;
   BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
+  ChargeWatch charge_;
 
   EncoderOdometry wheels_;
   Pose2 pose_;                      // in the frame of the odometry

@@ -230,6 +230,7 @@ class PlayerBase final : public BaseDriver {
   void pass_on(const Result<Data>& data, TimePoint now) {
     if (!data || !senses_->take(*data, now, is_active())) return session_->note_bad();
     if constexpr (std::is_same_v<Data, LaserScan>) compare_scan(*data);
+    if (const std::string remark = senses_->take_remark(); !remark.empty()) warn(remark);
   }
 
   // A driver that does not know the request drops it, and its motors may have power all the time.

@@ -110,11 +110,12 @@ bool PlayerSenses::take(const BumperState& bumpers, double forward, TimePoint st
 
 bool PlayerSenses::take(const PowerState& power, TimePoint stamp, bool publish) {
   if (!publish) return true;
-  publish_battery(battery_,
-                  {.voltage = power.voltage ? *power.voltage : std::nan(""),
-                   .charge = power.charge ? std::clamp(0.01 * *power.charge, 0.0, 1.0) : std::nan(""),
-                   .charging = power.charging.value_or(0) == 1},
-                  stamp);
+  const BatteryReading reading{
+      .voltage = power.voltage ? *power.voltage : std::nan(""),
+      .charge = power.charge ? std::clamp(0.01 * *power.charge, 0.0, 1.0) : std::nan(""),
+      .charging = power.charging.value_or(0) == 1};
+  charge_.take(reading);
+  publish_battery(battery_, reading, stamp);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
@@ -48,6 +49,8 @@ class PlayerSenses {
   bool take(const BumperState& bumpers, double forward, TimePoint stamp, bool publish);
   bool take(const PowerState& power, TimePoint stamp, bool publish);
 
+  /// Returns what is to be said of the battery now; empty: nothing.
+  [[nodiscard]] std::string take_remark() { return charge_.take_remark(); }
   /// Returns the bumpers that are pressed, for MotionHW::press().
   [[nodiscard]] std::vector<Obstruction::Pressed> pressed() const { return bumpers_.pressed(); }
 
@@ -58,6 +61,7 @@ class PlayerSenses {
   SensorHW<idl::LaserRangeReadings> laser_;
   BaseBumpers bumpers_;
   SensorHW<idl::Battery> battery_;
+  ChargeWatch charge_;
   std::vector<SensorEndpoint*> endpoints_;
 
   PlayerRobotFacts facts_;

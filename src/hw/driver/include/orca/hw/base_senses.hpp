@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "orca/geometry/error_guess.hpp"
@@ -121,6 +122,21 @@ struct BatteryReading {
   bool charging = false;
   double temperature = std::nan("");  ///< [degC] Likewise.
   std::string name = "drive";
+};
+
+/// Tells of a battery that is nearly empty, by its charge. Voltages are told apart by drivers that know the battery.
+///
+/// Thread contract: not synchronised; the container's strand.
+class ChargeWatch {
+ public:
+  /// Takes a reading. A charge that is not known says nothing.
+  void take(const BatteryReading& reading);
+  /// Returns what is to be said now, once until it was charged; empty: nothing.
+  [[nodiscard]] std::string take_remark() { return std::exchange(remark_, {}); }
+
+ private:
+  bool is_low_ = false;
+  std::string remark_;
 };
 
 /// Publishes what is known of a battery.
