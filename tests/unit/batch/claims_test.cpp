@@ -92,6 +92,19 @@ TEST_CASE("worlds in which all is the same are one world", "[batch][report]") {
              StartsWith("all runs in each of the worlds w11") && Contains("repeat those in another world"));
 }
 
+TEST_CASE("failures that did not come before the runs ended are counted", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 50.0);
+  add(rows, "good", 0, 60.0);
+  Experiment asked = experiment();
+  for (World& world : asked.worlds)
+    world.failing.push_back({.component = "pilot", .how = "throw", .at = std::chrono::seconds(56)});
+  CHECK_THAT(report_on(rows, asked).summary,
+             Contains("the failure pilot=throw@56s did not come in 20 of 40 runs, which ended before"));
+  CHECK_THAT(report_on(rows, asked).markdown, Contains("did not come in 20 of 40 runs"));
+  CHECK_THAT(report_on(rows, experiment()).summary, !Contains("did not come"));
+}
+
 TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "fixed", 0, 50.0);

@@ -337,6 +337,20 @@ TEST_CASE("a component fails at one time in all runs of a world, or at one that 
   CHECK(drawn.time(7) == drawn.time(7));
 }
 
+TEST_CASE("a seed fails at another time in each of many worlds", "[batch]") {
+  xml::Diagnostics diagnostics;
+  const auto experiment = read_experiment(
+      with(kEnough,
+           "<variant name=\"a\"/><worlds name=\"w\" arg=\"world\" file=\"w.csv\" numbers=\"1-20\">"
+           "<fail component=\"laser\" how=\"silent\" at=\"10 s\" latest=\"20 s\"/></worlds>"),
+      "e.xml", diagnostics);
+  INFO(diagnostics.text());
+  REQUIRE(experiment);
+  std::set<Duration> times;
+  for (const World& world : experiment->worlds) times.insert(world.failing.at(0).time(1));
+  CHECK(times.size() == 20);
+}
+
 TEST_CASE("what is wrong with failures on purpose is reported, each at its place", "[batch]") {
   const std::string faults = faults_of(with(kEnough,
                                             "<variant name=\"a\"/><world name=\"w\"><fail component=\"p\" "

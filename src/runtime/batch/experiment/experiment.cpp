@@ -15,6 +15,7 @@ Duration Failing::time(std::uint64_t seed) const {
   if (!latest) return at;
   Fnv1a hash;
   hash.add_text(component);
+  if (!world.empty()) hash.add_text(world);
   hash.add_u64(seed);
   std::mt19937_64 random(hash.value());
   const double share = static_cast<double>(random() >> 11) * 0x1.0p-53;  // from 0 to below 1

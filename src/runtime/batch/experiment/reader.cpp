@@ -120,6 +120,7 @@ class ExperimentReader {
     for (const std::uint64_t number : numbers_of_worlds(element, lengths)) {
       World world = all;
       world.name = name + "_" + std::to_string(number);
+      for (Failing& one : world.failing) one.world = world.name;
       world.settings.push_back({arg, file + "#" + std::to_string(number), position});
       if (!remember(element, "world", world.name)) return;
       world.family = name;

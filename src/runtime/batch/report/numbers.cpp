@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <map>
+#include <utility>
 
 #include "orca/base/text.hpp"
 #include "orca/batch/statistics/summary.hpp"
@@ -23,6 +26,29 @@ std::string span_text(const Interval& interval, const Metric& metric) {
 
 std::string counted(std::size_t count, const char* what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+// Counts by what is planned, so that many worlds with the same plan are one line.
+std::vector<std::string> lines_of_absent_failures(const Experiment& experiment,
+                                                  const std::vector<Row>& rows) {
+  std::map<std::string, const World*> worlds;
+  for (const World& world : experiment.worlds) worlds[world.name] = &world;
+  std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // runs without it, and all
+  for (const Row& row : rows) {
+    const auto world = worlds.find(row.world);
+    if (world == worlds.end()) continue;
+    for (const Failing& one : world->second->failing) {
+      auto& [without, all] = counts[one.text()];
+      ++all;
+      if (to_seconds(one.time(row.seed)) >= row.outcome.time) ++without;
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [plan, count] : counts)
+    if (count.first > 0)
+      lines.push_back("the failure " + plan + " did not come in " + std::to_string(count.first) + " of " +
+                      counted(count.second, "run") + ", which ended before");
+  return lines;
 }
 
 }  // namespace
@@ -134,6 +160,14 @@ std::string line_of(const Difference& difference) {
 std::string line_of(const Contrast& unanswered) {
   return question_text(unanswered) + ", " + title_of(*find_metric(unanswered.metric)) +
          ": no answer, since in no world and seed both have a value";
+}
+
+std::vector<std::string> lines_on_runs(const Experiment& experiment, const std::vector<Row>& rows,
+                                       const BatchResult& result) {
+  std::vector<std::string> lines;
+  for (const SameRuns& same : result.same_runs) lines.push_back(line_of(same, result.variants.size()));
+  std::ranges::copy(lines_of_absent_failures(experiment, rows), std::back_inserter(lines));
+  return lines;
 }
 
 }  // namespace orca::batch

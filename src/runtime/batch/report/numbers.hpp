@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "comparison.hpp"
+#include "orca/batch/experiment.hpp"
+#include "orca/batch/store.hpp"
 
 namespace orca::batch {
 
@@ -40,5 +42,10 @@ namespace orca::batch {
 [[nodiscard]] std::string line_of(const Difference& difference);
 /// Returns the line for a question that has no answer.
 [[nodiscard]] std::string line_of(const Contrast& unanswered);
+
+/// Returns sentences on seeds and worlds that change nothing, and on the failures that an experiment plans and that did not come, because
+/// runs ended before.
+[[nodiscard]] std::vector<std::string> lines_on_runs(const Experiment& experiment,
+                                                     const std::vector<Row>& rows, const BatchResult& result);
 
 }  // namespace orca::batch

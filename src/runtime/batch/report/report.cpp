@@ -119,8 +119,8 @@ class Writer {
                             false_words_of(variant)});
     }
     document_.add(std::move(table));
-    for (const SameRuns& same : result_.same_runs)
-      document_.add(Paragraph{line_of(same, result_.variants.size()) + ". They count as one."});
+    for (const std::string& line : lines_on_runs(experiment_, rows_, result_))
+      document_.add(Paragraph{line + "."});
     judge();
     document_.add(Paragraph{intervals_text()});
   }
@@ -439,7 +439,7 @@ Result<Report> make_report(const Experiment& experiment, const Store& store) {
   std::string summary;
   for (const Reversal& reversal : result->reversals) summary += line_of(reversal) + "\n";
   for (const VariantResult& variant : result->variants) summary += line_of(variant) + "\n";
-  for (const SameRuns& same : result->same_runs) summary += line_of(same, result->variants.size()) + "\n";
+  for (const std::string& line : lines_on_runs(experiment, rows, *result)) summary += line + "\n";
   for (const Difference& difference : result->differences)
     summary += line_of(difference) + families_text(difference, *result) + "\n";
   for (const Contrast& contrast : result->unanswered) summary += line_of(contrast) + "\n";

@@ -57,6 +57,8 @@ struct Failing {
   Duration at{0};                    ///< [s of the run's clock] since the components began to work.
   std::optional<Duration> latest{};  ///< If given, each seed draws its time from `at` up to this one.
   xml::Position position{};
+  /// The one of many `<worlds>` for which the times are drawn, so that each has its own; empty: a single `<world>`.
+  std::string world{};
 
   /// Returns when it fails in the runs with a seed.
   [[nodiscard]] Duration time(std::uint64_t seed) const;
