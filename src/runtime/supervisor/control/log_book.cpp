@@ -2,6 +2,7 @@
 #include "control/log_book.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -42,8 +43,19 @@ void LogBook::show(LogWish wish, const ReplyPtr& reply) {
   {
     const MutexLock lock(mutex_);
     for (const Entry& entry : entries_) tell(entry, wish, *reply);
+    note_absent(wish, *reply);
   }
   if (wish.follows) followers_.push_back({std::move(wish), reply});
+}
+
+// A name that is misspelt has no lines, and neither has who has said nothing: the names that there are tell which.
+void LogBook::note_absent(const LogWish& wish, Reply& reply) const {
+  std::set<std::string> known;
+  for (const Entry& entry : entries_) known.insert(entry.who);
+  for (const std::string& who : wish.who)
+    if (!known.contains(who))
+      reply.note("none of the lines that are kept is of " + in_quotes(who) + "; there are lines of: " +
+                 joined(std::vector<std::string>(known.begin(), known.end()), ", "));
 }
 
 std::map<std::string, double> LogBook::rates() {

@@ -37,7 +37,8 @@ class LogBook {
   /// @param clock  the clock of the log.
   explicit LogBook(std::function<TimePoint()> clock);
 
-  /// Answers with the lines that are kept; if the client follows, with those that come, until it is gone.
+  /// Answers with the lines that are kept; if the client follows, with those that come, until it is gone. A note tells of names that
+  /// have no line.
   void show(LogWish wish, const ReplyPtr& reply);
   /// Passes on what was noted since the last call.
   void pass_on();
@@ -59,6 +60,7 @@ class LogBook {
 
   void note(const log::Line& line);
   static void tell(const Entry& entry, const LogWish& wish, Reply& reply);
+  void note_absent(const LogWish& wish, Reply& reply) const ORCA_REQUIRES(mutex_);
 
   const std::function<TimePoint()> clock_;
   std::list<Follower> followers_;
