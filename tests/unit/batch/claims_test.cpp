@@ -105,6 +105,17 @@ TEST_CASE("failures that did not come before the runs ended are counted", "[batc
   CHECK_THAT(report_on(rows, experiment()).summary, !Contains("did not come"));
 }
 
+TEST_CASE("goals that are reached at once are told", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 50.0);
+  add(rows, "good", 0, 60.0);
+  CHECK_THAT(report_on(rows).summary, !Contains("at once"));
+  for (Row& row : rows)
+    if (row.variant == "good") row.outcome.time = 0.01;
+  CHECK_THAT(report_on(rows).summary,
+             Contains("all goals were reached at once in 20 runs: do they lie where the robots start?"));
+}
+
 TEST_CASE("a pair counts unless both variants repeat themselves", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "fixed", 0, 50.0);

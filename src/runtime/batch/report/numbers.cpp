@@ -14,6 +14,8 @@
 namespace orca::batch {
 namespace {
 
+constexpr double kAtOnce = 0.1;  // [s] in which no robot gets anywhere
+
 std::string formatted(const char* format, double value) {
   char text[48];
   std::snprintf(text, sizeof text, format, value);
@@ -167,6 +169,12 @@ std::vector<std::string> lines_on_runs(const Experiment& experiment, const std::
   std::vector<std::string> lines;
   for (const SameRuns& same : result.same_runs) lines.push_back(line_of(same, result.variants.size()));
   std::ranges::copy(lines_of_absent_failures(experiment, rows), std::back_inserter(lines));
+  const auto at_once = std::ranges::count_if(rows, [](const Row& row) {
+    return row.outcome.ending == Ending::success && row.outcome.time < kAtOnce;
+  });
+  if (at_once > 0)
+    lines.push_back("all goals were reached at once in " + counted(static_cast<std::size_t>(at_once), "run") +
+                    ": do they lie where the robots start?");
   return lines;
 }
 
