@@ -49,10 +49,13 @@ std::string advice_about_other(const std::string& file, const std::string& bytes
     return image::advice_about(format, file);
   const std::string image = yaml_value(bytes, "image"), resolution = yaml_value(bytes, "resolution");
   if (image.empty() || resolution.empty()) return "";
+  const std::string negate = yaml_value(bytes, "negate");
+  const bool is_negated = negate == "1" || negate == "true" || negate == "True";
   return "this is the YAML file of a map of ROS; name its picture instead, with world=\"" +
          (std::filesystem::path(file).parent_path() / image).lexically_normal().string() +
          "\" and map_resolution=\"" + resolution +
-         " m\". Its origin is not used: (0, 0) is the lower left corner; what is not known counts as free";
+         " m\". Its origin is not used: (0, 0) is the lower left corner; what is not known counts as free" +
+         (is_negated ? "; negate is set, so exchange black and white in the picture first" : "");
 }
 
 // The parts of "FILE#N". The name of a file may contain a # itself, unless the part before it is one of our

@@ -77,7 +77,10 @@ TEST_CASE("the YAML file of a map hears which picture and scale to name", "[sim]
   CHECK_FALSE(reading.world);
   CHECK_THAT(reading.said, Catch::Contains("W026: this is the YAML file of a map of ROS") &&
                                Catch::Contains("office.pgm\" and map_resolution=\"0.050000 m\"") &&
-                               !Catch::Contains("G10"));
+                               !Catch::Contains("G10") && !Catch::Contains("negate"));
+  const WorldReading turned =
+      world_of(folder.write("turned.yaml", "image: office.pgm\nresolution: 0.05\nnegate: 1\n"));
+  CHECK_THAT(turned.said, Catch::Contains("exchange black and white in the picture first"));
 }
 
 TEST_CASE("walls in light grey are free, and the share of such pixels is said", "[sim][foreign]") {
