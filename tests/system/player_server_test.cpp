@@ -100,6 +100,18 @@ TEST_CASE("motors that a client of Player has switched off do not turn", "[syste
   CHECK(way_driven(client, 1s) > 0.05);
 }
 
+TEST_CASE("the log says which commands of a client of Player are not carried out, once each", "[system][player]") {
+  Robot robot;
+  Client client(robot.port);
+  CHECK(client.subscribe(kPosition2d).type == kAck);
+  const std::string said = "it commands what is not carried out (interface 4, command 2): only velocities";
+  for (int i = 0; i < 3; ++i) client.send(kPosition2d, kCommand, 2, Bytes(52, 0));
+  CHECK(client.ask(kPosition2d, 3, {0, 0, 0, 0}).type == kAck);
+  CHECK(robot.program.wait_for_output(said, Seconds(5 * kSlowdown)));
+  const std::string text = robot.program.err();
+  CHECK(text.find(said, text.find(said) + 1) == std::string::npos);
+}
+
 TEST_CASE("in pull mode a client of Player gets the newest of each device, and the end of the round",
           "[system][player]") {
   Robot robot;

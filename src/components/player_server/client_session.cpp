@@ -43,14 +43,26 @@ void ClientSession::obey(const Message& message, TimePoint now) {
   if (message.header.type == MessageType::request) return answer(message);
 }
 
-// Only velocities are carried out. A command that cannot be understood is dropped, as a server of Player does.
+// Only velocities are carried out. A command that cannot be understood is dropped, as a server of Player does. The client hears nothing of
+// that, so the log says it.
 void ClientSession::command(const Message& message, TimePoint now) {
-  if (!uses(kBase) || id_of(message.header) != kPosition2dVelocity) return;
+  const MessageId id = id_of(message.header);
+  if (!uses(kBase) || id != kPosition2dVelocity) return note_dropped(id);
   const Result<VelocityCommand> wanted = decode<VelocityCommand>(message.payload);
   if (!wanted || !is_finite_twist(wanted->velocity)) return;
   wish_.reset();
   if (motors_on_ && wanted->motors_on)
     wish_ = Wish{{wanted->velocity.x, wanted->velocity.y, wanted->velocity.yaw}, now};
+}
+
+void ClientSession::note_dropped(const MessageId& id) {
+  constexpr std::size_t kMostRemarks = 4;
+  const std::string what = id == kPosition2dVelocity
+                               ? "velocities without having subscribed to position2d:0"
+                               : "what is not carried out (interface " +
+                                     std::to_string(static_cast<unsigned>(id.interface)) + ", command " +
+                                     std::to_string(id.subtype) + "): only velocities of position2d are";
+  if (remarks_.size() < kMostRemarks && remarks_.insert(what).second) remark_ = "it commands " + what;
 }
 
 void ClientSession::answer(const Message& message) {

@@ -51,6 +51,8 @@ class ClientSession {
     TimePoint said;
   };
   [[nodiscard]] const std::optional<Wish>& wish() const { return wish_; }
+  /// Returns what is to be said of commands that are dropped, each kind once; empty: nothing.
+  [[nodiscard]] std::string take_remark() { return std::exchange(remark_, {}); }
   [[nodiscard]] bool uses(const DeviceName& device) const { return uses_.contains(device); }
 
  private:
@@ -58,6 +60,7 @@ class ClientSession {
 
   void obey(const hw::player::Message& message, TimePoint now);
   void command(const hw::player::Message& message, TimePoint now);
+  void note_dropped(const hw::player::MessageId& id);
   void answer(const hw::player::Message& message);
   void answer_server(const hw::player::Message& message);
   void answer_device(const hw::player::Message& message);
@@ -88,6 +91,8 @@ class ClientSession {
   bool motors_on_ = true;
   Pose2 origin_{};  // of the odometry that this client sees
   std::optional<Wish> wish_;
+  std::set<std::string> remarks_;  // that were made
+  std::string remark_;
 };
 
 }  // namespace orca::player_server

@@ -114,6 +114,8 @@ class PlayerServer final : public orca::Component {
   // Returns whether the client is still there.
   bool exchange(Connection& client) {
     const Status done = client.exchange(now());
+    if (const std::string remark = client.session().take_remark(); !remark.empty())
+      log_warning("the client of Player " + client.peer() + ": " + remark);
     if (done.ok()) return true;
     log_info("the client of Player " + client.peer() + " is no longer served: " + done.error().message);
     return false;
