@@ -105,6 +105,16 @@ TEST_CASE("failures that did not come before the runs ended are counted", "[batc
   CHECK_THAT(report_on(rows, experiment()).summary, !Contains("did not come"));
 }
 
+TEST_CASE("variants that are the same in all runs are named", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 60.0);
+  add(rows, "good", 0, 60.0);
+  CHECK_THAT(report_on(rows).summary,
+             Contains("bad, good made the same 20 runs: what sets them apart did nothing there"));
+  rows.front().outcome.time += 0.1;
+  CHECK_THAT(report_on(rows).summary, !Contains("did nothing"));
+}
+
 TEST_CASE("goals that are reached at once are told", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad", 0, 50.0);

@@ -19,16 +19,6 @@ using Values = std::vector<std::vector<double>>;                               /
 using Runs = std::map<std::pair<std::string, std::uint64_t>, const Outcome*>;  // by world and seed
 using RunsOfVariants = std::map<std::string, Runs>;
 
-// Returns what tells a run from others of its variant; empty: nothing does, so it counts. Where robots drove, it is their true
-// motion to the last bit: noise of sensors that moves no robot makes another trace, and no other run. Else it is the trace.
-std::string identity_of(const Outcome& outcome) {
-  if (outcome.measures.way.value_or(0.0) <= 0.0) return outcome.trace_hash;
-  Outcome motion = outcome;
-  motion.reason.clear();
-  motion.trace_hash.clear();
-  return to_text(motion);
-}
-
 // Returns the runs without those that repeat one of an earlier seed or world: they say nothing new. Two worlds in which all is the same
 // are one.
 Runs distinct(const Runs& runs) {
@@ -283,6 +273,14 @@ void find_reversals(BatchResult& result) {
 }
 
 }  // namespace
+
+std::string identity_of(const Outcome& outcome) {
+  if (outcome.measures.way.value_or(0.0) <= 0.0) return outcome.trace_hash;
+  Outcome motion = outcome;
+  motion.reason.clear();
+  motion.trace_hash.clear();
+  return to_text(motion);
+}
 
 bool same_question(const Difference& one, const Difference& other) {
   return one.asked.text() == other.asked.text();

@@ -43,6 +43,10 @@ struct Difference {
   Verdict verdict;
 };
 
+/// Returns what distinguishes a run from others; empty: nothing does, so it counts by itself. Where robots drove, it is their true motion to the last
+/// bit: noise of sensors that moves no robot makes another trace, and no other run. Else it is the trace.
+[[nodiscard]] std::string identity_of(const Outcome& outcome);
+
 /// Returns whether both answer the same question.
 [[nodiscard]] bool same_question(const Difference& one, const Difference& other);
 

@@ -53,6 +53,23 @@ std::vector<std::string> lines_of_absent_failures(const Experiment& experiment,
   return lines;
 }
 
+// Who compares two variants that are the same to the last bit learns that a setting does nothing, and not that runs are too few.
+std::vector<std::string> lines_of_same_variants(const std::vector<Row>& rows) {
+  using Identities = std::map<std::pair<std::string, std::uint64_t>, std::string>;  // by world and seed
+  std::map<std::string, Identities> variants;
+  for (const Row& row : rows) variants[row.variant][{row.world, row.seed}] = identity_of(row.outcome);
+  std::map<Identities, std::vector<std::string>> groups;
+  for (auto& [variant, runs] : variants)
+    if (std::ranges::none_of(runs, [](const auto& run) { return run.second.empty(); }))
+      groups[std::move(runs)].push_back(variant);
+  std::vector<std::string> lines;
+  for (const auto& [runs, names] : groups)
+    if (names.size() > 1)
+      lines.push_back(listed(names) + " made the same " + counted(runs.size(), "run") +
+                      ": what sets them apart did nothing there");
+  return lines;
+}
+
 }  // namespace
 
 std::string value_text(double value, const Metric& metric) {
@@ -168,6 +185,7 @@ std::vector<std::string> lines_on_runs(const Experiment& experiment, const std::
                                        const BatchResult& result) {
   std::vector<std::string> lines;
   for (const SameRuns& same : result.same_runs) lines.push_back(line_of(same, result.variants.size()));
+  std::ranges::copy(lines_of_same_variants(rows), std::back_inserter(lines));
   std::ranges::copy(lines_of_absent_failures(experiment, rows), std::back_inserter(lines));
   const auto at_once = std::ranges::count_if(rows, [](const Row& row) {
     return row.outcome.ending == Ending::success && row.outcome.time < kAtOnce;
