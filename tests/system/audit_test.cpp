@@ -36,7 +36,12 @@ TEST_CASE("each order to a system is in the log with who, when and what came of 
   CHECK(run_orcactl({"get", "goto"}).exit_code() == 0);
   CHECK(run_orcactl({"pause"}).exit_code() == 0);
   CHECK(run_orcactl({"set", "goto.none", "1\n[ 0] info audit: user root: stop: done"}).exit_code() == 1);
-  const Words orders = orders_in(run_orcactl({"log", "audit"}).out);
+  const Run audit = run_orcactl({"log", "audit"});
+  CHECK(audit.err.empty());
+  const Run misspelt = run_orcactl({"log", "adit"});
+  CHECK(misspelt.says("none of the lines that are kept is of \"adit\"; there are lines of: "));
+  CHECK_THAT(misspelt.err, Contains("audit"));
+  const Words orders = orders_in(audit.out);
   const std::string who = "(" + std::to_string(geteuid()) + "), orcactl[";
   REQUIRE(orders.size() == 2);
   for (const std::string& order : orders) CHECK_THAT(order, Contains(who) && Contains("], at 20"));

@@ -227,7 +227,8 @@ TEST_CASE("an order about something on another machine is refused with the name 
   pair.stop(kBase);
 }
 
-TEST_CASE("a behaviour whose sensors are on another machine is exchanged while it runs", "[system][machines][tool]") {
+TEST_CASE("a behaviour whose sensors are on another machine is exchanged while it runs",
+          "[system][machines][tool]") {
   if (is_skipped()) return;
   Pair pair({"interface=orca0"}, kDrive);
   start_driving(pair);

@@ -173,10 +173,6 @@ TEST_CASE("orcactl shows what runs, and ends it", "[system][orcactl]") {
   CHECK(run_orcactl({"set", "avoid.margin", "11 cm"}).exit_code() == 0);
   CHECK_THAT(run_orcactl({"log"}).out, Contains("avoid: an operator has set margin to 0.11"));
   CHECK_THAT(run_orcactl({"log", "goto"}).out, !Contains("margin"));
-  const Run misspelt = run_orcactl({"log", "aviod"});
-  CHECK(misspelt.says("none of the lines that are kept is of \"aviod\"; there are lines of: "));
-  CHECK_THAT(misspelt.err, Contains("avoid"));
-  CHECK(run_orcactl({"log", "avoid"}).err.empty());
   const Run counters = run_orcactl({"counters"});
   CHECK_THAT(counters.out, Contains("base.OdometryPush") && Contains("fuser.base") && Contains("DELIVERED"));
   system.stop();
@@ -281,8 +277,6 @@ TEST_CASE("an operator pauses a component, changes its parameters, and starts it
   system.await_work();
   CHECK(run_orcactl({"suspend", "avoid"}).exit_code() == 0);
   CHECK_THAT(run_orcactl({"ps"}).out, Contains("SUSPENDED"));
-  const Run echo = run_orcactl({"echo", "avoid.motion", "--for", "0.3 s"});
-  CHECK(echo.says("orcactl: avoid is SUSPENDED: it does no laps, so perhaps nothing passes here"));
   CHECK(run_orcactl({"resume", "avoid"}).exit_code() == 0);
   CHECK_THAT(run_orcactl({"ps"}).out, !Contains("SUSPENDED"));
   const Run set = run_orcactl({"set", "avoid.robot_radius", "30 cm"});

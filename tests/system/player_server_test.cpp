@@ -100,7 +100,8 @@ TEST_CASE("motors that a client of Player has switched off do not turn", "[syste
   CHECK(way_driven(client, 1s) > 0.05);
 }
 
-TEST_CASE("the log says which commands of a client of Player are not carried out, once each", "[system][player]") {
+TEST_CASE("the log says which commands of a client of Player are not carried out, once each",
+          "[system][player]") {
   Robot robot;
   Client client(robot.port);
   CHECK(client.subscribe(kPosition2d).type == kAck);

@@ -236,6 +236,22 @@ Status copy_span(const std::vector<Part>& parts, const Span& wanted, Copy& to) {
   return to.close();
 }
 
+// Reads FROM and TO, which may be left out.
+Result<Span> wanted_span(const std::vector<std::string>& words, const Span& all) {
+  Span wanted{all.begin, all.end + 1};
+  for (std::size_t i = 2; i < words.size(); ++i) {
+    const Result<Stamp> time = time_of(words[i], all);
+    if (!time) return time.error();
+    (i == 2 ? wanted.begin : wanted.end) = *time;
+    // A time of day that the recording has not reached yet is not that of the day before.
+    const bool is_of_day = words[i].find(':') != std::string::npos && words[i].find('T') == std::string::npos;
+    if (i == 3 && is_of_day && wanted.end <= wanted.begin) wanted.end += kStampSecond * 24 * 3600;
+  }
+  if (words.size() == 4 && wanted.end <= wanted.begin)
+    return fail(Code::invalid_argument, "TO, " + words[3] + ", is not after FROM, " + words[2]);
+  return wanted;
+}
+
 }  // namespace
 
 std::string local_time(Stamp time) {
@@ -278,24 +294,15 @@ Status cut(const std::vector<std::string>& words) {
   const Result<std::vector<Part>> parts = open_parts(words[0]);
   if (!parts) return parts.error();
   const Span all = span_of(*parts);
-  Span wanted{all.begin, all.end + 1};
-  for (std::size_t i = 2; i < words.size(); ++i) {
-    const Result<Stamp> time = time_of(words[i], all);
-    if (!time) return time.error();
-    (i == 2 ? wanted.begin : wanted.end) = *time;
-    // A time of day that the recording has not reached yet is not that of the day before.
-    const bool is_of_day = words[i].find(':') != std::string::npos && words[i].find('T') == std::string::npos;
-    if (i == 3 && is_of_day && wanted.end <= wanted.begin) wanted.end += kStampSecond * 24 * 3600;
-  }
-  if (words.size() == 4 && wanted.end <= wanted.begin)
-    return fail(Code::invalid_argument, "TO, " + words[3] + ", is not after FROM, " + words[2]);
-  if (std::ranges::none_of(*parts, [&](const Part& part) { return overlaps(part, wanted); }))
+  const Result<Span> wanted = wanted_span(words, all);
+  if (!wanted) return wanted.error();
+  if (std::ranges::none_of(*parts, [&](const Part& part) { return overlaps(part, *wanted); }))
     return fail(Code::not_found, "nothing of that time is there; the recording goes from " +
                                      local_time(all.begin) + " to " + local_time(all.end));
   auto output = recording::open_file(words[1]);
   if (!output) return output.error();
   Copy to(*std::move(output), parts->back().reader);
-  if (const Status copied = copy_span(*parts, wanted, to); !copied.ok()) return copied;
+  if (const Status copied = copy_span(*parts, *wanted, to); !copied.ok()) return copied;
   print(words[1] + ": " + std::to_string(to.messages()) + " messages\n");
   return ok();
 }

@@ -68,11 +68,11 @@ void Create2Senses::publish_odometry() {
 void Create2Senses::publish_battery() {
   if (!sensors_.voltage) return;
   const ChargingState charging = sensors_.charging_state.value_or(ChargingState::not_charging);
-  const BatteryReading reading{
-      .voltage = *sensors_.voltage,
-      .charge = state_of_charge(sensors_).value_or(std::nan("")),
-      .charging = charging == ChargingState::full || charging == ChargingState::trickle ||
-                  charging == ChargingState::reconditioning};
+  const BatteryReading reading{.voltage = *sensors_.voltage,
+                               .charge = state_of_charge(sensors_).value_or(std::nan("")),
+                               .charging = charging == ChargingState::full ||
+                                           charging == ChargingState::trickle ||
+                                           charging == ChargingState::reconditioning};
   charge_.take(reading);
   hw::publish_battery(battery_, reading, stamp_);
 }

@@ -67,7 +67,9 @@ constexpr std::array kFailing{
     AttributeRule{"component", true, "Component of the graph that fails.", kName},
     AttributeRule{"how", true, "As with deployer --fail.", {.choices = kWaysToFail}},
     AttributeRule{"at", true, "Time of the run at which it begins.", kHold},
-    AttributeRule{"latest", false, "If given, the time is drawn by the run's seed, and in each of `<worlds>` by its number, too, from `at` up to this one.",
+    AttributeRule{"latest", false,
+                  "If given, the time is drawn by the run's seed, and in each of `<worlds>` by its number, "
+                  "too, from `at` up to this one.",
                   kSeconds}};
 constexpr std::array kVariant{
     AttributeRule{"name", true, "Name of the variant.", kName},

@@ -106,8 +106,8 @@ void note_rest(const Wish& wish, const SystemNames& names, const host::Reports& 
 
 }  // namespace
 
-bool open_lines(const std::vector<std::string>& words, const SystemNames& names,
-                const host::Reports& reports, Conductor& conductor, Reply& reply) {
+bool open_lines(const std::vector<std::string>& words, const SystemNames& names, const host::Reports& reports,
+                Conductor& conductor, Reply& reply) {
   const Result<Wish> wish = read(words);
   if (!wish) return reply.refuse(wish.error()), false;
   note_rest(*wish, names, reports, reply);

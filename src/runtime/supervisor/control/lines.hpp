@@ -20,8 +20,8 @@ namespace orca::supervisor {
 /// If one port is named to be looked at, and its component does no laps at present, a note says so.
 /// @return whether there are lines now with a bound of their own.
 /// @thread  the supervisor's thread, on a fiber that may wait.
-bool open_lines(const std::vector<std::string>& words, const SystemNames& names,
-                const host::Reports& reports, Conductor& conductor, Reply& reply);
+bool open_lines(const std::vector<std::string>& words, const SystemNames& names, const host::Reports& reports,
+                Conductor& conductor, Reply& reply);
 
 /// Lists the ports of this machine through which objects leave their component, for a recorder. The first record has the start
 /// of the run [ns of its clock], from which on the log counts.

@@ -37,7 +37,7 @@ class LogBook {
   /// @param clock  the clock of the log.
   explicit LogBook(std::function<TimePoint()> clock);
 
-  /// Answers with the lines that are kept; if the client follows, with those that come, until it is gone. A note tells of names that
+  /// Answers with the lines that are kept; if the client follows, with those that come, until it is gone. A note names those that
   /// have no line.
   void show(LogWish wish, const ReplyPtr& reply);
   /// Passes on what was noted since the last call.

@@ -117,10 +117,11 @@ Status System::open_hardware(Event& changed, TimePoint deadline) {
     if (device.state() == hw::HardwareState::fault)
       return fail(Code::unavailable, cannot_open(hardware->driver().container()), hardware->name());
     if (device.state() != hw::HardwareState::ready)
-      return fail(Code::deadline_exceeded,
-                  "the hardware did not open in time; a device that was just switched on may need longer, as a "
-                  "laser half a minute: start again when it is ready",
-                  hardware->name());
+      return fail(
+          Code::deadline_exceeded,
+          "the hardware did not open in time; a device that was just switched on may need longer, as a "
+          "laser half a minute: start again when it is ready",
+          hardware->name());
   }
   return ok();
 }

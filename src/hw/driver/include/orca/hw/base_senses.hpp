@@ -124,7 +124,7 @@ struct BatteryReading {
   std::string name = "drive";
 };
 
-/// Tells of a battery that is nearly empty, by its charge. Voltages are told apart by drivers that know the battery.
+/// Notices a battery that is nearly empty, by its charge. Drivers that know the battery judge voltages themselves.
 ///
 /// Thread contract: not synchronised; the container's strand.
 class ChargeWatch {
