@@ -95,8 +95,9 @@ void note_rest(const Wish& wish, const SystemNames& names, const host::Reports& 
   if (!port || (*port)->contract.pattern != Pattern::push || (*port)->contract.role != Role::server) return;
   const std::string& name = (*port)->ref.component;
   const Result<const graph::ComponentNode*> node = names.component(name);
+  if (!node) return;  // it runs on another machine, of which there are no reports
   const host::ComponentState state = reports(name).state;
-  if (!node || state == host::ComponentState::work || state == host::ComponentState::connect) return;
+  if (state == host::ComponentState::work || state == host::ComponentState::connect) return;
   if (state == host::ComponentState::init || (*node)->watchable) return;
   const bool is_unused = state == host::ComponentState::idle || state == host::ComponentState::unloaded;
   reply.note(name + " is " + host::to_string(state) +
