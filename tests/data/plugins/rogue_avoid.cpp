@@ -3,6 +3,7 @@
 //   ROGUE_CONSTRUCTOR, ROGUE_UNLOADING   the deed in its constructor, or when its code is unloaded
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstddef>
@@ -49,7 +50,13 @@ const std::map<std::string, std::function<void()>>& deeds() {
       {"abort", [] { std::abort(); }},
       {"crash", [] { raise(SIGSEGV); }},
       {"exit", [] { std::exit(0); }},
+      {"chdir", [] { (void)!chdir("/"); }},
       {"leak", take_memory},
+      {"limit",
+       [] {
+         const rlimit few{8, 8};
+         (void)setrlimit(RLIMIT_NOFILE, &few);
+       }},
       {"nap", [] { sleep(3); }},
       {"pin", start_thread},
       {"sleep",

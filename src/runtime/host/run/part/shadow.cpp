@@ -4,10 +4,14 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "containment/process_watches.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/settings.hpp"
 #include "orca/host/last_words.hpp"
@@ -36,6 +40,33 @@ enum class Mark : char { refused = 'r', well = 'w' };
 
 std::string marked(Mark mark, const std::string& text) { return static_cast<char>(mark) + text; }
 
+// What all components of a process share. One that changes it can end the process of the system, or hinder others there.
+class Shared {
+ public:
+  void keep() {
+    for (Watch* const watch : all()) watch->keep();
+  }
+  // Returns what has been changed: the words after "has"; empty if nothing has.
+  [[nodiscard]] std::string look() {
+    std::vector<std::string> deeds;
+    for (Watch* const watch : all())
+      if (const auto found = watch->look()) deeds.push_back(found->deed);
+    return joined(deeds, ", ");
+  }
+
+ private:
+  [[nodiscard]] std::array<Watch*, 6> all() {
+    return {&locale_, &terminate_, &handlers_, &folder_, &umask_, &limits_};
+  }
+
+  LocaleWatch locale_;
+  TerminateWatch terminate_;
+  SignalHandlerWatch handlers_;
+  FolderWatch folder_;
+  UmaskWatch umask_;
+  LimitWatch limits_;
+};
+
 // The new object in the copy of the process.
 class Shadow {
  public:
@@ -55,6 +86,7 @@ class Shadow {
     settings.params = std::move(params).value();
     settings.on_demand = false;
     settings.autonomous = true;
+    shared_.keep();
     object_ = std::make_unique<ComponentInstance>(
         quiet_.context(), std::move(settings), [this] { return Result<LoadedType>(type_); },
         [&catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); }, nullptr);
@@ -73,6 +105,7 @@ class Shadow {
     object_->open_gate();
     reach(ComponentState::work);
     follow(executive_.now());
+    refuse_changes();
     const std::string well = std::to_string(given_) + " " + std::to_string(pushed());
     obey(
         "its suspend()", [&] { return object_->order_suspend(); }, Refusal::is_none);
@@ -80,6 +113,7 @@ class Shadow {
         "its resume()", [&] { return object_->order_resume(); }, Refusal::is_none);
     obey(
         "its save_state() or load_state()", [&] { return object_->order_state_check(); }, Refusal::counts);
+    refuse_changes();
     line_.step("its end");
     end(catalogue);
     line_.find(marked(Mark::well, well));
@@ -112,6 +146,11 @@ class Shadow {
     if (object_->has_failed()) refuse(object_->failure());
   }
 
+  void refuse_changes() {
+    if (const std::string deeds = shared_.look(); !deeds.empty())
+      refuse("it has " + deeds + "; a component must leave alone what all share");
+  }
+
   void refuse(const std::string& why) {
     line_.find(marked(Mark::refused, why));
     line_.end();
@@ -137,6 +176,7 @@ class Shadow {
     if (!object_->join_until(saturating_add(executive_.now(), kMostTime))) refuse("it does not end");
     conclude_if_failed();
     object_.reset();
+    refuse_changes();
     if (const Status gone = catalogue.release(std::exchange(type_, {})); !gone.ok())
       refuse(gone.error().text());
   }
@@ -180,6 +220,7 @@ class Shadow {
   QuietRun quiet_{executive_, "shadow", kSeed, [this] { changed_->notify(); }, missions_};
   OuterOffers offers_{executive_, nullptr};
   TrialServers servers_{[this](const std::string& question) { return line_.ask(question); }};
+  Shared shared_;
   LoadedType type_;
   Backdrop backdrop_{executive_};
   std::unique_ptr<ComponentInstance> object_;
