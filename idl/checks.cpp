@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace orca {
@@ -15,7 +16,11 @@ namespace {
 
 // [m], [rad], [m/s], [rad/s] Nothing that a robot has or does is larger; places of national grids are within it.
 constexpr double kLargest = 1e7;
-constexpr double kLongestSweep = 10.0;                  // [s]
+constexpr double kFastestOfAll = 100.0;   // [m/s], [rad/s] ten times what any robot of Orca does
+constexpr double kFarthestSensor = 50.0;  // [m] from the middle of its robot
+constexpr double kShortestView = 0.1;     // [m] By a sensor that sees less far nobody can drive.
+constexpr double kLeastStep = 1e-6;       // [rad] from a beam to the next
+constexpr double kLongestSweep = 10.0;    // [s]
 constexpr double kWidestScan = 4.0 * std::numbers::pi;  // [rad]
 
 std::string in_digits(double number) {
@@ -29,8 +34,11 @@ Error wrong(std::string text) { return fail(Code::invalid_argument, std::move(te
 // False for what is not a number, too.
 bool is_possible(double number) { return std::abs(number) <= kLargest; }
 
+// The usual reason for a sensor that is farther away is a length in millimetres: it would see nothing near the robot.
+bool is_at_robot(double length) { return std::abs(length) <= kFarthestSensor; }
+
 bool is_possible(const idl::Point& point, const idl::Rotation3D& rotation) {
-  return is_possible(point.x()) && is_possible(point.y()) && is_possible(point.z()) &&
+  return is_at_robot(point.x()) && is_at_robot(point.y()) && is_at_robot(point.z()) &&
          is_possible(rotation.roll()) && is_possible(rotation.pitch()) && is_possible(rotation.yaw());
 }
 
@@ -43,11 +51,13 @@ Status check_ranges(const idl::RangeReadings& readings) {
     return wrong("none of its " + std::to_string(readings.ranges().size()) + " ranges is a number");
   const double least = readings.min_range();
   const double most = readings.max_range();
-  if (!(least >= 0.0 && least < most && is_possible(most)))
+  if (!(least >= 0.0 && least < most && most >= kShortestView && is_possible(most)))
     return wrong("its limits are min_range " + in_digits(least) + " m and max_range " + in_digits(most) +
-                 " m; expected 0 <= min_range < max_range, both finite");
+                 " m; expected 0 <= min_range < max_range, both finite, and max_range at least 0.1 m");
   if (!is_possible(readings.pose().position(), readings.pose().rotation()))
-    return wrong("its pose holds a number that is not finite, or of no possible size");
+    return wrong(
+        "its pose holds a number that is not finite, or of no possible size: it is the sensor's in the frame "
+        "of the robot, in metres and radians");
   return ok();
 }
 
@@ -80,9 +90,12 @@ struct Quantity {
 
 template <std::size_t Count>
 Status check_motion(const Quantity (&quantities)[Count], const std::array<double, 9>& covariance) {
-  for (const auto& [name, value] : quantities)
-    if (!is_possible(value))
-      return wrong("its " + std::string(name) + " is " + in_digits(value) + "; expected at most 1e7");
+  for (const auto& [name, value] : quantities) {
+    const bool is_speed = std::string_view(name).ends_with("_velocity");
+    if (!(std::abs(value) <= (is_speed ? kFastestOfAll : kLargest)))
+      return wrong("its " + std::string(name) + " is " + in_digits(value) + "; expected at most " +
+                   (is_speed ? "100" : "1e7"));
+  }
   if (!std::ranges::all_of(covariance, [](double entry) { return std::isfinite(entry); }))
     return wrong("its covariance holds a number that is not finite");
   for (const std::size_t variance : {0U, 4U, 8U})
@@ -98,7 +111,8 @@ Status check_reading(const idl::LaserRangeReadings& scan) {
   const double step = scan.angle_increment();
   const bool is_one = scan.ranges().size() == 1;
   const double width = std::abs(step) * static_cast<double>(scan.ranges().size() - 1);
-  if (!is_possible(scan.angle_start()) || !(is_one ? is_possible(step) : step != 0.0 && width <= kWidestScan))
+  if (!is_possible(scan.angle_start()) ||
+      !(is_one ? is_possible(step) : std::abs(step) >= kLeastStep && width <= kWidestScan))
     return wrong("its " + std::to_string(scan.ranges().size()) + " beams begin at " +
                  in_digits(scan.angle_start()) + " rad and are " + in_digits(step) +
                  " rad apart; expected finite angles that differ and span at most two turns");

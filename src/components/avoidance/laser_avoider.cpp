@@ -136,7 +136,9 @@ LaserAvoider::Further& LaserAvoider::further(const MoreLasers::Source& source) {
 bool LaserAvoider::put_into(EchoMemory& memory, const idl::LaserRangeReadings& readings,
                             std::uint32_t number) {
   const TimePoint seen = to_time_point(readings.stamp());
-  if (!is_valid(readings) || !is_valid(readings, check_age(age_of(seen), deaf_after()))) return false;
+  if (!is_valid(readings) || !is_valid(readings, check_view_ahead(readings)) ||
+      !is_valid(readings, check_age(age_of(seen), deaf_after())))
+    return false;
   const Pose2 mount = plane_pose(readings.pose());
   const double age = age_of(seen);
   const Vec2 place = moved_since(mount.position(), age);

@@ -254,13 +254,15 @@ class CollisionMonitor final : public orca::Component {
   }
 
   void follow(const orca::idl::Odometry& odometry) {
-    moves_ = senders_.accepts(odometry);
+    const TimePoint stamp = orca::to_time_point(odometry.stamp());
+    moves_ = senders_.accepts(odometry) &&
+             senders_.accepts(orca::check_age(orca::to_seconds(now() - stamp), kDeafAfter), "Odometry",
+                              odometry.origin());
     if (!moves_) return;
     if (odometer_.begins_anew(odometry)) {  // what it has seen lies elsewhere now
       surroundings_.clear();
       history_.clear();
     }
-    const TimePoint stamp = orca::to_time_point(odometry.stamp());
     const bool stands = orca::speed_of(twist_) < 0.005 && std::abs(twist_.turn_rate) < 0.01;
     if (!history_.empty()) surroundings_.age(orca::to_seconds(stamp - history_.newest()), !stands);
     twist_ = {odometry.translational_velocity(), odometry.sideways_velocity(), odometry.steering_velocity()};
@@ -279,9 +281,11 @@ class CollisionMonitor final : public orca::Component {
 
   void see(Sensor<LaserRangeReadings>& laser, const ObjectPtr<LaserRangeReadings>& scan) {
     const TimePoint stamp = orca::to_time_point(scan->stamp());
-    const bool counts = senders_.accepts(*scan) &&
-                        senders_.accepts(orca::check_age(orca::to_seconds(now() - stamp), limit_of(laser)),
-                                         "LaserRangeReadings", scan->origin());
+    const bool counts =
+        senders_.accepts(*scan) &&
+        senders_.accepts(orca::check_view_ahead(*scan), "LaserRangeReadings", scan->origin()) &&
+        senders_.accepts(orca::check_age(orca::to_seconds(now() - stamp), limit_of(laser)),
+                         "LaserRangeReadings", scan->origin());
     laser.heard = counts ? std::optional(now()) : std::nullopt;
     laser.waiting = scan;
     if (!counts) return;

@@ -55,7 +55,10 @@ class Dock final : public orca::Component {
     const auto here = localizer_.get_update();
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
-    const bool knows = senders_.accepts(*here) && !orca::is_anywhere(here->covariance());
+    const double age = orca::to_seconds(now() - orca::to_time_point(here->stamp()));
+    const bool knows = senders_.accepts(*here) &&
+                       senders_.accepts(orca::check_age(age, kOldest), "RobotPose", here->origin()) &&
+                       !orca::is_anywhere(here->covariance());
     if (knows) pose_ = orca::plane_pose(*here), known_at_ = now();
     if (!waiting_.empty() && leave()) return orca::again();
     pass_on();
@@ -224,8 +227,9 @@ class Dock final : public orca::Component {
   static constexpr double kFace = 0.4;  // [m] around the contacts, what the robot may touch there
   static constexpr double kNose =
       0.25;  // [m] to the contacts of a charger at which the robot was switched on
-  static constexpr double kLost = 10.0;  // [s]
-  static constexpr double kFresh = 3.0;  // [s] Batteries are read once a second, or in ten.
+  static constexpr double kLost = 10.0;   // [s]
+  static constexpr double kOldest = 1.0;  // [s] An older pose says where the robot was.
+  static constexpr double kFresh = 3.0;   // [s] Batteries are read once a second, or in ten.
 
   orca::SendServer<orca::idl::GoalPoint> goals_{
       *this, "GotoCoordinateSend", &Dock::on_goal, {.text = "Via points and goals, as Goto takes them."}};

@@ -10,6 +10,7 @@
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/arc.hpp"
+#include "orca/geometry/objects/own_beams.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/planning/asked_robot.hpp"
@@ -57,7 +58,9 @@ class FollowWall final : public orca::Component {
 
   // Returns whether it knows how the robot moves.
   bool follow(const orca::idl::Odometry& odometry) {
-    if (!senders_.accepts(odometry)) return false;
+    if (!senders_.accepts(odometry) ||
+        !counts(odometry, orca::check_age(age_of(orca::to_time_point(odometry.stamp())), kDeafAfter)))
+      return false;
     if (odometer_.begins_anew(odometry)) {  // what it remembers lies elsewhere now
       memory_.clear();
       moved_at_.reset();
@@ -72,12 +75,23 @@ class FollowWall final : public orca::Component {
   }
 
   void listen(const orca::idl::SonarRangeReadings& round) {
-    if (!senders_.accepts(round) || !moved_at_) return;
-    heard_at_ = orca::avoid::RingEar::last_firing(round).value_or(now());
+    const auto last = orca::avoid::RingEar::last_firing(round);
+    const bool sound =
+        senders_.accepts(round) && counts(round, orca::check_view_ahead(round)) &&
+        (!last || counts(round, orca::avoid::check_firing(age_of(*last), kDeafAfter, "sonar", "fired")));
+    heard_at_ = sound ? std::optional(now()) : std::nullopt;
+    if (!sound || !moved_at_) return;
     ear_.take(round, now(), false, [&](orca::Vec2 echo, orca::TimePoint fired) {
       memory_.hear(seen_from(orca::moved(twist_, orca::to_seconds(*moved_at_ - fired)), echo), kKeep);
     });
   }
+
+  template <class Reading>
+  bool counts(const Reading& reading, const orca::Status& checked) {
+    return senders_.accepts(checked, orca::object_type<Reading>().name, reading.origin());
+  }
+
+  [[nodiscard]] double age_of(orca::TimePoint stamp) const { return orca::to_seconds(now() - stamp); }
 
   // A sonar invents echoes, but not twice in the same place.
   void drive() {

@@ -127,7 +127,9 @@ class GridPlanner final : public orca::go::GoalFollower {
     const ObjectPtr<orca::idl::LaserRangeReadings> scan = laser_.get_update();
     const double age =
         history_.empty() ? 0.0 : orca::to_seconds(history_.newest() - orca::to_time_point(scan->stamp()));
-    if (is_valid(*scan) && is_valid(*scan, orca::check_age(age, *deaf_after_))) return scans_.add(scan);
+    if (is_valid(*scan) && is_valid(*scan, orca::check_view_ahead(*scan)) &&
+        is_valid(*scan, orca::check_age(age, *deaf_after_)))
+      return scans_.add(scan);
     scans_.clear();
     heard_at_.reset();
   }
@@ -157,7 +159,7 @@ class GridPlanner final : public orca::go::GoalFollower {
     if (wants_fix_ && !is_new) return false;
     auto fix = localizer().get_update();
     while (localizer().new_data_arrived()) fix = localizer().get_update();
-    if (!is_valid(*fix)) return false;
+    if (!is_valid(*fix) || (is_new && !is_of_now(*fix))) return false;
     if (is_new || !X_MO_) take_fix(*fix);
     wants_fix_ = false;
     note_pose(moved->stamp(), fix->covariance());

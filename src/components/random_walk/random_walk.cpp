@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "orca/avoidance/advice.hpp"
+#include "orca/avoidance/ring_ear.hpp"
 #include "orca/avoidance/scan.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
+#include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/sensing.hpp"
@@ -67,13 +69,31 @@ class RandomWalk final : public orca::Component {
     echoes_.clear();
     if (sonar_.new_data_arrived()) last_sonar_ = sonar_.get_update();
     if (laser_.new_data_arrived()) last_laser_ = laser_.get_update();
-    const bool sound =
-        (!last_sonar_ || senders_.accepts(*last_sonar_)) && (!last_laser_ || senders_.accepts(*last_laser_));
+    const bool sound = (!last_sonar_ || counts(*last_sonar_)) && (!last_laser_ || counts(*last_laser_));
     heard_at_ = sound ? std::optional(now()) : std::nullopt;
     if (!sound) return;
     if (last_sonar_) hear_round(*last_sonar_);
     if (last_laser_) hear_scan(*last_laser_);
   }
+
+  // Returns whether the way ahead can be told by readings that are not too old. One of two sensors that has fallen silent is found by
+  // the age of its last reading.
+  bool counts(const orca::idl::LaserRangeReadings& scan) {
+    return senders_.accepts(scan) && counts(scan, orca::check_view_ahead(scan)) &&
+           counts(scan, orca::check_age(age_of(orca::to_time_point(scan.stamp())), *deaf_after_));
+  }
+  bool counts(const orca::idl::SonarRangeReadings& round) {
+    const auto fired = orca::avoid::RingEar::last_firing(round);
+    return senders_.accepts(round) && counts(round, orca::check_view_ahead(round)) &&
+           (!fired ||
+            counts(round, orca::avoid::check_firing(age_of(*fired), *deaf_after_, "sonar", "fired")));
+  }
+  template <class Reading>
+  bool counts(const Reading& reading, const orca::Status& checked) {
+    return senders_.accepts(checked, orca::object_type<Reading>().name, reading.origin());
+  }
+
+  [[nodiscard]] double age_of(orca::TimePoint stamp) const { return orca::to_seconds(now() - stamp); }
 
   void hear_round(const orca::idl::SonarRangeReadings& round) {
     for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)

@@ -48,12 +48,14 @@ class TraverseDoor final : public orca::Component {
   orca::Outcome work() override {
     if (const orca::Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
     const auto pose = localizer_.get_update();
-    if (!senders_.accepts(*pose) || orca::is_anywhere(pose->covariance())) {
+    if (!senders_.accepts(*pose) ||
+        !senders_.accepts(orca::check_age(age_of(pose->stamp()), kOldest), "RobotPose", pose->origin()) ||
+        orca::is_anywhere(pose->covariance())) {
       leave();
       return orca::again();
     }
     const auto door = door_.latest();
-    if (!door || age_of(*door) > kStale || !robot_.body() || *weight_ <= 0.0) {
+    if (!door || age_of(door->creation_time()) > kStale || !robot_.body() || *weight_ <= 0.0) {
       leave();
     } else {
       approach(*door, orca::plane_pose(*pose));
@@ -61,9 +63,8 @@ class TraverseDoor final : public orca::Component {
     return orca::again();
   }
 
-  template <typename Object>
-  [[nodiscard]] double age_of(const Object& object) {
-    return orca::to_seconds(now() - orca::to_time_point(object.creation_time()));
+  [[nodiscard]] double age_of(const orca::idl::TimeValue& stamp) {
+    return orca::to_seconds(now() - orca::to_time_point(stamp));
   }
 
   // Leaves the robot to other behaviours.
@@ -94,7 +95,7 @@ class TraverseDoor final : public orca::Component {
     const auto scan = laser_.latest();
     if (robot.x > kThrough) {
       motion_.push(orca::dont_care());
-    } else if (!scan || age_of(*scan) > kDeaf || !senders_.accepts(*scan)) {
+    } else if (!scan || age_of(scan->stamp()) > kDeaf || !senders_.accepts(*scan)) {
       motion_.push(orca::full_stop());
     } else {
       drive(robot, look(*scan, X_WR, door.door_width().distance()));
@@ -189,6 +190,7 @@ class TraverseDoor final : public orca::Component {
   static constexpr double kSame = 0.05;    // [m] a door that is so near is the same
   static constexpr double kStale = 0.5;    // [s] after the last word of a door nobody drives there any more
   static constexpr double kDeaf = 0.3;     // [s]
+  static constexpr double kOldest = 1.0;   // [s] An older pose says where the robot was.
   static constexpr double kNear = 1.2;     // [m] from the door, from where on it takes the robot over
   static constexpr double kRunUp = 0.7;    // [m] as who drives there has it (door_run_up)
   static constexpr double kThrough = 0.6;  // [m] behind the door, where it leaves the robot to others

@@ -44,9 +44,42 @@ std::string in_metres(double length) {
   return text;
 }
 
+// A laser may say that it measures from nothing on, but what ends there is a cover.
+double nearest_of(const idl::LaserRangeReadings& scan) {
+  constexpr double kCover = 0.02;  // [m]
+  return std::max(scan.min_range(), kCover);
+}
+
 // Returns whether a beam has met something too near to be measured. One that has measured nothing (NaN) has not.
 bool is_too_near(const idl::LaserRangeReadings& scan, double range) {
-  return range <= scan.min_range() && range < scan.max_range();
+  return range <= nearest_of(scan) && range < scan.max_range();
+}
+
+// The readings of a sensor that look ahead.
+struct View {
+  std::size_t ahead = 0;
+  std::size_t unread = 0;
+
+  void add(double yaw, double range) {
+    constexpr double kAhead = std::numbers::pi / 6.0;
+    if (std::abs(wrapped(yaw)) > kAhead) return;
+    ++ahead;
+    if (std::isnan(range)) ++unread;
+  }
+  [[nodiscard]] Status check() const {
+    if (2 * unread <= ahead) return ok();
+    return fail(Code::invalid_argument,
+                std::to_string(unread) + " of its " + std::to_string(ahead) +
+                    " readings ahead of the robot are no numbers; expected at most half");
+  }
+};
+
+template <class Round>
+Status check_round(const Round& round) {
+  View view;
+  for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
+    view.add(round.poses()[i].rotation().yaw(), round.ranges()[i]);
+  return view.check();
 }
 
 }  // namespace
@@ -67,6 +100,17 @@ bool is_covered(const idl::LaserRangeReadings& scan) {
   return std::ranges::any_of(scan.ranges(), [&](double range) { return is_too_near(scan, range); });
 }
 
+Status check_view_ahead(const idl::LaserRangeReadings& scan) {
+  View view;
+  for (std::size_t i = 0; i < scan.ranges().size(); ++i)
+    view.add(scan.pose().rotation().yaw() + angle_of(scan, i), scan.ranges()[i]);
+  return view.check();
+}
+
+Status check_view_ahead(const idl::SonarRangeReadings& round) { return check_round(round); }
+
+Status check_view_ahead(const idl::InfraredRangeReadings& round) { return check_round(round); }
+
 std::string beams_at_robot(const idl::LaserRangeReadings& scan, const RobotOutline& robot) {
   Sector covered;
   Sector own;
@@ -81,8 +125,8 @@ std::string beams_at_robot(const idl::LaserRangeReadings& scan, const RobotOutli
   }
   std::string text;
   if (covered.count > 0)
-    text = covered.text(scan.ranges().size()) + "are nearer than its min_range of " +
-           in_metres(scan.min_range()) + ": something is at the laser";
+    text = covered.text(scan.ranges().size()) + "are nearer than " + in_metres(nearest_of(scan)) +
+           ": something is at the laser";
   if (own.count > 0)
     text += (text.empty() ? "" : "; ") + own.text(scan.ranges().size()) +
             "end within the robot's own outline: it sees itself; the parameter ignore of its LaserServer "

@@ -64,7 +64,7 @@ class Liar final : public orca::Component {
   }
 
   orca::Outcome work() override {
-    if (!sent_) {
+    if (!sent_ && goto_.connected()) {
       auto goal = orca::make_object<orca::idl::GoalPoint>();
       goal->name() = "round and round";
       goal->coordinate().point().x(*x_);
@@ -167,40 +167,53 @@ class Liar final : public orca::Component {
 
   void spoil(LaserRangeReadings& scan) {
     const double nan = std::nan("");
-    one_of("scan",
-           {{"no beams", [&] { scan.ranges().clear(); }},
-            {"no number", [&] { std::ranges::fill(scan.ranges(), nan); }},
-            {"an impossible increment", [&] { scan.angle_increment(no_number()); }},
-            {"no increment", [&] { scan.angle_increment(0.0); }},
-            {"an increment in degrees", [&] { scan.angle_increment(1.0); }},
-            {"an impossible first angle", [&] { scan.angle_start(no_number()); }},
-            {"an impossible time increment", [&] { scan.time_increment(no_number()); }},
-            {"an impossible place", [&] { scan.pose().position().x(no_number()); }},
-            {"an impossible direction", [&] { scan.pose().rotation().yaw(no_number()); }},
-            {"no stamp", [&] { scan.stamp(orca::idl::TimeValue()); }},
-            {"a stamp of tomorrow", [&] { scan.stamp(orca::to_time_value(now() + 24h)); }}},
-           scan);
+    one_of(
+        "scan",
+        {{"no beams", [&] { scan.ranges().clear(); }},
+         {"no number", [&] { std::ranges::fill(scan.ranges(), nan); }},
+         {"no number ahead", [&] { std::fill(scan.ranges().begin() + 30, scan.ranges().end() - 30, nan); }},
+         {"a number on one side only",
+          [&] { std::fill(scan.ranges().begin() + 1, scan.ranges().end(), nan); }},
+         {"all beams in one direction", [&] { scan.angle_increment(1e-310); }},
+         {"a place in millimetres", [&] { scan.pose().position().x(210.0); }},
+         {"a stamp of two seconds ago", [&] { scan.stamp(orca::to_time_value(now() - 2s)); }},
+         {"an impossible increment", [&] { scan.angle_increment(no_number()); }},
+         {"no increment", [&] { scan.angle_increment(0.0); }},
+         {"an increment in degrees", [&] { scan.angle_increment(1.0); }},
+         {"an impossible first angle", [&] { scan.angle_start(no_number()); }},
+         {"an impossible time increment", [&] { scan.time_increment(no_number()); }},
+         {"an impossible place", [&] { scan.pose().position().x(no_number()); }},
+         {"an impossible direction", [&] { scan.pose().rotation().yaw(no_number()); }},
+         {"no stamp", [&] { scan.stamp(orca::idl::TimeValue()); }},
+         {"a stamp of tomorrow", [&] { scan.stamp(orca::to_time_value(now() + 24h)); }}},
+        scan);
   }
 
   void spoil(SonarRangeReadings& round) {
     const double nan = std::nan("");
-    one_of("round",
-           {{"no ranges", [&] { round.ranges().clear(); }},
-            {"no number", [&] { std::ranges::fill(round.ranges(), nan); }},
-            {"no poses", [&] { round.poses().clear(); }},
-            {"impossible places",
-             [&] {
-               for (auto& pose : round.poses()) pose.position().y(no_number());
-             }},
-            {"impossible directions",
-             [&] {
-               for (auto& pose : round.poses()) pose.rotation().yaw(no_number());
-             }},
-            {"old stamps",
-             [&] {
-               for (auto& stamp : round.stamps()) stamp = orca::idl::TimeValue();
-             }}},
-           round);
+    one_of(
+        "round",
+        {{"no ranges", [&] { round.ranges().clear(); }},
+         {"no number", [&] { std::ranges::fill(round.ranges(), nan); }},
+         {"no number in front", [&] { std::fill(round.ranges().begin(), round.ranges().begin() + 8, nan); }},
+         {"no poses", [&] { round.poses().clear(); }},
+         {"impossible places",
+          [&] {
+            for (auto& pose : round.poses()) pose.position().y(no_number());
+          }},
+         {"impossible directions",
+          [&] {
+            for (auto& pose : round.poses()) pose.rotation().yaw(no_number());
+          }},
+         {"old stamps",
+          [&] {
+            for (auto& stamp : round.stamps()) stamp = orca::idl::TimeValue();
+          }},
+         {"stamps of tomorrow",
+          [&] {
+            for (auto& stamp : round.stamps()) stamp = orca::to_time_value(now() + 24h);
+          }}},
+        round);
   }
 
   // Any way, or one of the limits, which scans and rounds have in common.
@@ -209,6 +222,7 @@ class Liar final : public orca::Component {
     ways.push_back({"an impossible least range", [&] { readings.min_range(no_number()); }});
     ways.push_back({"an impossible largest range", [&] { readings.max_range(no_number()); }});
     ways.push_back({"a largest range of 0", [&] { readings.max_range(0.0); }});
+    ways.push_back({"a largest range of almost 0", [&] { readings.max_range(1e-310); }});
     ways.push_back({"a negative least range", [&] { readings.min_range(-1.0); }});
     one_of(object, ways);
   }
@@ -220,6 +234,9 @@ class Liar final : public orca::Component {
                         {"an impossible speed", [&] { odometry.translational_velocity(no_number()); }},
                         {"an impossible sideways speed", [&] { odometry.sideways_velocity(no_number()); }},
                         {"an impossible turn rate", [&] { odometry.steering_velocity(no_number()); }},
+                        {"a speed in thousands", [&] { odometry.translational_velocity(300.0); }},
+                        {"an old stamp", [&] { odometry.stamp(orca::to_time_value(now() - 10s)); }},
+                        {"a stamp of tomorrow", [&] { odometry.stamp(orca::to_time_value(now() + 24h)); }},
                         {"a negative variance", [&] { odometry.covariance()[4] = -1.0; }}});
   }
 
@@ -229,6 +246,8 @@ class Liar final : public orca::Component {
                     {"an impossible orientation", [&] { pose.orientation(no_number()); }},
                     {"an impossible speed", [&] { pose.translational_velocity(no_number()); }},
                     {"an impossible turn rate", [&] { pose.steering_velocity(no_number()); }},
+                    {"an old stamp", [&] { pose.stamp(orca::to_time_value(now() - 10s)); }},
+                    {"a stamp of tomorrow", [&] { pose.stamp(orca::to_time_value(now() + 24h)); }},
                     {"a covariance without a number", [&] { pose.covariance()[0] = std::nan(""); }}});
   }
 
@@ -250,7 +269,7 @@ class Liar final : public orca::Component {
   Relay<MotionCommand> motion_{*this, "motion"};
   orca::PushProxy<RobotPose> truth_{*this, "truth"};
   orca::SendProxy<orca::idl::GoalPoint> goto_{
-      *this, "goto", {.text = "Who drives; it is to circle around (x, y)."}};
+      *this, "goto", {.text = "Who drives; it is to circle around (x, y).", .optional = true}};
   orca::Param<std::int64_t> lies_{*this, "lies", 12, {.min = 1.0}};
   orca::Param<std::string> fault_{*this, "fault", "", {.choices = {"", "posts", "covered", "sonars_off"}}};
   orca::Param<double> x_{*this, "x", 7.0, {.unit = "m"}};

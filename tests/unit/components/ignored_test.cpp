@@ -82,6 +82,6 @@ TEST_CASE("the beams that hold a robot are said by their number and angles", "[l
   scan.ranges()[0] = 0.2;
   scan.ranges()[50] = std::nan("");
   CHECK_THAT(beams_at_robot(scan, {.radius = 0.3}),
-             Contains("3 of its 181 beams, from 10 to 12 deg, are nearer than its min_range of 0.02 m") &&
+             Contains("3 of its 181 beams, from 10 to 12 deg, are nearer than 0.02 m") &&
                  Contains("1 of its 181 beams, from -90 to -90 deg, end within the robot's own outline"));
 }

@@ -74,8 +74,24 @@ TEST_CASE("a scan with angles, limits or a pose that no laser has counts as none
   }
 }
 
+TEST_CASE(
+    "a scan of a sensor that sees no farther than a hair, or is farther from its robot than any, counts as "
+    "none",
+    "[idl][checks]") {
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.min_range(0.0), s.max_range(1e-310); }), Contains("max_range"));
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.min_range(0.0), s.max_range(0.05); }),
+             Contains("at least 0.1 m"));
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.pose().position().x(210.0); }), Contains("in metres"));
+  CHECK_THAT(fault_of(sonar_round(),
+                      [](auto& round) {
+                        for (auto& pose : round.poses()) pose.position().y(-210.0);
+                      }),
+             Contains("finite pose"));
+}
+
 TEST_CASE("a scan whose beams are all one, or more than two turns, counts as none", "[idl][checks]") {
   CHECK_THAT(fault_of(scan(), [](auto& s) { s.angle_increment(0.0); }), Contains("angles that differ"));
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.angle_increment(1e-310); }), Contains("angles that differ"));
   CHECK_THAT(fault_of(scan(std::vector<double>(181, 1.0)), [](auto& s) { s.angle_increment(1.0); }),
              Contains("at most two turns"));
   CHECK(fault_of(scan({1.0}), [](auto& s) { s.angle_increment(0.0); }).empty());

@@ -7,6 +7,7 @@
 
 #include "orca/avoidance/avoider.hpp"
 #include "orca/avoidance/ring_ear.hpp"
+#include "orca/geometry/objects/own_beams.hpp"
 
 namespace orca::avoid {
 
@@ -42,7 +43,8 @@ class RingAvoider : public Avoider {
   // Sensors may measure one after the other, and the robot moves meanwhile.
   bool listen(EchoMemory& memory) override {
     const auto readings = ring_.get_update();
-    if (!is_valid(*readings) || !measures(*readings)) return false;
+    if (!is_valid(*readings) || !is_valid(*readings, check_view_ahead(*readings)) || !measures(*readings))
+      return false;
     ear_.take(*readings, now(), !remembers(),
               [&](Vec2 echo, TimePoint fired) { memory.hear(moved_since(echo, age_of(fired)), keep()); });
     return true;
@@ -51,18 +53,8 @@ class RingAvoider : public Avoider {
   // Returns whether a sensor has measured lately. A base reports its ring even if the sensors are off.
   bool measures(const Round& readings) {
     const auto last = RingEar::last_firing(readings);
-    return !last || is_valid(readings, last_firing(age_of(*last)));
-  }
-
-  // Checks the age of the last measurement. A driver that does not know which sensor has measured takes a range that stays the same
-  // for a round old.
-  [[nodiscard]] Status last_firing(double age) const {
-    constexpr double kRound = 0.5;  // [s] in which the slowest known ring measures once
-    const double limit = deaf_after() + kRound;
-    if (age <= limit) return check_age(age, limit);
-    const std::string one = words_.one;
-    return fail(Code::invalid_argument, "no " + one + " has " + words_.has_done + " for " +
-                                            std::to_string(age) + " s; are the " + one + "s off?");
+    return !last ||
+           is_valid(readings, check_firing(age_of(*last), deaf_after(), words_.one, words_.has_done));
   }
 
   [[nodiscard]] std::string what_holds() override {

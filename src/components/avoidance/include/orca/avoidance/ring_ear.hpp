@@ -3,15 +3,34 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "orca/avoidance/echo_memory.hpp"
+#include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
+#include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 
 namespace orca::avoid {
+
+/// Checks when a sensor of a ring has measured last. A base reports its ring even if the sensors are off. A driver that does not know
+/// which sensor has measured takes a range that stays the same for a round old.
+/// @param age       [s] since then; negative: it was measured later than now.
+/// @param most      [s] that a reading may have.
+/// @param one       a sensor, for people: "sonar".
+/// @param has_done  the deed of one, done: "fired".
+/// @errors  invalid_argument.
+/// @thread  pure function; any thread.
+[[nodiscard]] inline Status check_firing(double age, double most, const std::string& one,
+                                         const std::string& has_done) {
+  constexpr double kRound = 0.5;  // [s] in which the slowest known ring measures once
+  if (age <= most + kRound) return check_age(age, most + kRound);
+  return fail(Code::invalid_argument, "no " + one + " has " + has_done + " for " + std::to_string(age) +
+                                          " s; are the " + one + "s off?");
+}
 
 /// The ear for one ring of sonars, or of infrared sensors: it takes each firing once. A base reports its whole ring more often than the ring makes its
 /// round, and a repeated echo would confirm itself, each time at another place, as the motion since it was heard is a guess.

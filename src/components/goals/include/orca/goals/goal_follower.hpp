@@ -17,6 +17,7 @@
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
 
 namespace orca::go {
 
@@ -90,6 +91,12 @@ class GoalFollower : public Component {
   template <class Reading>
   [[nodiscard]] bool is_valid(const Reading& reading, const Status& checked) {
     return senders_.accepts(checked, object_type<Reading>().name, reading.origin());
+  }
+  /// Returns whether a reading says where the robot is, and not where it was a second ago; if it does not, says so in the log.
+  template <class Reading>
+  [[nodiscard]] bool is_of_now(const Reading& reading) {
+    constexpr double kOldest = 1.0;  // [s]
+    return is_valid(reading, check_age(to_seconds(now() - to_time_point(reading.stamp())), kOldest));
   }
 
  private:
