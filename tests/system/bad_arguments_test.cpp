@@ -47,6 +47,8 @@ TEST_CASE("an option without its value, or with a wrong one, says what it expect
   check_refused({kGraph, "--until", "-5 s"}, {"--until", "-5"});
   check_refused({kGraph, "--log", "lots"}, {"--log", "lots", "warning"});
   check_refused({kGraph, "--trace", ""}, {"--trace", "a file"});
+  check_refused({kGraph, "--name", ""}, {"--name", "a name"});
+  check_refused({kGraph, "--machine", ""}, {"--machine", "a name"});
   check_refused({kGraph, "--picture", ".svg"}, {"--picture", "a file"});
   check_refused({kGraph, "--record", ".csv=goto.ArrivedPush"}, {"--record", "FILE.csv=PORT"});
   check_refused({kGraph, "--picture", "run.gif"}, {"--picture", ".svg", ".png", "run.gif"});

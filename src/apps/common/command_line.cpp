@@ -30,13 +30,21 @@ std::string range_of(const OptionSpec& option) {
   return option.most == INT64_MAX ? from + " on" : from + " to " + std::to_string(option.most);
 }
 
+// Returns what the value of an option names, which must not be empty.
+std::optional<std::string> named_by(const OptionSpec& option) {
+  if (option.value == "FILE") return "a file";
+  if (option.value == "DIR") return "a folder";
+  return option.value == "NAME" || option.value == "USER" ? std::optional<std::string>("a name")
+                                                          : std::nullopt;
+}
+
 // Returns what the value of an option must be, if it is not.
 std::optional<std::string> expected_instead(const OptionSpec& option, const std::string& value) {
   if (option.value == "N") {
     const Result<std::int64_t> number = xml::parse_integer(value);
     if (!number || *number < option.least || *number > option.most) return range_of(option);
-  } else if (option.value == "FILE" || option.value == "DIR") {
-    if (value.empty()) return option.value == "FILE" ? "a file" : "a folder";
+  } else if (const auto named = named_by(option); named) {
+    if (value.empty()) return named;
   } else if (option.value == "FOLDER") {
     std::error_code unknown;
     if (!std::filesystem::is_directory(value, unknown)) return "a folder that exists";
