@@ -64,4 +64,22 @@ Wish wish_of(const ObjectPtr<idl::MotionCommand>& command) {
           command->weight(), left};
 }
 
+Loan<idl::MotionCommand> command_of(const Decision& decision, double steer_gain) {
+  const Wish& wish = decision.command;
+  if (decision.verdict != Verdict::fused) return full_stop();
+  if (wish.left != 0.0) return slide(wish.speed, wish.left, as_rate(wish, steer_gain), wish.weight);
+  if (wish.kind == Wish::Kind::direction) return head(wish.value, wish.speed, wish.weight);
+  return turn(wish.value, wish.speed, wish.weight);
+}
+
+void describe(const Voice& said, const Listened& behaviour, double share, idl::FusionVoice& voice) {
+  const bool heard = said.said != Voice::Said::nothing;
+  voice.behaviour() = said.name;
+  voice.heard(heard);
+  voice.kind(heard ? behaviour.last->kind() : idl::DONTCARE);
+  voice.age(heard ? said.age : 0.0);
+  voice.weight(said.said == Voice::Said::wish ? said.wish.weight : 0.0);
+  voice.share(share);
+}
+
 }  // namespace orca::fuse

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "decide.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/idl/motion.hpp"
@@ -75,5 +76,12 @@ class Ear {
 
 /// Returns the wish that a command holds, at most as fast as doubt_about() believes.
 [[nodiscard]] Wish wish_of(const ObjectPtr<idl::MotionCommand>& command);
+
+/// Returns the command that a decision makes: a full stop, unless it is a wish.
+[[nodiscard]] Loan<idl::MotionCommand> command_of(const Decision& decision, double steer_gain);
+
+/// Says what a behaviour had to do with a decision.
+/// @param share [1]  of its wish in the command.
+void describe(const Voice& said, const Listened& behaviour, double share, idl::FusionVoice& voice);
 
 }  // namespace orca::fuse

@@ -80,8 +80,22 @@ class MotionCommandFuser final : public orca::Component {
     explain(send());  // nobody is listened to any more: the robot must not go on with the last command
   }
 
-  Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) {
-    if (Status chosen = choose(list->clients()); !chosen.ok()) return chosen;
+  // Whoever sent the list does not send it again.
+  void save_state(orca::StateWriter& state) const override {
+    std::vector<std::string> names;
+    for (const Listened& behaviour : listened_) names.push_back(behaviour.name);
+    state.write(names);
+  }
+  Status load_state(orca::StateReader& state) override {
+    std::vector<std::string> names;
+    if (Status read = state.read(names); !read.ok()) return read;
+    return listen_to(names);
+  }
+
+  Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) { return listen_to(list->clients()); }
+
+  Status listen_to(const std::vector<std::string>& names) {
+    if (Status chosen = choose(names); !chosen.ok()) return chosen;
     for (const Source& source : motion_.sources()) {
       const bool listed = std::any_of(listened_.begin(), listened_.end(),
                                       [&](const Listened& behaviour) { return behaviour.source == source; });
@@ -195,18 +209,9 @@ class MotionCommandFuser final : public orca::Component {
     return orca::to_seconds(now() - orca::to_time_point(command.creation_time()));
   }
 
-  orca::Loan<orca::idl::MotionCommand> command() const {
-    const Wish& wish = decision_.command;
-    if (decision_.verdict != Verdict::fused) return orca::full_stop();
-    if (wish.left != 0.0)
-      return orca::slide(wish.speed, wish.left, as_rate(wish, rules_.ballot.steer_gain), wish.weight);
-    if (wish.kind == Wish::Kind::direction) return orca::head(wish.value, wish.speed, wish.weight);
-    return orca::turn(wish.value, wish.speed, wish.weight);
-  }
-
   // Sends the command and returns it as it was sent.
   orca::idl::MotionCommand send() {
-    orca::Loan<orca::idl::MotionCommand> loan = command();
+    orca::Loan<orca::idl::MotionCommand> loan = orca::fuse::command_of(decision_, rules_.ballot.steer_gain);
     const orca::idl::MotionCommand sent = *loan;
     const Status taken = base_.send(std::move(loan));
     if (!taken.ok() && !refused_) log_warning("the base refuses commands: " + taken.error().text());
@@ -222,19 +227,9 @@ class MotionCommandFuser final : public orca::Component {
     reason->decided_by() = decision_.decided_by;
     reason->command(sent);
     reason->voices().resize(voices_.size());
-    for (std::size_t i = 0; i < voices_.size(); ++i) describe(i, reason->voices()[i]);
+    for (std::size_t i = 0; i < voices_.size(); ++i)
+      orca::fuse::describe(voices_[i], listened_[i], decision_.shares[i], reason->voices()[i]);
     reason_.push(std::move(reason));
-  }
-
-  void describe(std::size_t i, orca::idl::FusionVoice& voice) const {
-    const Voice& said = voices_[i];
-    const bool heard = said.said != Voice::Said::nothing;
-    voice.behaviour() = said.name;
-    voice.heard(heard);
-    voice.kind(heard ? listened_[i].last->kind() : orca::idl::DONTCARE);
-    voice.age(heard ? said.age : 0.0);
-    voice.weight(said.said == Voice::Said::wish ? said.wish.weight : 0.0);
-    voice.share(decision_.shares[i]);
   }
 
   // Reports silence and its end, but not the moment before all have spoken for the first time.
