@@ -131,4 +131,15 @@ std::optional<Finding> LimitWatch::look() {
   return Finding{idl::RESOURCE_LIMIT, "changed " + changes};
 }
 
+std::vector<std::unique_ptr<Watch>> make_process_watches() {
+  std::vector<std::unique_ptr<Watch>> all;
+  all.push_back(std::make_unique<LocaleWatch>());
+  all.push_back(std::make_unique<SignalHandlerWatch>());
+  all.push_back(std::make_unique<TerminateWatch>());
+  all.push_back(std::make_unique<FolderWatch>());
+  all.push_back(std::make_unique<UmaskWatch>());
+  all.push_back(std::make_unique<LimitWatch>());
+  return all;
+}
+
 }  // namespace orca::host

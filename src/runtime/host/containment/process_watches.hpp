@@ -6,6 +6,7 @@
 #include <sys/types.h>
 
 #include <exception>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -82,5 +83,8 @@ class LimitWatch final : public Watch {
   };
   std::vector<Limit> reference_;
 };
+
+/// Makes one of each of these watches.
+[[nodiscard]] std::vector<std::unique_ptr<Watch>> make_process_watches();
 
 }  // namespace orca::host

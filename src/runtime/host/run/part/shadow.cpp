@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,40 +37,42 @@ constexpr const char* kLaps = "its laps, in the shadow of the present one,";
 // What the copy says at its end: a mark, then a text.
 enum class Mark : char { refused = 'r', well = 'w' };
 
-std::string marked(Mark mark, const std::string& text) { return static_cast<char>(mark) + text; }
-
-// What all components of a process share. One that changes it can end the process of the system, or hinder others there.
-class Shared {
+// What the copy says, which is the end of it, and its watch over what all components of a process share: one that changes it could end the process of the
+// system, or hinder others there.
+class Verdict {
  public:
-  void keep() {
-    for (Watch* const watch : all()) watch->keep();
+  explicit Verdict(TrialLine& line) : line_(line) {
+    for (const auto& watch : watches_) watch->keep();
   }
-  // Returns what has been changed: the words after "has"; empty if nothing has.
-  [[nodiscard]] std::string look() {
+
+  void step(const char* name) { line_.step(name); }
+  std::string ask(const std::string& question) { return line_.ask(question); }
+  void refuse(const std::string& why) { say(Mark::refused, why); }
+  // @param what  it has been given and has pushed.
+  void take(const std::string& what) { say(Mark::well, what); }
+  void refuse_changes() {
     std::vector<std::string> deeds;
-    for (Watch* const watch : all())
+    for (const auto& watch : watches_)
       if (const auto found = watch->look()) deeds.push_back(found->deed);
-    return joined(deeds, ", ");
+    if (!deeds.empty())
+      refuse("it has " + joined(deeds, ", ") + "; a component must leave alone what all share");
   }
 
  private:
-  [[nodiscard]] std::array<Watch*, 6> all() {
-    return {&locale_, &terminate_, &handlers_, &folder_, &umask_, &limits_};
+  void say(Mark mark, const std::string& text) {
+    line_.find(static_cast<char>(mark) + text);
+    line_.end();
   }
 
-  LocaleWatch locale_;
-  TerminateWatch terminate_;
-  SignalHandlerWatch handlers_;
-  FolderWatch folder_;
-  UmaskWatch umask_;
-  LimitWatch limits_;
+  TrialLine& line_;
+  const std::vector<std::unique_ptr<Watch>> watches_ = make_process_watches();
 };
 
 // The new object in the copy of the process.
 class Shadow {
  public:
-  Shadow(const ShadowOrder& order, std::vector<SeenObject>& seen, Executive& executive, TrialLine& line)
-      : order_(order), seen_(seen), executive_(executive), line_(line) {}
+  Shadow(const ShadowOrder& order, std::vector<SeenObject>& seen, Executive& executive, Verdict& verdict)
+      : order_(order), seen_(seen), executive_(executive), verdict_(verdict) {}
 
   Status make(PluginCatalogue& catalogue, LoadedType type) {
     type_ = std::move(type);
@@ -86,7 +87,6 @@ class Shadow {
     settings.params = std::move(params).value();
     settings.on_demand = false;
     settings.autonomous = true;
-    shared_.keep();
     object_ = std::make_unique<ComponentInstance>(
         quiet_.context(), std::move(settings), [this] { return Result<LoadedType>(type_); },
         [&catalogue](LoadedType gone) { return catalogue.release(std::move(gone)); }, nullptr);
@@ -98,14 +98,14 @@ class Shadow {
   void work(PluginCatalogue& catalogue) {
     const TimePoint first = seen_.empty() ? executive_.now() : std::max(executive_.now(), seen_[0].time);
     wait_until_holds(executive_, *changed_, first, [] { return false; });
-    line_.step("its configure()");
+    verdict_.step("its configure()");
     object_->start();
     reach(ComponentState::idle);
-    line_.step(kLaps);
+    verdict_.step(kLaps);
     object_->open_gate();
     reach(ComponentState::work);
     follow(executive_.now());
-    refuse_changes();
+    verdict_.refuse_changes();
     const std::string well = std::to_string(given_) + " " + std::to_string(pushed());
     obey(
         "its suspend()", [&] { return object_->order_suspend(); }, Refusal::is_none);
@@ -113,11 +113,10 @@ class Shadow {
         "its resume()", [&] { return object_->order_resume(); }, Refusal::is_none);
     obey(
         "its save_state() or load_state()", [&] { return object_->order_state_check(); }, Refusal::counts);
-    refuse_changes();
-    line_.step("its end");
+    verdict_.refuse_changes();
+    verdict_.step("its end");
     end(catalogue);
-    line_.find(marked(Mark::well, well));
-    line_.end();
+    verdict_.take(well);
   }
 
  private:
@@ -143,17 +142,7 @@ class Shadow {
   }
 
   void conclude_if_failed() {
-    if (object_->has_failed()) refuse(object_->failure());
-  }
-
-  void refuse_changes() {
-    if (const std::string deeds = shared_.look(); !deeds.empty())
-      refuse("it has " + deeds + "; a component must leave alone what all share");
-  }
-
-  void refuse(const std::string& why) {
-    line_.find(marked(Mark::refused, why));
-    line_.end();
+    if (object_->has_failed()) verdict_.refuse(object_->failure());
   }
 
   enum class Refusal { is_none, counts };  // an order that does not suit the object's state is no fault of it
@@ -161,24 +150,24 @@ class Shadow {
   // Lets the object carry out an order, unless it is in a long lap. The step is named first: the object may crash at once.
   template <class Give>
   void obey(const char* step, Give give_order, Refusal refusal) {
-    line_.step(step);
+    verdict_.step(step);
     const std::shared_ptr<Order> order = give_order();
     wait_until_holds(executive_, *changed_, saturating_add(executive_.now(), kMostTime),
                      [&] { return order->done() || object_->has_failed(); });
     conclude_if_failed();
     if (refusal == Refusal::counts && order->done() && !order->result().ok())
-      refuse(order->result().error().text());
+      verdict_.refuse(order->result().error().text());
   }
 
   // Stops the object, destroys it and unloads its code.
   void end(PluginCatalogue& catalogue) {
     object_->request_exit();
-    if (!object_->join_until(saturating_add(executive_.now(), kMostTime))) refuse("it does not end");
+    if (!object_->join_until(saturating_add(executive_.now(), kMostTime))) verdict_.refuse("it does not end");
     conclude_if_failed();
     object_.reset();
-    refuse_changes();
+    verdict_.refuse_changes();
     if (const Status gone = catalogue.release(std::exchange(type_, {})); !gone.ok())
-      refuse(gone.error().text());
+      verdict_.refuse(gone.error().text());
   }
 
   void give(SeenObject& seen) {
@@ -214,13 +203,12 @@ class Shadow {
   const ShadowOrder& order_;
   std::vector<SeenObject>& seen_;
   Executive& executive_;
-  TrialLine& line_;
+  Verdict& verdict_;
   const std::unique_ptr<Event> changed_ = executive_.make_event();
   std::atomic<std::uint64_t> missions_{0};
   QuietRun quiet_{executive_, "shadow", kSeed, [this] { changed_->notify(); }, missions_};
   OuterOffers offers_{executive_, nullptr};
-  TrialServers servers_{[this](const std::string& question) { return line_.ask(question); }};
-  Shared shared_;
+  TrialServers servers_{[this](const std::string& question) { return verdict_.ask(question); }};
   LoadedType type_;
   Backdrop backdrop_{executive_};
   std::unique_ptr<ComponentInstance> object_;
@@ -239,24 +227,21 @@ void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<See
           TrialLine& line) {
   LastWords::leave_copy();
   limit_memory();
-  const auto refuse = [&line](const Error& error) {
-    line.find(marked(Mark::refused, error.text()));
-    line.end();
-  };
-  line.step("its static initialisation or its constructor");
+  auto& verdict = *new Verdict(line);
+  verdict.step("its static initialisation or its constructor");
   auto& catalogue = *new PluginCatalogue(plugin::PluginIndex({}));
   Result<LoadedType> type =
       catalogue.acquire(std::move(plugin), PluginKind::component, order.type, plugin::Trial::done);
-  if (!type) return refuse(type.error());
+  if (!type) return verdict.refuse(type.error().text());
   const bool needs_machine = type->library != nullptr && !type->library->virtual_time_faults().empty();
   const auto options = needs_machine ? ExecutiveOptions{ClockKind::steady, Backend::thread}
                                      : ExecutiveOptions{ClockKind::virtual_time, Backend::fiber};
   Result<std::unique_ptr<Executive>> made = make_executive(options);
   if (!made) return;
   Executive& executive = *std::move(made).value().release();
-  auto& shadow = *new Shadow(order, seen, executive, line);
+  auto& shadow = *new Shadow(order, seen, executive, verdict);
   if (const Status ready = shadow.make(catalogue, std::move(*type)); !ready.ok())
-    return refuse(ready.error());
+    return verdict.refuse(ready.error().text());
   executive.run([&] { shadow.work(catalogue); });
 }
 

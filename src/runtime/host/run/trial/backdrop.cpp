@@ -2,11 +2,19 @@
 #include "backdrop.hpp"
 
 #include "orca/patterns/endpoints/push_server_endpoint.hpp"
+#include "orca/patterns/endpoints/query_server_endpoint.hpp"
+#include "orca/patterns/endpoints/send_server_endpoint.hpp"
 #include "orca/patterns/local/local_links.hpp"
 #include "run/system/component_making.hpp"
 #include "run/system/topics.hpp"
 
 namespace orca::host {
+namespace {
+
+// Why a peer in the backdrop takes and answers nothing.
+constexpr const char* kUnheard = "in an exchange, what the object says that does not work reaches nobody";
+
+}  // namespace
 
 void Backdrop::keep_places(const ComponentInstance& running, const ComponentInstance& object) {
   for (const PortContract& contract : object.parts().ports.contracts()) {
@@ -63,7 +71,10 @@ Endpoint* Backdrop::counterpart(const graph::PortRef& ref, const Endpoint& of) {
   contract.role = contract.role == Role::server ? Role::proxy : Role::server;
   contract.many = contract.role == Role::proxy;  // whatever the real one takes
   peer->ports.add(contract);
-  return peer->ports.find(ref.port);
+  Endpoint* const made = peer->ports.find(ref.port);
+  if (auto* const server = dynamic_cast<SendServerEndpoint*>(made)) server->close(kUnheard);
+  if (auto* const server = dynamic_cast<QueryServerEndpoint*>(made)) server->close(kUnheard);
+  return made;
 }
 
 }  // namespace orca::host
