@@ -203,8 +203,9 @@ class CollisionMonitor final : public orca::Component {
     return {crossing.share, verdict.at_once || crossing.at_once, verdict.post, true};
   }
 
+  [[nodiscard]] double age(TimePoint stamp) const { return orca::to_seconds(now() - stamp); }
   [[nodiscard]] double age_of(const orca::idl::MovingThings& moving) const {
-    return orca::to_seconds(now() - orca::to_time_point(moving.stamp()));
+    return age(orca::to_time_point(moving.stamp()));
   }
 
   // Returns who moves, in the frame of the robot.
@@ -255,9 +256,8 @@ class CollisionMonitor final : public orca::Component {
 
   void follow(const orca::idl::Odometry& odometry) {
     const TimePoint stamp = orca::to_time_point(odometry.stamp());
-    moves_ = senders_.accepts(odometry) &&
-             senders_.accepts(orca::check_age(orca::to_seconds(now() - stamp), kDeafAfter), "Odometry",
-                              odometry.origin());
+    moves_ =
+        senders_.accepts(odometry) && senders_.accepts(odometry, orca::check_age(age(stamp), kDeafAfter));
     if (!moves_) return;
     if (odometer_.begins_anew(odometry)) {  // what it has seen lies elsewhere now
       surroundings_.clear();
@@ -281,14 +281,11 @@ class CollisionMonitor final : public orca::Component {
 
   void see(Sensor<LaserRangeReadings>& laser, const ObjectPtr<LaserRangeReadings>& scan) {
     const TimePoint stamp = orca::to_time_point(scan->stamp());
-    const bool counts =
-        senders_.accepts(*scan) &&
-        senders_.accepts(orca::check_view_ahead(*scan), "LaserRangeReadings", scan->origin()) &&
-        senders_.accepts(orca::check_age(orca::to_seconds(now() - stamp), limit_of(laser)),
-                         "LaserRangeReadings", scan->origin());
-    laser.heard = counts ? std::optional(now()) : std::nullopt;
+    const bool sound = senders_.accepts(*scan) && senders_.accepts(*scan, orca::check_view_ahead(*scan)) &&
+                       senders_.accepts(*scan, orca::check_age(age(stamp), limit_of(laser)));
+    laser.heard = sound ? std::optional(now()) : std::nullopt;
     laser.waiting = scan;
-    if (!counts) return;
+    if (!sound) return;
     surroundings_.see(laser.source.path(), {.ranges = {scan->ranges().begin(), scan->ranges().end()},
                                             .max_range = scan->max_range(),
                                             .angle_start = scan->angle_start(),
@@ -301,9 +298,8 @@ class CollisionMonitor final : public orca::Component {
   void hear(Sensor<SonarRangeReadings>& ring, const ObjectPtr<SonarRangeReadings>& round) {
     ring.heard = senders_.accepts(*round) ? std::optional(now()) : std::nullopt;
     if (!ring.heard) return;
-    const std::size_t count = std::min(round->ranges().size(), round->poses().size());
-    ring.fired.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
+    ring.fired.resize(std::min(round->ranges().size(), round->poses().size()));
+    for (std::size_t i = 0; i < ring.fired.size(); ++i) {
       const bool has_stamp = i < round->stamps().size();
       const TimePoint fired = has_stamp ? orca::to_time_point(round->stamps()[i]) : now();
       if (fired == ring.fired[i]) continue;

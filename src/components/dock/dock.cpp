@@ -56,8 +56,7 @@ class Dock final : public orca::Component {
     while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
     while (failed_.new_data_arrived()) hear(*failed_.get_update());
     const double age = orca::to_seconds(now() - orca::to_time_point(here->stamp()));
-    const bool knows = senders_.accepts(*here) &&
-                       senders_.accepts(orca::check_age(age, kOldest), "RobotPose", here->origin()) &&
+    const bool knows = senders_.accepts(*here) && senders_.accepts(*here, orca::check_age(age, kOldest)) &&
                        !orca::is_anywhere(here->covariance());
     if (knows) pose_ = orca::plane_pose(*here), known_at_ = now();
     if (!waiting_.empty() && leave()) return orca::again();

@@ -62,8 +62,7 @@ class FollowPerson final : public orca::Component {
   std::vector<Person> people() {
     std::vector<Person> people;
     const auto moving = moving_.latest();
-    if (!moving || !senders_.accepts(orca::check_reading(*moving), "MovingThings", moving->origin()))
-      return people;
+    if (!moving || !senders_.accepts(*moving, orca::check_reading(*moving))) return people;
     const double age = orca::to_seconds(now() - orca::to_time_point(moving->stamp()));
     for (const orca::idl::MovingThing& thing : moving->things())
       people.push_back({thing.number(),

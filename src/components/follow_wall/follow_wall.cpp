@@ -59,7 +59,8 @@ class FollowWall final : public orca::Component {
   // Returns whether it knows how the robot moves.
   bool follow(const orca::idl::Odometry& odometry) {
     if (!senders_.accepts(odometry) ||
-        !counts(odometry, orca::check_age(age_of(orca::to_time_point(odometry.stamp())), kDeafAfter)))
+        !senders_.accepts(odometry,
+                          orca::check_age(age_of(orca::to_time_point(odometry.stamp())), kDeafAfter)))
       return false;
     if (odometer_.begins_anew(odometry)) {  // what it remembers lies elsewhere now
       memory_.clear();
@@ -76,19 +77,14 @@ class FollowWall final : public orca::Component {
 
   void listen(const orca::idl::SonarRangeReadings& round) {
     const auto last = orca::avoid::RingEar::last_firing(round);
-    const bool sound =
-        senders_.accepts(round) && counts(round, orca::check_view_ahead(round)) &&
-        (!last || counts(round, orca::avoid::check_firing(age_of(*last), kDeafAfter, "sonar", "fired")));
+    const bool sound = senders_.accepts(round) && senders_.accepts(round, orca::check_view_ahead(round)) &&
+                       (!last || senders_.accepts(round, orca::avoid::check_firing(age_of(*last), kDeafAfter,
+                                                                                   "sonar", "fired")));
     heard_at_ = sound ? std::optional(now()) : std::nullopt;
     if (!sound || !moved_at_) return;
     ear_.take(round, now(), false, [&](orca::Vec2 echo, orca::TimePoint fired) {
       memory_.hear(seen_from(orca::moved(twist_, orca::to_seconds(*moved_at_ - fired)), echo), kKeep);
     });
-  }
-
-  template <class Reading>
-  bool counts(const Reading& reading, const orca::Status& checked) {
-    return senders_.accepts(checked, orca::object_type<Reading>().name, reading.origin());
   }
 
   [[nodiscard]] double age_of(orca::TimePoint stamp) const { return orca::to_seconds(now() - stamp); }

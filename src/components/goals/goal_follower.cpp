@@ -338,13 +338,14 @@ void GoalFollower::stop() {
 std::optional<Pose2> GoalFollower::take_pose() {
   if (!localizer_.connected()) {
     const auto odometry = odometry_.get_update();
-    if (!is_valid(*odometry) || !is_of_now(*odometry)) return std::nullopt;
+    if (!is_valid(*odometry) || !is_valid(*odometry, check_present(now(), odometry->stamp())))
+      return std::nullopt;
     note_odometry(*odometry);
     note_pose(odometry->stamp(), trust_.covariance_of(*odometry));
     return plane_pose(*odometry);
   }
   const auto pose = localizer_.get_update();
-  if (!is_valid(*pose) || !is_of_now(*pose)) return std::nullopt;
+  if (!is_valid(*pose) || !is_valid(*pose, check_present(now(), pose->stamp()))) return std::nullopt;
   note_pose(pose->stamp(), pose->covariance());
   return plane_pose(*pose);
 }

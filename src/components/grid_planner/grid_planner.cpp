@@ -159,7 +159,8 @@ class GridPlanner final : public orca::go::GoalFollower {
     if (wants_fix_ && !is_new) return false;
     auto fix = localizer().get_update();
     while (localizer().new_data_arrived()) fix = localizer().get_update();
-    if (!is_valid(*fix) || (is_new && !is_of_now(*fix))) return false;
+    if (!is_valid(*fix) || (is_new && !is_valid(*fix, orca::go::check_present(now(), fix->stamp()))))
+      return false;
     if (is_new || !X_MO_) take_fix(*fix);
     wants_fix_ = false;
     note_pose(moved->stamp(), fix->covariance());

@@ -76,21 +76,17 @@ class RandomWalk final : public orca::Component {
     if (last_laser_) hear_scan(*last_laser_);
   }
 
-  // Returns whether the way ahead can be told by readings that are not too old. One of two sensors that has fallen silent is found by
+  // Returns whether readings show the way ahead and are not too old. One of two sensors that has fallen silent is found by
   // the age of its last reading.
   bool counts(const orca::idl::LaserRangeReadings& scan) {
-    return senders_.accepts(scan) && counts(scan, orca::check_view_ahead(scan)) &&
-           counts(scan, orca::check_age(age_of(orca::to_time_point(scan.stamp())), *deaf_after_));
+    return senders_.accepts(scan) && senders_.accepts(scan, orca::check_view_ahead(scan)) &&
+           senders_.accepts(scan, orca::check_age(age_of(orca::to_time_point(scan.stamp())), *deaf_after_));
   }
   bool counts(const orca::idl::SonarRangeReadings& round) {
     const auto fired = orca::avoid::RingEar::last_firing(round);
-    return senders_.accepts(round) && counts(round, orca::check_view_ahead(round)) &&
-           (!fired ||
-            counts(round, orca::avoid::check_firing(age_of(*fired), *deaf_after_, "sonar", "fired")));
-  }
-  template <class Reading>
-  bool counts(const Reading& reading, const orca::Status& checked) {
-    return senders_.accepts(checked, orca::object_type<Reading>().name, reading.origin());
+    return senders_.accepts(round) && senders_.accepts(round, orca::check_view_ahead(round)) &&
+           (!fired || senders_.accepts(
+                          round, orca::avoid::check_firing(age_of(*fired), *deaf_after_, "sonar", "fired")));
   }
 
   [[nodiscard]] double age_of(orca::TimePoint stamp) const { return orca::to_seconds(now() - stamp); }

@@ -49,7 +49,7 @@ class TraverseDoor final : public orca::Component {
     if (const orca::Status learnt = robot_.learn(); !learnt.ok()) return orca::failed(learnt.error().text());
     const auto pose = localizer_.get_update();
     if (!senders_.accepts(*pose) ||
-        !senders_.accepts(orca::check_age(age_of(pose->stamp()), kOldest), "RobotPose", pose->origin()) ||
+        !senders_.accepts(*pose, orca::check_age(age_of(pose->stamp()), kOldest)) ||
         orca::is_anywhere(pose->covariance())) {
       leave();
       return orca::again();

@@ -31,6 +31,11 @@ class SenderWatch {
   bool accepts(const Reading& reading) {
     return accepts(check_reading(reading), object_type<Reading>().name, reading.origin());
   }
+  /// Does the same with another check of the reading.
+  template <class Reading>
+  bool accepts(const Reading& reading, const Status& checked) {
+    return accepts(checked, object_type<Reading>().name, reading.origin());
+  }
   /// Does the same with a check that has been made already.
   /// @param what    that was sent: "LaserRangeReadings".
   /// @param sender  name of the component.

@@ -21,6 +21,14 @@
 
 namespace orca::go {
 
+/// Checks whether a reading says where the robot is, and not where it was a second ago.
+/// @errors  invalid_argument.
+/// @thread  pure function; any thread.
+[[nodiscard]] inline Status check_present(TimePoint now, const idl::TimeValue& stamp) {
+  constexpr double kOldest = 1.0;  // [s]
+  return check_age(to_seconds(now - to_time_point(stamp)), kOldest);
+}
+
 /// The common part of behaviours that drive to goals (thesis 11.1): it takes goals, refuses what no robot on the floor can do,
 /// passes via points, says when the robot has arrived, and gives up what cannot be reached. A derived class does the driving.
 ///
@@ -91,12 +99,6 @@ class GoalFollower : public Component {
   template <class Reading>
   [[nodiscard]] bool is_valid(const Reading& reading, const Status& checked) {
     return senders_.accepts(checked, object_type<Reading>().name, reading.origin());
-  }
-  /// Returns whether a reading says where the robot is, and not where it was a second ago; if it does not, says so in the log.
-  template <class Reading>
-  [[nodiscard]] bool is_of_now(const Reading& reading) {
-    constexpr double kOldest = 1.0;  // [s]
-    return is_valid(reading, check_age(to_seconds(now() - to_time_point(reading.stamp())), kOldest));
   }
 
  private:
