@@ -235,3 +235,22 @@ TEST_CASE("in one process AlarmCentral has the alarms of that process", "[system
   CHECK(run.exit_code() == 0);
   CHECK_THAT(run.err, Contains("listener: hears ") && Contains(" FAILED of hooligan: "));
 }
+
+// To load these two takes longer than all the rest of a start.
+TEST_CASE("FCL and cairo are loaded only where they are used", "[system][hosts]") {
+  const TempFolder folder;
+  const auto libraries_of = [&](const std::string& graph, const Words& more) {
+    Subprocess run(
+        Words{"/usr/bin/env", "LD_DEBUG=files"} +
+        deployer(Words{source_file("graphs/" + graph), "--until", "0.1s"} + more + virtual_clock()));
+    const Run ended = finish(run, Seconds(60));
+    CHECK(ended.exit_code() == 0);
+    return ended.err;
+  };
+  const std::string plain = libraries_of("scout_goto.xml", {});
+  CHECK_THAT(plain, Contains("calling init: ") && Contains("/sim.so"));
+  CHECK_THAT(plain, !Contains("libfcl") && !Contains("libcairo"));
+  CHECK_THAT(libraries_of("scout_goto.xml", {"--picture", (folder.path() / "way.svg").string()}),
+             Contains("libcairo"));
+  CHECK_THAT(libraries_of("pioneer_tasks.xml", {}), Contains("libfcl"));  // its gate asks FCL
+}
