@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -86,33 +87,54 @@ struct Judgement {
   CodeIdentity identity;
 };
 
-Result<Judgement> judge(const std::string& path, const std::string& file, Trial trial) {
+// Judges what can be seen without running its code.
+// @param trial  of the libraries with object types that it uses, which are loaded.
+Result<Judgement> inspect(const std::string& path, const std::string& file, Trial trial) {
   const Result<PluginFile> read = PluginFile::read(file);
   if (!read) return fail(read.error().code, read.error().message, path);
   if (Status types = load_needed_types(read->elf(), path, trial); !types.ok()) return types.error();
   if (const auto faults = read->faults(known_type); !faults.empty())
     return refuse(path, joined(faults, "; it "));
-  const Judgement judged{read->virtual_time_faults(), read->may_start_threads(), identity_of(read->elf())};
-  if (trial == Trial::done) return judged;
+  return Judgement{read->virtual_time_faults(), read->may_start_threads(), identity_of(read->elf())};
+}
+
+Result<Judgement> judge(const std::string& path, const std::string& file, Trial trial) {
+  Result<Judgement> judged = inspect(path, file, trial);
+  if (!judged || trial == Trial::done) return judged;
   const auto attempt = [&](const auto& step) { load_and_describe(file, step); };
   if (const Status survived = survives_trial(attempt, kTrialLimit); !survived.ok())
     return fail(survived.error().code, survived.error().message + ", when it was tried out", path);
   return judged;
 }
 
+// A file that has not been written or exchanged since.
+using FileIdentity = std::tuple<std::string, dev_t, ino_t, off_t, time_t, long>;
+
+std::optional<FileIdentity> identity_of_file(const std::string& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return std::nullopt;
+  return FileIdentity{file,           status.st_dev,         status.st_ino,
+                      status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
+using Judgements = std::map<FileIdentity, Judgement>;
+
+// Those of all files that have survived their trial.
+Judgements& known_judgements() {
+  static Judgements known;
+  return known;
+}
+
 // Returns the same judgement for the same file until it is written or exchanged. The file may be asked for
 // again while a robot drives, when there is no time for a trial.
 Result<Judgement> judge_once(const std::string& path, const std::string& file) {
-  using Identity = std::tuple<std::string, dev_t, ino_t, off_t, time_t, long>;
-  static std::map<Identity, Judgement> known;
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) return fail(Code::not_found, "there is no such plugin", path);
-  const Identity identity{file,           status.st_dev,         status.st_ino,
-                          status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
-  if (const auto found = known.find(identity); found != known.end()) return found->second;
+  Judgements& known = known_judgements();
+  const auto identity = identity_of_file(file);
+  if (!identity) return fail(Code::not_found, "there is no such plugin", path);
+  if (const auto found = known.find(*identity); found != known.end()) return found->second;
   Result<Judgement> judged = judge(path, file, Trial::now);
   if (!judged && judged.error().message.starts_with(kNoMemoryText)) throw std::bad_alloc();
-  if (judged) known.emplace(identity, *judged);
+  if (judged) known.emplace(*identity, *judged);
   return judged;
 }
 
@@ -132,6 +154,21 @@ void keep_known(Remains remains) {
 }
 
 }  // namespace
+
+void try_together(const std::vector<std::string>& paths) {
+  Judgements untried;
+  for (const std::string& path : paths) {
+    const std::string file = fs::absolute(path).string();
+    const auto identity = identity_of_file(file);
+    if (!identity || known_judgements().contains(*identity) || !check_trusted_code(file).ok()) continue;
+    if (const Result<Judgement> judged = inspect(path, file, Trial::now)) untried.emplace(*identity, *judged);
+  }
+  if (untried.size() < 2) return;
+  const auto attempt = [&](const auto& step) {
+    for (const auto& [identity, judged] : untried) load_and_describe(std::get<0>(identity), step);
+  };
+  if (survives_trial(attempt, kTrialLimit).ok()) known_judgements().merge(untried);
+}
 
 // The file that the dynamic linker is to open, after it was judged.
 struct PluginLibrary::Source {

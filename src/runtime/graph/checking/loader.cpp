@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "checking/checks.hpp"
 #include "endpoints.hpp"
@@ -59,6 +60,13 @@ void note_candidates(Model& model, const std::vector<Edge>& edges) {
   }
 }
 
+void announce_types(const Parts& parts, Catalogue& catalogue) {
+  std::vector<std::string> types;
+  for (const auto& nodes : {std::cref(parts.hardware), std::cref(parts.components)})
+    for (const Node& node : nodes.get()) types.push_back(node.value("type"));
+  catalogue.expect(types);
+}
+
 // Checks everything but the connections.
 Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catalogue, Report& report) {
   Types types(catalogue, report);
@@ -68,6 +76,7 @@ Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catal
   model.parts_missing = parts.some_missing;
   check_machines(parts.machines, model, report);
   check_processes(parts.processes, model, report);
+  announce_types(parts, catalogue);
   check_hardware(parts.hardware, types, model, report);
   check_components(parts.components, types, model, report);
   check_topics(model, catalogue, report);

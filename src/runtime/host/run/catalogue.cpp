@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "orca/base/text.hpp"
@@ -36,6 +37,14 @@ void PluginCatalogue::forget_answers() {
   of_graph_.clear();
   const std::lock_guard lock(mutex_);
   held_.clear();
+}
+
+void PluginCatalogue::expect(const std::vector<std::string>& types) {
+  const std::lock_guard lock(mutex_);
+  std::set<std::string> files;
+  for (const std::string& type : types)
+    if (const Result<std::string> file = index_.file_of(type)) files.insert(*file);
+  plugin::try_together({files.begin(), files.end()});
 }
 
 const TypeEntry* PluginCatalogue::own_type(PluginKind kind, const std::string& type) const {

@@ -24,6 +24,10 @@ std::string cannot_open(const hw::HardwareContainer& device) {
 }  // namespace
 
 Status System::build(PluginCatalogue& catalogue) {
+  std::vector<std::string> types;
+  for (const graph::HardwareNode& node : graph_.hardware) types.push_back(node.type);
+  for (const graph::ComponentNode& node : graph_.components) types.push_back(node.type);
+  catalogue.expect(types);
   if (Status built = build_hardware(catalogue); !built.ok()) return built;
   if (Status built = build_components(catalogue); !built.ok()) return built;
   catalogue.forget_answers();

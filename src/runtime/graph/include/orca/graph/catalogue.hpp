@@ -69,6 +69,9 @@ class Catalogue {
   /// @errors  as hardware(); the message of "does not fit that hardware" names both.
   [[nodiscard]] virtual Result<Contract> component(const std::string& type, const HardwareUse* hardware) = 0;
 
+  /// Announces types that it will be asked for, so that it can load them together. It reports nothing.
+  virtual void expect(const std::vector<std::string>& /*types*/) {}
+
   /// Calls configure() of components as a trial, in a copy of the process, while all hardware is closed.
   ///
   /// @param graph  the components and what connects them, as far as they are known. Others than the candidates are

@@ -51,6 +51,7 @@ class PluginCatalogue final : public graph::Catalogue {
   std::vector<HardwareFault> hardware_conflicts(const graph::HardwareUse& use,
                                                 const graph::HardwareUse& earlier) override;
   Result<Contract> component(const std::string& type, const graph::HardwareUse* hardware) override;
+  void expect(const std::vector<std::string>& types) override;
   std::vector<graph::ComponentFault> try_components(const graph::Graph& graph,
                                                     const graph::Candidates& candidates) override;
   /// Returns the machine's time, threads and randomness that the type's plugin uses, if the run is in virtual

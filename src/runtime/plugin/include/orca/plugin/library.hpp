@@ -23,6 +23,12 @@ enum class Trial {
   done,  ///< Some process of this program has tried it, or this one is such a copy.
 };
 
+/// Tries out several plugins in one copy of the process, one after the other. load() does not try out again alone what has survived, so
+/// twenty plugins need no twenty copies. It says nothing of a plugin that cannot be loaded or did not survive: load() does.
+///
+/// @thread  as PluginLibrary::load().
+void try_together(const std::vector<std::string>& paths);
+
 /// A plugin in memory, from load() until the object is destroyed. Everything made from its types must be
 /// destroyed before. A plugin that stays in memory, or whose threads still run, is reported as pinned.
 ///
