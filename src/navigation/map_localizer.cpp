@@ -107,7 +107,9 @@ PoseSpread spread_of(const ScanMatch& laid) {
 /// A place where the robot may be.
 struct MapLocalizer::Candidate {
   Particles particles;
-  PlaceBelief belief;  // but for where
+  PlaceBelief belief;     // but for where
+  double behind = 0.0;    // echoes behind the map's walls, those of long ago counting less
+  double at_walls = 0.0;  // the same, with those on the walls
 
   /// @param weight  1: a whole scan.
   void note(double fit, double weight = 1.0) {
@@ -115,6 +117,15 @@ struct MapLocalizer::Candidate {
     constexpr double kSlow = 0.03;
     belief.quick = belief.quick < 0.0 ? fit : belief.quick + kQuick * weight * (fit - belief.quick);
     belief.slow = belief.slow < 0.0 ? fit : belief.slow + kSlow * weight * (fit - belief.slow);
+  }
+  void note(const Explanation& seen) {
+    constexpr double kForgotten = 0.03;  // with each scan
+    behind += seen.longs - kForgotten * behind;
+    at_walls += seen.hits + seen.longs - kForgotten * at_walls;
+  }
+  // People explain echoes in front of a wall, nobody explains those behind it.
+  [[nodiscard]] bool sees_through_walls(const LocalizerOptions& options) const {
+    return behind > options.most_behind * at_walls;
   }
   [[nodiscard]] bool is_doubtful(const LocalizerOptions& options) const {
     return belief.quick >= 0.0 &&
@@ -264,6 +275,7 @@ void MapLocalizer::see(const RobotScan& seen) {
     const Explanation explained = map_->explain(scan.echoes, scan.from, place.particles.spread().mean);
     fits.push_back(explained.fit);
     place.note(place.belief.believed ? explained.fit_of_room : explained.fit);
+    place.note(explained);
   }
   compare(fits);
   believe(suggested_ ? options_.believed_at_once : options_.believed_from);
@@ -328,7 +340,7 @@ void MapLocalizer::believe(double least) {
   if (places_.size() != 1) alone_since_ = way_;
   if (places_.size() != 1 || (left_some_out_ && way_ - alone_since_ < kAlone)) return;
   Candidate& place = places_.front();
-  if (place.belief.quick >= least) place.belief.believed = true;
+  if (place.belief.quick >= least && !place.sees_through_walls(options_)) place.belief.believed = true;
   was_known_ |= known(now_) == Known::localized;
 }
 
@@ -382,10 +394,15 @@ void MapLocalizer::take_found() {
     const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
     if (explained.fit < options_.doubted_below || map_->distance(laid->X_MR.position()) < kBody) continue;
     const PoseSpread where = after(spread_of(*laid), since, deviations);
-    double odds = options_.evidence * explained.fit;
-    for (std::size_t i = 0; i < known; ++i)
-      if (is_same(places_[i].particles.spread().mean, where.mean)) odds += evidence[i];
-    add_place({where, odds, explained.fit, explained.fit, false}, kParticles);
+    add_place({where, options_.evidence * explained.fit, explained.fit, explained.fit, false}, kParticles);
+    Candidate& added = places_.back();
+    added.note(explained);
+    for (std::size_t i = 0; i < known; ++i) {
+      if (!is_same(places_[i].particles.spread().mean, where.mean)) continue;
+      added.belief.odds += evidence[i];
+      added.behind += places_[i].behind;
+      added.at_walls += places_[i].at_walls;
+    }
   }
   if (places_.empty()) return;
   double best = places_.front().belief.odds;

@@ -256,6 +256,40 @@ TEST_CASE("a robot in another building is not found", "[navigation]") {
   CHECK(drive.known() != Known::localized);
 }
 
+TEST_CASE("a place where light goes through a wall of the map is not believed before views that fit",
+          "[navigation]") {
+  Drive drive;
+  drive.walls = {{{0.03, 0.02}, {0.03, 5.02}}, {{0.03, 0.02}, {6.03, 0.02}}, {{0.03, 5.02}, {6.03, 5.02}}};
+  for (const test::Walls& more : {test::box({4.6, 0.0}, {5.1, 0.6}), test::box({4.2, 4.0}, {5.0, 5.0}),
+                                  test::box({1.0, 0.0}, {2.0, 0.7})})
+    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
+  // On its fourth side the room has an opening, which the map does not show.
+  test::Walls drawn = drive.walls;
+  drawn.push_back({{6.03, 0.02}, {6.03, 5.02}});
+  for (const test::Wall& wall :
+       test::Walls{{{6.03, 0.02}, {6.03, 1.5}}, {{6.03, 2.7}, {6.03, 5.02}}, {{9.03, 0.0}, {9.03, 5.0}}})
+    drive.walls.push_back(wall);
+  drive.map = std::make_shared<const KnownMap>(test::grid_of(drawn, {-0.5, -0.5}, {6.5, 5.5}));
+  drive.localizer.change_map(drive.map);
+  drive.X_MR = {4.0, 2.2, 0.0};
+  drive.stand(40);
+  const auto places = drive.localizer.places(drive.reckoned);
+  REQUIRE(places.size() == 1);
+  CHECK(places.front().quick > LocalizerOptions{}.believed_from);
+  CHECK(drive.off() < 0.1);
+  CHECK(drive.known() == Known::unknown);
+  // The opening is behind the robot.
+  drive.go_on(40, {0.0, 0.0, std::numbers::pi / 40.0});
+  drive.stand(150);
+  CHECK(drive.known() == Known::localized);
+  CHECK(drive.off() < 0.1);
+  // A place that somebody says is believed all the same.
+  drive.X_MR = {4.0, 2.2, 0.0};
+  drive.localizer.place(around(drive.X_MR), drive.reckoned);
+  drive.stand(40);
+  CHECK(drive.known() == Known::localized);
+}
+
 TEST_CASE("a robot that senses nothing is lost after a while, and goes on when it does again",
           "[navigation]") {
   Drive drive;

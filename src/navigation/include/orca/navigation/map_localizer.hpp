@@ -54,6 +54,8 @@ struct LocalizerOptions {
   double believed_at_once =
       0.9;                  ///< [1] the same for a place that was suggested, before the map was searched.
   double suggested = 10.0;  ///< logarithm of the odds of such a place against others that fit as well.
+  /// [1] share of the echoes behind the map's walls, of those on walls or behind, up to which a place is believed that was not.
+  double most_behind = 0.07;
   double doubted_below =
       0.45;              ///< [1] the same, on the average of the last scans, below which a place is doubted.
   double fallen = 0.75;  ///< [1] the same as a part of what it was before, on a long average.
