@@ -254,12 +254,13 @@ TEST_CASE("a port that there is not is refused when a recording begins, also amo
   const TempFolder folder;
   Subprocess system(deployer({kProcesses, "--until", "60s"}));
   for (const Words& ports : {Words{"base.Nothing"}, Words{"base.OdometryPush", "base.Nothing"}}) {
-    Subprocess recorder(orcactl(Words{"--system", "scout_goto_processes", "record",
-                                      folder.file(std::to_string(ports.size()) + ".mcap")} +
-                                ports + Words{"--wait", "20s"}));
+    const std::string file = folder.file("run.mcap");
+    Subprocess recorder(orcactl(Words{"--system", "scout_goto_processes", "record", file} + ports +
+                                Words{"--wait", "20s"}));
     const Run run = finish(recorder, Seconds(20));
     CHECK(run.exit_code() == 1);
     CHECK(run.says("there is no port \"base.Nothing\""));
+    CHECK_FALSE(std::filesystem::exists(file));  // or the next attempt would be refused
   }
   system.send(SIGTERM);
   CHECK(finish(system, Seconds(10)).exit_code() == 0);

@@ -88,6 +88,8 @@ class Recording {
 
   [[nodiscard]] const std::map<std::string, std::uint64_t>& lost() const { return lost_; }
   [[nodiscard]] std::size_t count_ports() const { return wanted_.size(); }
+  // Returns whether a port was named that there is not.
+  [[nodiscard]] bool is_refused() const { return is_refused_; }
   // Returns the ports of which nothing could be recorded, because their processes were not reached.
   [[nodiscard]] std::string unreached() const {
     std::string ports;
@@ -224,7 +226,9 @@ class Recording {
 
   // A port that there has never been is a mistake of whoever named it; one that has left the graph may come back.
   void note_absence(const std::string& reason) {
-    if (!has_searched_) note(fail(Code::not_found, reason));
+    if (has_searched_) return;
+    is_refused_ = true;
+    note(fail(Code::not_found, reason));
   }
 
   // ---- Turns
@@ -330,6 +334,7 @@ class Recording {
   bool has_begun_ = false;
   bool is_searching_ = false;
   bool has_searched_ = false;  // once at least
+  bool is_refused_ = false;
   std::uint64_t last_request_ = 0;
   std::map<std::uint64_t, Taker> takers_;  // by request
   std::string graph_;
@@ -410,6 +415,12 @@ std::variant<Sink, Failure> open_sink(const apps::Call& call) {
   return Sink(std::make_unique<recording::RingWriter>(name, static_cast<std::uint64_t>(*bytes)));
 }
 
+// Takes the file away of a recording that has not come about, so that the next attempt may have its name.
+void discard(const apps::Call& call, recording::ObjectSink& writer) {
+  (void)writer.close({}, {});
+  if (!call.text("--ring")) (void)std::remove(call.words.front().c_str());
+}
+
 }  // namespace
 
 ExitCode record(const apps::Call& call) {
@@ -421,14 +432,17 @@ ExitCode record(const apps::Call& call) {
   const Sink& writer = std::get<Sink>(opened);
   std::variant<Descriptor, Failure> socket = wait_for_system(call);
   if (const auto* const failure = std::get_if<Failure>(&socket)) {
-    (void)writer->close({}, {});
-    if (!call.text("--ring")) (void)std::remove(file.c_str());  // nothing is in it
+    discard(call, *writer);
     return report(*failure);
   }
   learn_objects(call);
   Recording recording(std::get<Descriptor>(std::move(socket)), *writer,
                       {call.words.begin() + 1, call.words.end()});
   const Status done = recording.run(call.duration("--for"));
+  if (recording.is_refused()) {
+    discard(call, *writer);
+    return report({done.error()});
+  }
   return finish(file, *writer, recording, done);
 }
 
