@@ -2,6 +2,7 @@
 // Goals that cannot be reached: who says so, why, and what happens next.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <csignal>
 #include <regex>
 #include <string>
 
@@ -219,4 +220,24 @@ TEST_CASE("at the prompt a goal that fails is no reason not to ask for the next"
   const Run run = finish(program, Seconds(30));
   INFO(run.out << run.err);
   CHECK(kinds(run) == "failed high; arrived low; ");
+}
+
+TEST_CASE("while the prompt waits, orders of an operator are taken, and what has been typed stays",
+          "[system][goals]") {
+  Subprocess program(
+      deployer({source_file("graphs/scout_goto.xml"), "--set", "goals=", "--name", "prompt_test"}),
+      {.keep_input_open = true});
+  REQUIRE(program.wait_for_output("empty line to end)? ", Seconds(20)));
+  program.write_input("far: no place\nty");  // the first line is no goal, and the prompt comes again
+  REQUIRE(program.wait_for_output("error", Seconds(10)));
+  const auto go = [](const Words& goal) {
+    return run_orcactl(Words{"--system", "prompt_test", "go"} + goal);
+  };
+  CHECK_THAT(go({}).out, Contains("command: no goal"));
+  CHECK(go({"1.3", "6"}).exit_code() == 0);
+  REQUIRE(program.wait_for_output("arrived point_1", Seconds(30)));
+  program.write_input("ped: 1.6 6\n");
+  CHECK(program.wait_for_output("arrived typed", Seconds(30)));
+  program.send(SIGTERM);
+  CHECK(finish(program, Seconds(10)).exit_code() == 0);
 }

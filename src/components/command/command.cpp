@@ -54,10 +54,7 @@ class Command final : public orca::Component {
       if (const auto ending = mission_.wait(kLongestLap)) note(ending->reached, ending->reason);
       return orca::again();
     }
-    while (agenda_.next(rounds()) == nullptr) {
-      if (!asks_) return conclude();
-      if (!ask()) return conclude();
-    }
+    if (agenda_.next(rounds()) == nullptr) return asks_ && ask() ? orca::again() : conclude();
     if (std::exchange(rests_, false)) sleep(kRest);
     begin(*agenda_.next(rounds()));
     return orca::again();
@@ -78,6 +75,7 @@ class Command final : public orca::Component {
   // Sends the robot to a goal.
   void begin(const Trip& trip) {
     agenda_.begin();
+    prompt_.hide();
     ++tried_;
     going_to_ = trip.name;
     if (const auto ending = mission_.begin(trip, *goal_timeout_)) note(ending->reached, ending->reason);
@@ -210,7 +208,8 @@ class Command final : public orca::Component {
   bool ask() {
     const orca::LiveLine::Pause room;  // the user sees what he types
     if (!prompt_.show()) return false;
-    while (!prompt_.read()) sleep(std::chrono::milliseconds(50));
+    // To sleep would be an act of this lap, which could not be given up then.
+    while (!wait_until([this] { return prompt_.read(); }, std::chrono::milliseconds(50))) continue;
     const std::string line = prompt_.take_line();
     if (line.empty()) return false;
     std::vector<Trip> trips;

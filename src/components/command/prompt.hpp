@@ -13,6 +13,8 @@ class Prompt {
   /// Writes the prompt, unless it stands there already.
   /// @return whether it could be written.
   bool show();
+  /// Lets the next show() write the prompt anew, because other lines come below this one. What has been typed stays.
+  void hide() { shown_ = false; }
   /// Reads what has been typed.
   /// @return whether that is a whole line now, or the end of the input.
   bool read();
