@@ -72,6 +72,22 @@ TEST_CASE("the rate of a Create 2 that was started with 19200 baud is found", "[
   CHECK(ended.says("connected to a Create 2 at 19200 baud"));
 }
 
+TEST_CASE("a byte log of a base that is asked nothing, and sends all the time, is played back",
+          "[system][hardware]") {
+  const TempFolder folder;
+  const std::string log = folder.file("bytes");
+  {
+    Create create("create");
+    CHECK(run({"--set", "create.byte_log=" + log}).exit_code() == 0);
+  }
+  const Run played =
+      run_deployer(on_line("create2.xml", "replay:" + log, {"--until", "3 s"}) + virtual_clock());
+  INFO(played.err);
+  CHECK(played.exit_code() == 0);
+  CHECK(played.says("connected to a Create 2"));
+  CHECK_FALSE(played.says("nothing has come from it"));
+}
+
 TEST_CASE("a Roomba whose firmware reports its mode plus one drives to its goals", "[system][hardware]") {
   Create2Settings settings;
   settings.mode_offset = 1;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/line_driver.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "orca/hw/link/byte_log.hpp"
@@ -8,6 +10,11 @@
 #include "orca/hw/link/make_link.hpp"
 
 namespace orca::hw {
+namespace {
+
+constexpr Duration kUnwoken = std::chrono::milliseconds(5);  // to the next look, if a line wakes nobody
+
+}  // namespace
 
 LineDriver::LineDriver(HardwareHost& host, const std::string& usual, const link::Line& first)
     : HardwareContainer(host),
@@ -79,7 +86,9 @@ void LineDriver::close() {
 TimePoint LineDriver::next_poll() const {
   if (!is_open_) return host().now();
   const bool works = state() == HardwareState::ready || state() == HardwareState::active;
-  return works ? next_turn() : next_step();
+  const TimePoint next = works ? next_turn() : next_step();
+  const bool is_woken = rings_ || descriptor() >= 0;
+  return is_woken ? next : std::min(next, host().now() + kUnwoken);
 }
 
 }  // namespace orca::hw
