@@ -27,11 +27,13 @@ void ThreadWatch::remove(const WaitCount& count) {
   std::erase_if(watched_, [&](const Watched& watched) { return watched.count == &count; });
 }
 
-// Returns for how long a task has not waited for anything of its executive, without the time in which it had no processor.
+// Returns for how long a task has not waited for anything of its executive, without the time in which it had no processor. Before the
+// second look that is not known, and on an overloaded machine the first two are far apart, so it counts from there.
 Duration ThreadWatch::busy_time(Watched& watched, TimePoint now) {
   if (!watched.wait) {
     watched.wait.emplace(getpid(), watched.count->thread());
     watched.waited_before = watched.wait->look();
+    watched.since = now;
   }
   return now - watched.since - (watched.wait->look() - watched.waited_before);
 }

@@ -80,7 +80,7 @@ class ThreadWatch {
   struct Watched {
     const WaitCount* count;
     std::uint64_t state;
-    TimePoint since;                      // when it was first seen in this state
+    TimePoint since;  // when it was first seen in this state, then when it was for the second time
     std::optional<ProcessorWait> wait{};  // from the second time on
     Duration waited_before{0};            // as wait reported it then
   };

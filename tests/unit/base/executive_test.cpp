@@ -288,6 +288,31 @@ TEST_CASE("a task on a thread of its own that has left the watch is not named, a
   CHECK(named == 0);
 }
 
+TEST_CASE("a task on a thread of its own is not named for a time in which nobody looked at it",
+          "[base][executive]") {
+  const auto executive = make({ClockKind::steady, Backend::thread});
+  std::atomic<bool> found{false};
+  bool is_blamed_at_once = false;
+  executive->run([&] {
+    std::atomic<bool> runs{false};
+    const auto culprit = executive->spawn({"culprit", 0}, [&] {
+      executive->sleep_until(executive->now() + 1ms);  // so the first look finds it in a state of its own
+      while (!found) runs = true;
+    });
+    std::thread monitor([&] {  // it has no processor for a while, as the culprit may have had none
+      while (!runs) std::this_thread::yield();
+      (void)executive->stuck_task(50ms);
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      is_blamed_at_once = executive->stuck_task(50ms).has_value();
+      while (!executive->stuck_task(50ms)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      found = true;
+    });
+    culprit->join_until(kForever);
+    monitor.join();
+  });
+  CHECK_FALSE(is_blamed_at_once);
+}
+
 TEST_CASE("a task that waits as it should is not named, however long", "[base][executive]") {
   for (const auto& kind : all_kinds()) {
     const auto executive = make(kind);
