@@ -255,8 +255,8 @@ TEST_CASE("a port that there is not is refused when a recording begins, also amo
   Subprocess system(deployer({kProcesses, "--until", "60s"}));
   for (const Words& ports : {Words{"base.Nothing"}, Words{"base.OdometryPush", "base.Nothing"}}) {
     const std::string file = folder.file("run.mcap");
-    Subprocess recorder(orcactl(Words{"--system", "scout_goto_processes", "record", file} + ports +
-                                Words{"--wait", "20s"}));
+    Subprocess recorder(
+        orcactl(Words{"--system", "scout_goto_processes", "record", file} + ports + Words{"--wait", "20s"}));
     const Run run = finish(recorder, Seconds(20));
     CHECK(run.exit_code() == 1);
     CHECK(run.says("there is no port \"base.Nothing\""));

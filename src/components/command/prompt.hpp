@@ -13,7 +13,7 @@ class Prompt {
   /// Writes the prompt, unless it stands there already.
   /// @return whether it could be written.
   bool show();
-  /// Lets the next show() write the prompt anew, because other lines come below this one. What has been typed stays.
+  /// Lets the next show() write the prompt again, because other lines come below this one. The letters typed so far stay.
   void hide() { shown_ = false; }
   /// Reads what has been typed.
   /// @return whether that is a whole line now, or the end of the input.
