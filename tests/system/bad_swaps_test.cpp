@@ -150,6 +150,7 @@ std::vector<Version> quick_kinds() {
           rogue("save_state", "throw", "save_state() threw"),
           rogue("load_state", "crash", kState),
           rogue("destructor", "crash", "its end"),
+          rogue("destructor", "throw", "its destructor threw std::runtime_error: no way"),
           rogue_built("unloading_crashes", "its end"),
           rogue("start", "pin", "PLUGIN_PINNED"),
           rogue("lap2", "limit", "it has changed the limit of the number of descriptors"),
@@ -166,6 +167,9 @@ std::vector<Version> all_kinds() {
     all.push_back(rogue(hook, "sleep", "did not return"));
   for (const std::string hook : {"configure", "stop", "save_state", "suspend", "resume"})
     all.push_back(rogue(hook, "crash", "ended the process with the signal"));
+  for (const std::string hook :
+       {"configure", "start", "lap3", "stop", "save_state", "load_state", "destructor"})
+    all.push_back(rogue(hook, "eat", "threw std::bad_alloc"));
   all.push_back(rogue("lap1", "spin", "did not return"));
   all.push_back(rogue("start", "exit", "ended the process with exit"));
   all.push_back(rogue_built("constructor_sleeps", "did not return"));
@@ -196,6 +200,20 @@ TEST_CASE("a thousand swaps, half of them to bad versions of more than thirty ki
   exchange_all(robot, all_kinds(), 1000);
   robot.end();
 }
+
+#if !defined(__SANITIZE_ADDRESS__)  // which limits no memory
+TEST_CASE("a version that takes all memory is refused for it, and the system's process lives on",
+          "[system][swap]") {
+  if (!kTriesInShadow) return;  // ThreadSanitizer
+  Driving robot;
+  exchange_all(robot,
+               {rogue("lap3", "eat", "work() threw std::bad_alloc"),
+                rogue("destructor", "eat", "its destructor threw std::bad_alloc"),
+                rogue_built("constructor_eats", "its constructor threw std::bad_alloc")},
+               6);
+  robot.end();
+}
+#endif
 
 TEST_CASE("a version that leaks is taken, and goes again with all that it has taken", "[system][swap]") {
   Driving robot;

@@ -49,6 +49,10 @@ const std::map<std::string, std::function<void()>>& deeds() {
       {"none", [] {}},
       {"abort", [] { std::abort(); }},
       {"crash", [] { raise(SIGSEGV); }},
+      {"eat",
+       [] {
+         for (;;) take_memory();
+       }},
       {"exit", [] { std::exit(0); }},
       {"chdir", [] { (void)!chdir("/"); }},
       {"leak", take_memory},

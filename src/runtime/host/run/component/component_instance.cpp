@@ -15,7 +15,7 @@ ComponentInstance::ComponentInstance(RunContext& run, ComponentSettings settings
       loop_(parts_, residency_, life_, keeper_) {}
 
 // Destroys the component first, because its destructor may still use any part.
-ComponentInstance::~ComponentInstance() { residency_.destroy(); }
+ComponentInstance::~ComponentInstance() { (void)residency_.destroy(); }
 
 void ComponentInstance::start(std::function<void()> first) {
   parts_.strand.start([this, first = std::move(first)] {

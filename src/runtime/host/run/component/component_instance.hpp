@@ -57,6 +57,9 @@ class ComponentInstance final {
   /// @param keeps_state  whether its state is handed out then, whatever the graph says.
   void request_exit(bool keeps_state = false) { loop_.request_exit(keeps_state); }
   [[nodiscard]] bool join_until(TimePoint deadline) { return parts_.strand.join_until(deadline); }
+  /// Destroys its object now, for whoever has to know how that goes. @pre  the strand has ended.
+  /// @errors  see Residency::destroy().
+  Status destroy() { return residency_.destroy(); }
 
   /// Return the order. Orders are carried out between two laps, one after the other. A lap that waits and has
   /// not taken or sent anything yet is given up for them, and begins anew afterwards.

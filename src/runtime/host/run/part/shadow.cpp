@@ -164,6 +164,7 @@ class Shadow {
     object_->request_exit();
     if (!object_->join_until(saturating_add(executive_.now(), kMostTime))) verdict_.refuse("it does not end");
     conclude_if_failed();
+    if (const Status gone = object_->destroy(); !gone.ok()) verdict_.refuse(gone.error().text());
     object_.reset();
     verdict_.refuse_changes();
     if (const Status gone = catalogue.release(std::exchange(type_, {})); !gone.ok())

@@ -56,24 +56,27 @@ bool Residency::stays_active() const {
 }
 
 void Residency::unload() {
-  destroy();
+  (void)destroy();
   if (const Status gone = unloader_(std::exchange(resident_, {}).type); !gone.ok())
     parts_.write_log(log::Level::error, gone.error().text());
 }
 
-void Residency::destroy() {
+Status Residency::destroy() {
   const plugin::CodeLimit limit;
   stop_left_over();
   parts_.ports.unbind();  // handlers are the component's code
   const TypeEntry* const entry = resident_.type.entry;
-  if (entry == nullptr) return;
+  if (entry == nullptr) return ok();
   Component* const gone = std::exchange(resident_.object, nullptr);
   const auto fault = guarded_call({parts_.settings.name.c_str(), Hook::destructor, entry}, [&] {
     if (gone != nullptr) entry->destroy(gone);
   });
   resident_.site->forget_code();
   set_code(nullptr);
-  if (fault) parts_.report_failure(Hook::destructor, "its destructor " + fault->text);
+  if (!fault) return ok();
+  const std::string text = "its destructor " + fault->text;
+  parts_.report_failure(Hook::destructor, text);
+  return fail(Code::internal, text);
 }
 
 // An object that lost its place while it worked was not stopped then.

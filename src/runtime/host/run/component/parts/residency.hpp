@@ -37,7 +37,8 @@ class Residency {
   /// any case.
   void unload();
   /// Destroys the component, after a stop() that it still waits for; its code is released with this object.
-  void destroy();
+  /// @errors  internal: the destructor threw. That is logged, and the component is gone all the same.
+  Status destroy();
 
   /// Exchanges the objects of two components, with their code. Each is connected with the other's ports; ports that only one
   /// of them has are made, unconnected. Parameters go along.
