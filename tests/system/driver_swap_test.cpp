@@ -92,6 +92,21 @@ TEST_CASE(
   CHECK_THAT(run.err, !Contains("PLUGIN_PINNED"));
 }
 
+TEST_CASE("whoever would exchange what serves hardware is told how to exchange the driver",
+          "[system][swap][driver]") {
+  Way way;
+  for (const Words& more : {Words{}, Words{"--only-try"}}) {
+    const Run refused =
+        run_orcactl(Words{"swap", "base", ORCA_BINARY_DIR "/plugins/goto.so:orca.Goto"} + more);
+    CHECK(refused.exit_code() == 1);
+    CHECK_THAT(
+        refused.err,
+        Contains("base: it serves hardware, and cannot be exchanged while that runs; orcactl swap cart "
+                 "exchanges the driver"));
+  }
+  CHECK(way.end().exit_code() == 0);
+}
+
 TEST_CASE("a driver's parameters are shown, and changed by putting it in anew", "[system][swap][driver]") {
   Way way;
   CHECK_THAT(run_orcactl({"get", "cart.speed"}).out, Contains("0.5") && Contains("m/s"));

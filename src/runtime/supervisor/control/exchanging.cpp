@@ -91,6 +91,14 @@ std::string counted(std::uint64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+Status check_exchangeable(const graph::ComponentNode& node) {
+  if (node.hardware.empty()) return ok();
+  return fail(Code::failed_precondition,
+              "it serves hardware, and cannot be exchanged while that runs; orcactl swap " + node.hardware +
+                  " exchanges the driver",
+              node.name);
+}
+
 // Keeps a component from being exchanged twice at a time.
 class Busy {
  public:
@@ -138,11 +146,7 @@ void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& rep
 void Exchanging::show_fitting(const std::string& component, const ReplyPtr& reply) {
   const Result<const graph::ComponentNode*> node = names_.component(component);
   if (!node) return reply->refuse(node.error());
-  if (!(*node)->hardware.empty())
-    return reply->refuse(fail(Code::failed_precondition,
-                              "it serves hardware, and cannot be exchanged while that runs; orcactl swap " +
-                                  (*node)->hardware + " exchanges the driver",
-                              component));
+  if (const Status may = check_exchangeable(**node); !may.ok()) return reply->refuse(may.error());
   const graph::Graph graph = names_.surroundings_of(component);  // both may change meanwhile
   const std::vector<PortContract> ports = ports_of(component);
   const plugin::PluginIndex index(facts_.plugin_folders);
@@ -199,6 +203,7 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
   const auto find = [&] { return names_.component(wish.component); };
   Result<const graph::ComponentNode*> node = find();
   if (!node) return node.error();
+  if (Status may = check_exchangeable(**node); !may.ok()) return may.error();
   Result<Member*> member = names_.ready_member_of(**node);
   if (!member) return member.error();
   Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
@@ -239,9 +244,7 @@ host::ShadowOrder Exchanging::trial_of(const SwapWish& wish, const graph::Compon
 Result<Record> Exchanging::only_try(const SwapWish& wish) {
   const Result<const graph::ComponentNode*> node = names_.component(wish.component);
   if (!node) return node.error();
-  if (!(*node)->hardware.empty())
-    return fail(Code::failed_precondition, "it serves hardware, and cannot be exchanged while that runs",
-                wish.component);
+  if (Status may = check_exchangeable(**node); !may.ok()) return may.error();
   const Result<Member*> member = names_.ready_member_of(**node);
   if (!member) return member.error();
   Result<plugin::PluginImage> image = plugin::PluginImage::copy(wish.file);
