@@ -417,14 +417,8 @@ Drive exchange_on_the_way(const std::string& graph, const Swaps& swaps) {
   return drive;
 }
 
-}  // namespace
-
-TEST_CASE(
-    "behaviours are exchanged again and again while the robot drives, and it reaches its goals without a "
-    "contact",
-    "[system][swap]") {
-  const Drive drive = exchange_on_the_way("graphs/scout_goto_processes.xml",
-                                          {{"goto", shipped("goto")}, {"avoid", shipped("sonar_avoid")}});
+void check_drive(const std::string& graph, const Swaps& swaps) {
+  const Drive drive = exchange_on_the_way(graph, swaps);
   INFO(drive.run.err);
   CHECK(drive.run.exit_code() == 0);
   CHECK(drive.run.arrivals().size() == kGoals);
@@ -432,14 +426,24 @@ TEST_CASE(
   CHECK(drive.swaps >= kLeastSwaps);
 }
 
+}  // namespace
+
+TEST_CASE(
+    "behaviours are exchanged again and again while the robot drives, and it reaches its goals without a "
+    "contact",
+    "[system][swap]") {
+  check_drive("graphs/scout_goto_processes.xml",
+              {{"goto", shipped("goto")}, {"avoid", shipped("sonar_avoid")}});
+}
+
+TEST_CASE(
+    "who fuses is exchanged again and again while the robot drives, keeps its clients, and the robot arrives",
+    "[system][swap]") {
+  check_drive("graphs/pioneer_laser_goto.xml", {{"fuser", shipped("motion_command_fuser")}});
+}
+
 TEST_CASE("LaserAvoid is exchanged for VFH+ and back while the Pioneer drives its course, without a contact",
           "[system][swap]") {
-  const Drive drive = exchange_on_the_way("graphs/pioneer_laser_goto.xml",
-                                          {{"avoid", shipped("vfh_plus") + ":orca.VfhPlus"},
-                                           {"avoid", shipped("laser_avoid") + ":orca.LaserAvoid"}});
-  INFO(drive.run.err);
-  CHECK(drive.run.exit_code() == 0);
-  CHECK(drive.run.arrivals().size() == kGoals);
-  CHECK(drive.run.contacts().empty());
-  CHECK(drive.swaps >= kLeastSwaps);
+  check_drive("graphs/pioneer_laser_goto.xml", {{"avoid", shipped("vfh_plus") + ":orca.VfhPlus"},
+                                                {"avoid", shipped("laser_avoid") + ":orca.LaserAvoid"}});
 }
