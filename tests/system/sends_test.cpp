@@ -11,11 +11,13 @@
 #include <thread>
 
 #include "deployer.hpp"
+#include "hosted_system.hpp"
 #include "number_file.hpp"
 #include "process_table.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
+using Catch::Contains;
 
 namespace {
 
@@ -80,4 +82,24 @@ TEST_CASE("nothing of 100,000 is lost or doubled while the receiver is killed 20
           "[system][.][slow]") {
   const std::string link = GENERATE("shm", "dds");
   send_and_kill(100'000, 20, link);
+}
+
+TEST_CASE("an operator whose object is refused when it is handled reads why", "[system][orcactl]") {
+  Subprocess program(deployer({source_file("graphs/scout_goto_processes.xml")}));
+  const auto is_up = [] {
+    return run_orcactl({"send", "fuser.ClientListSend", "<ClientList/>"}).exit_code() == 0;
+  };
+  REQUIRE(comes_true(is_up, Seconds(20) * kSlowdown));
+  const auto send = [](const std::string& port, const std::string& object) {
+    const Run run = run_orcactl({"send", port, object});
+    INFO(object << run.err);
+    CHECK((run.exit_code() == 0) == run.err.empty());
+    return run.err;
+  };
+  CHECK_THAT(send("fuser.ClientListSend", R"(<ClientList><clients value="nobody"/></ClientList>)"),
+             Contains("nobody"));
+  CHECK_THAT(
+      send("goto.GotoCoordinateSend", R"(<GoalPoint name="far"><reach_radius distance="-1 m"/></GoalPoint>)"),
+      Contains("negative reach_radius"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }

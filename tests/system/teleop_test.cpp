@@ -156,13 +156,14 @@ TEST_CASE("a command from afar drives the robot for the dead-man time, and witho
   Subprocess program(teleop({"--set", "keyboard="}));
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
   const auto send = [](const std::string& command) {
-    const Run run = run_orcactl({"--system", "teleop", "send", "teleop.MotionSend", command});
-    INFO(run.err);
-    CHECK(run.exit_code() == 0);
+    return run_orcactl({"--system", "teleop", "send", "teleop.MotionSend", command});
   };
-  send(R"(<MotionCommand speed="0.2" direction="1"/>)");
-  CHECK(program.wait_for_output("a person's command has steering BY_TURN_RATE", kLimit));
-  send(R"(<MotionCommand steering="BY_TURN_RATE" speed="0.2" turn_rate="0.1"/>)");
+  const Run refused = send(R"(<MotionCommand speed="0.2" direction="1"/>)");
+  CHECK(refused.exit_code() == 1);
+  CHECK(refused.says("a person's command has steering BY_TURN_RATE"));
+  const Run taken = send(R"(<MotionCommand steering="BY_TURN_RATE" speed="0.2" turn_rate="0.1"/>)");
+  INFO(taken.err);
+  CHECK(taken.exit_code() == 0);
   CHECK(program.wait_for_output("FUSED by teleop speed 0.20 turn 0.10", kLimit));
   CHECK(comes_to_stop_after_driving(program));
   program.send(SIGINT);

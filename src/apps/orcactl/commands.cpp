@@ -22,7 +22,8 @@ const OptionSpec kTimeout{"--timeout", "DURATION", "longest wait for the answer 
 constexpr std::string_view kSendDetails =
     "XML is the text form of the object, one element named after its type; what is not mentioned keeps its "
     "default. With - it is read from stdin. The framework stamps the header; an object that is sent begins a "
-    "mission of its own, a question does not.";
+    "mission of its own, a question does not. The command ends when the object has been handled, with an "
+    "error if the component refuses it.";
 
 constexpr std::string_view kLatencyDetails =
     "The age counts from the moment at which the object was made, by the clock that all processes of the "

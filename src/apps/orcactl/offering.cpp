@@ -74,7 +74,8 @@ Result<OfferOutcome> exchange(Channel& line, const ObjectLoan& object, Duration 
     return sent.error();
   Result<supervisor::Message> message = line.wait_for_message(limit);
   if (!message && message.error().code == Code::deadline_exceeded)
-    return fail(Code::deadline_exceeded, "no answer came in time; see --timeout");
+    return fail(Code::deadline_exceeded,
+                "no answer came in time, and it may still be handled; see --timeout");
   if (!message) return fail(Code::unavailable, "the process of the port has ended");
   Result<supervisor::LineWord> word = supervisor::decode_line_word(std::move(message).value());
   if (!word) return word.error();

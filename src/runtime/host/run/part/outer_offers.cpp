@@ -20,6 +20,12 @@ Result<ObjectRef> with_object(const Status& outcome) {
 }
 Result<ObjectRef> with_object(Result<ObjectRef> answer) { return answer; }
 
+// An operator is to know whether his object was taken, and not only that it waits to be handled.
+QueuePolicy confirming(QueuePolicy policy) {
+  policy.confirm = QueuePolicy::Confirm::handled;
+  return policy;
+}
+
 }  // namespace
 
 class OuterOffers::Edge {
@@ -73,7 +79,8 @@ Result<OuterOffers::Edge*> OuterOffers::edge_at(Endpoint& port) {
   if (known != edges_.end()) return known->second.get();
   std::unique_ptr<Edge> made;
   if (auto* const server = dynamic_cast<SendServerEndpoint*>(&port))
-    made = std::make_unique<EdgeOf<Status>>(server->connect(std::string(kOutside), port.contract().queue));
+    made = std::make_unique<EdgeOf<Status>>(
+        server->connect(std::string(kOutside), confirming(port.contract().queue)));
   if (auto* const server = dynamic_cast<QueryServerEndpoint*>(&port))
     made = std::make_unique<EdgeOf<Result<ObjectRef>>>(server->connect());
   if (!made)
