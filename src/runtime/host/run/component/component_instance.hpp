@@ -98,8 +98,6 @@ class ComponentInstance final {
   [[nodiscard]] const char* current_hook() const { return parts_.hooks.current(); }
   /// Fills in the mission and cause of what the component works on. To be called on its strand.
   void stamp(idl::OrcaObject& object) const { parts_.home.provenance.stamp(object); }
-  /// Returns the present values of its parameters.
-  [[nodiscard]] ParamValues params() const { return parts_.params.values(); }
 
  private:
   ComponentParts parts_;

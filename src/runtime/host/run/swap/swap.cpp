@@ -88,7 +88,8 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
   ComponentSettings settings = place_.component.parts().settings;
   settings.on_demand = false;
   settings.failure.reset();
-  Result<ParamValues> values = inherited(contract.params, place_.component.params(), order_.params);
+  Result<ParamValues> values =
+      inherited(contract.params, place_.component.parts().params.values(), order_.params);
   if (!values) return values.error();
   settings.params = std::move(values).value();
   successor_ = std::make_unique<ComponentInstance>(

@@ -14,7 +14,7 @@ Result<std::string> set(const std::string& by, const PeerOrder& order, WatchedSy
   const std::string& param = order.param;
   const Result<ComponentInstance*> target = watched.system().instance(component);
   if (!target) return target.error();
-  const ParamValues values = (*target)->params();
+  const ParamValues values = (*target)->parts().params.values();
   const auto before = values.find(param);
   if (before == values.end()) return fail(Code::not_found, "it has no parameter " + param, component);
   const Status done = watched.system().set_params(component, {{param, order.value}}, watched.changed(),
@@ -22,7 +22,7 @@ Result<std::string> set(const std::string& by, const PeerOrder& order, WatchedSy
   if (!done.ok()) return done.error();
   watched.reporter().log(
       log::Level::info, component,
-      by + " has set " + param + " to " + graph::print_value((*target)->params().at(param)));
+      by + " has set " + param + " to " + graph::print_value((*target)->parts().params.values().at(param)));
   return graph::print_value(before->second);
 }
 
