@@ -13,6 +13,16 @@
 #include "trial/rehearsal.hpp"
 
 namespace orca::host {
+namespace {
+
+void raise_pinned(const std::string& file, const std::string& why, const AlarmSink& sink) {
+  const std::string name = std::filesystem::path(file).filename().string();
+  const idl::Alarm alarm = make_alarm(idl::PLUGIN_PINNED, name, "", why);
+  if (sink) return sink(alarm);
+  log_alarm(alarm, name);
+}
+
+}  // namespace
 
 PluginCatalogue::PluginCatalogue(plugin::PluginIndex index, ClockKind clock)
     : index_(index), own_index_(std::move(index)), clock_(clock) {
@@ -61,7 +71,7 @@ Result<std::shared_ptr<plugin::PluginLibrary>> PluginCatalogue::library_of(const
   Result<std::unique_ptr<plugin::PluginLibrary>> loaded = plugin::PluginLibrary::load(*file);
   if (!loaded) return loaded.error();
   std::shared_ptr<plugin::PluginLibrary> library = std::move(loaded).value();
-  library->on_pinned([this, path = *file](const std::string& why) { raise_pinned(path, why); });
+  library->on_pinned([this, path = *file](const std::string& why) { raise_pinned(path, why, sink_); });
   known = library;
   return library;
 }
@@ -78,13 +88,6 @@ Result<LoadedType> PluginCatalogue::type_in(std::shared_ptr<plugin::PluginLibrar
   return fail(Code::not_found, "the plugin " + library->path() + " has no " +
                                    (kind == PluginKind::component ? "component" : "hardware") + " type \"" +
                                    type + "\"; it has: " + known);
-}
-
-void PluginCatalogue::raise_pinned(const std::string& file, const std::string& why) const {
-  const std::string name = std::filesystem::path(file).filename().string();
-  const idl::Alarm alarm = make_alarm(idl::PLUGIN_PINNED, name, "", why);
-  if (sink_) return sink_(alarm);
-  log_alarm(alarm, name);
 }
 
 void PluginCatalogue::refresh() {
@@ -108,7 +111,7 @@ Result<LoadedType> PluginCatalogue::acquire(plugin::PluginImage image, PluginKin
       plugin::PluginLibrary::load(std::move(image), trial);
   if (!library) return library.error();
   (*library)->on_pinned(
-      [this, path = (*library)->path()](const std::string& why) { raise_pinned(path, why); });
+      [this, path = (*library)->path()](const std::string& why) { raise_pinned(path, why, sink_); });
   return type_in(std::move(library).value(), kind, type);
 }
 

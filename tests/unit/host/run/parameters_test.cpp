@@ -12,7 +12,7 @@ using Catch::Contains;
 namespace {
 
 std::int64_t number_param(LiveSystem& run, const std::string& param) {
-  return std::get<std::int64_t>(run.system().component("life")->params().at(param));
+  return std::get<std::int64_t>(run.system().component("life")->parts().params.values().at(param));
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ TEST_CASE("parameters change together between two laps", "[host][params]") {
       run.sleep(100ms);
       CHECK(run.news() == Words{"configure", "start", "work 1-2", "params 5-7", "work 5-7"});
       CHECK(number_param(run, "high") == 7);
-      CHECK(std::get<double>(run.system().component("life")->params().at("size")) == 2.5);
+      CHECK(std::get<double>(run.system().component("life")->parts().params.values().at("size")) == 2.5);
     });
   }
 }
@@ -63,7 +63,7 @@ TEST_CASE("an exception at new values fails the component, which keeps the old o
     CHECK_THAT(run.set("life", {{"mode", "params throw"}}).error().text(),
                Contains("params_changed() threw"));
     CHECK(run.state("life") == ComponentState::broken);
-    CHECK(std::get<std::string>(run.system().component("life")->params().at("mode")).empty());
+    CHECK(std::get<std::string>(run.system().component("life")->parts().params.values().at("mode")).empty());
   });
 }
 
@@ -78,6 +78,6 @@ TEST_CASE("values are refused by a lap that does not end in time, and not taken 
     CHECK(set.error().code == Code::deadline_exceeded);
     CHECK_THAT(set.error().text(), Contains("it is in work()"));
     run.sleep(60s);
-    CHECK(std::get<double>(run.system().component("slow")->params().at("until")) == 60.0);
+    CHECK(std::get<double>(run.system().component("slow")->parts().params.values().at("until")) == 60.0);
   });
 }

@@ -39,7 +39,8 @@ TEST_CASE("what is refused because a component is in a long lap is never carried
       REQUIRE_FALSE(set.ok());
       CHECK_THAT(set.error().text(), Contains("has not come to the end of a lap in time; it is in work()"));
       run.sleep(30s);
-      CHECK(std::get<std::string>(run.system().component("napper")->params().at("mood")) == "good");
+      CHECK(std::get<std::string>(run.system().component("napper")->parts().params.values().at("mood")) ==
+            "good");
       CHECK(swap(run, next_napper()));
     });
   }

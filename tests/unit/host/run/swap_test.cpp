@@ -112,11 +112,11 @@ TEST_CASE("a parameter keeps its value unless the order gives another one", "[ho
     <connect from="teller.out" to="talker.back"/>)");
   live.run(virtual_executives().front(), [](LiveSystem& run) {
     REQUIRE(swap(run, next_teller("test_teller_2")));
-    CHECK(std::get<std::int64_t>(run.system().component("teller")->params().at("step")) == 3);
+    CHECK(std::get<std::int64_t>(run.system().component("teller")->parts().params.values().at("step")) == 3);
     SwapOrder next = next_teller("test_teller_again");
     next.params["step"] = "5";
     REQUIRE(swap(run, std::move(next)));
-    CHECK(std::get<std::int64_t>(run.system().component("teller")->params().at("step")) == 5);
+    CHECK(std::get<std::int64_t>(run.system().component("teller")->parts().params.values().at("step")) == 5);
     CHECK(run.set("teller", {{"step", "7"}}).ok());
     SwapOrder wrong = next_teller("test_teller_again");
     wrong.params["step"] = "70";
@@ -374,7 +374,7 @@ TEST_CASE("a component that is not loaded begins with the new code when somebody
     REQUIRE(done);
     CHECK(run.state("teller") == ComponentState::unloaded);
     CHECK(plugin::is_mapped(name));
-    CHECK(std::get<std::int64_t>(run.system().component("teller")->params().at("step")) == 4);
+    CHECK(std::get<std::int64_t>(run.system().component("teller")->parts().params.values().at("step")) == 4);
     REQUIRE(swap(run, next_teller("test_teller_again")));
     CHECK_FALSE(plugin::is_mapped(name));
   });

@@ -18,19 +18,6 @@
 
 namespace orca::nav {
 
-/// Where odometry has a robot at an instant, and how well it knows that since its start.
-struct Reckoned {
-  double time = 0.0;  ///< [s] from any beginning.
-  Pose2 X_OR;
-  std::array<double, 9> covariance{};  ///< [m2, m rad, rad2]
-};
-
-/// Returns how wrong a way between two poses of odometry may be: standard deviations ahead, to the left [m] and of the turn [rad], by how the
-/// covariance has grown. Never less than a floor, since odometry knows nothing of a bump or a slip, and never more than a fifth of the way: what
-/// grows with the way since the start, as the error of a wheel's radius does, is no error of this step.
-/// @thread  pure function; any thread.
-[[nodiscard]] std::array<double, 3> deviations_of(const Reckoned& before, const Reckoned& now);
-
 /// A laser's scan, robot frame at its first beam.
 struct RobotScan {
   std::size_t sensor = 1;  ///< A number of the laser from 1 on.

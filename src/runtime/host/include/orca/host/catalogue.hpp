@@ -112,8 +112,6 @@ class PluginCatalogue final : public graph::Catalogue {
   Result<KnownHardware*> describe_anew(const graph::HardwareUse& use);
   Result<KnownHardware*> prepared(const graph::HardwareUse& use);
 
-  void raise_pinned(const std::string& file, const std::string& why) const;
-
   plugin::PluginIndex index_;
   const plugin::PluginIndex own_index_;  // as it was given, without folders of graphs
   std::vector<const TypeEntry*> own_types_;
