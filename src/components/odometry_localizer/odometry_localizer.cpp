@@ -56,6 +56,7 @@ class OdometryLocalizer final : public orca::Component {
     const auto odometry = odometry_.get_update();
     if (!senders_.accepts(*odometry)) return orca::again();
     if (base_.begins_anew(*odometry)) lose(odometry->origin());
+    if (told_) begin_at(*std::exchange(told_, std::nullopt), *odometry);
     auto pose = poses_.loan();
     fill(*odometry, *pose);
     poses_.push(std::move(pose));
@@ -73,31 +74,39 @@ class OdometryLocalizer final : public orca::Component {
   orca::Status params_changed() override {
     lost_ = false;
     start_.reset();
+    told_.reset();
     return orca::ok();
   }
 
-  // Somebody knows where the robot is now, so it is known where the odometry begins.
+  // Somebody knows where the robot is now, so it is known where the odometry begins. While nobody wants to know where it is, no odometry is
+  // heard: then the robot stands, and is there still when the next one comes.
   orca::Status on_pose(const orca::ObjectPtr<RobotPose>& pose) {
     if (orca::Status valid = orca::check_reading(*pose); !valid.ok()) return valid;
     const auto odometry = odometry_.latest();
-    if (!odometry || !orca::check_reading(*odometry).ok())
-      return orca::fail(
-          orca::Code::failed_precondition,
-          "no odometry has come that says anything valid, so it is not known where that begins");
-    start_ = orca::plane_pose(*pose) * inverse(orca::plane_pose(*odometry));
-    lost_ = false;
+    const bool hears = odometry && orca::check_reading(*odometry).ok() &&
+                       orca::to_seconds(now() - orca::to_time_point(odometry->creation_time())) < kFresh;
+    if (hears)
+      begin_at(orca::plane_pose(*pose), *odometry);
+    else
+      told_ = orca::plane_pose(*pose);
     log_info("the robot is where \"" + pose->origin() + "\" says");
     return orca::ok();
   }
 
-  void save_state(orca::StateWriter& state) const override { state.write(base_, lost_, start_); }
+  void begin_at(const orca::Pose2& X_WR, const Odometry& odometry) {
+    start_ = X_WR * inverse(orca::plane_pose(odometry));
+    lost_ = false;
+  }
+
+  void save_state(orca::StateWriter& state) const override { state.write(base_, lost_, start_, told_); }
   orca::Status load_state(orca::StateReader& state) override {
     if (state.tag().version == 1) return state.read(base_, lost_);
-    return state.read(base_, lost_, start_);
+    if (state.tag().version == 2) return state.read(base_, lost_, start_);
+    return state.read(base_, lost_, start_, told_);
   }
-  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
+  [[nodiscard]] std::uint32_t state_version() const override { return 3; }
   [[nodiscard]] std::vector<orca::StateTag> accepted_states() const override {
-    return {{"orca.OdometryLocalizer", 1}};
+    return {{"orca.OdometryLocalizer", 1}, {"orca.OdometryLocalizer", 2}};
   }
 
   void fill(const Odometry& odometry, RobotPose& pose) {
@@ -122,11 +131,14 @@ class OdometryLocalizer final : public orca::Component {
     pose.stamp(odometry.stamp());
   }
 
+  static constexpr double kFresh = 1.0;  // [s] age of odometry that says where the robot is now
+
   orca::SenderWatch senders_{host()};
   orca::OdometryTrust trust_;
   orca::SenderLife base_;
   bool lost_ = false;
   std::optional<orca::Pose2> start_;  // as somebody has said; nothing: as the parameters say
+  std::optional<orca::Pose2> told_;   // where the robot is, since no odometry has come
   orca::SendServer<RobotPose> where_{
       *this,
       "RobotPoseSend",

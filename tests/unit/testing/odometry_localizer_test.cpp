@@ -2,16 +2,19 @@
 // Where an OdometryLocalizer says that the robot is.
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/sensing.hpp"
+#include "orca/idl/time.hpp"
 #include "orca/testing/component_trial.hpp"
 
 using namespace orca;
 using namespace orca::testing;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -83,6 +86,27 @@ TEST_CASE("whoever sends where the robot is now decides all poses that follow", 
   CHECK(there.yaw == Approx(0.25 + kRight));
   CHECK(later.x == Approx(7.0));
   CHECK(later.y == Approx(-2.0));
+}
+
+TEST_CASE("where a robot is that nobody has asked for yet counts from the first odometry on",
+          "[testing][localizer]") {
+  Pose2 first{};
+  try_component<Robot>({.type = "orca.OdometryLocalizer"}, [&](Robot& robot) {
+    auto where = make_object<idl::RobotPose>();
+    where->x(7.0);
+    where->y(-3.0);
+    where->orientation(kRight);
+    REQUIRE(robot.where.send(std::move(where)).ok());
+    robot.sleep(5s);
+    auto odometry = robot.odometry.loan();
+    odometry->x(2.0);
+    odometry->stamp(to_time_value(robot.now()));
+    robot.odometry.push(std::move(odometry));
+    first = plane_pose(*robot.pose.get_update_wait());
+  });
+  CHECK(first.x == Approx(7.0));
+  CHECK(first.y == Approx(-3.0));
+  CHECK(first.yaw == Approx(kRight));
 }
 
 TEST_CASE("odometry that does not say how wrong it is gives a pose that is not exact",
