@@ -150,6 +150,7 @@ MapLocalizer::~MapLocalizer() = default;
 void MapLocalizer::change_map(std::shared_ptr<const KnownMap> map) {
   search_.reset();
   if (map_) doubt_all();
+  for (Candidate& place : places_) place.behind = place.at_walls = 0.0;  // those were other walls
   map_ = std::move(map);
 }
 
