@@ -119,6 +119,7 @@ TEST_CASE(
     test.sleep(50ms);
     auto pose = test.pose.loan();
     pose->covariance(anywhere());
+    pose->stamp(to_time_value(test.now()));
     test.pose.push(std::move(pose));
     reason = test.failed.get_update_wait()->reason();
     send_goal(test, 2.0);
@@ -126,6 +127,7 @@ TEST_CASE(
       pose = test.pose.loan();
       pose->x(2.0);
       pose->covariance(anywhere());
+      pose->stamp(to_time_value(test.now()));
       test.pose.push(std::move(pose));
       test.sleep(50ms);
     }
@@ -144,11 +146,13 @@ TEST_CASE("Goto keeps a goal until it is known for the first time where the robo
   try_component<GotoPorts>({.type = "orca.Goto"}, [&](GotoPorts& test) {
     auto pose = test.pose.loan();
     pose->covariance(anywhere());
+    pose->stamp(to_time_value(test.now()));
     test.pose.push(std::move(pose));
     send_goal(test, 2.0);
     for (int i = 0; i < 20; ++i) {
       pose = test.pose.loan();
       pose->covariance(anywhere());
+      pose->stamp(to_time_value(test.now()));
       test.pose.push(std::move(pose));
       test.sleep(50ms);
     }
@@ -170,6 +174,7 @@ TEST_CASE(
     for (int i = 0; i < laps; ++i) {
       auto pose = test.pose.loan();
       pose->covariance(anywhere());
+      pose->stamp(to_time_value(test.now()));
       test.pose.push(std::move(pose));
       test.sleep(50ms);
     }
@@ -205,6 +210,7 @@ TEST_CASE("Goto ends a goal as lost if it is not known within 20 s where the rob
     for (; until < 300 && !test.failed.new_data_arrived(); ++until) {
       auto pose = test.pose.loan();
       pose->covariance(anywhere());
+      pose->stamp(to_time_value(test.now()));
       test.pose.push(std::move(pose));
       test.sleep(100ms);
     }
