@@ -39,13 +39,13 @@ Status Pace::step(Duration span) {
 
 void Pace::finish() {
   const MutexLock lock(mutex_);
-  finished_ = true;
+  if (!finished_) finished_ = time_at(steady_now());
   begin_anew(kFast);
 }
 
 Pace::State Pace::look() const {
   const MutexLock lock(mutex_);
-  return {step_end_ ? 0.0 : factor_, step_end_.has_value(), time_at(steady_now())};
+  return {step_end_ ? 0.0 : factor_, step_end_.has_value(), time_at(steady_now()), finished_};
 }
 
 std::optional<TimePoint> Pace::hold_before(TimePoint next) {

@@ -128,3 +128,18 @@ TEST_CASE("a run that has to end does not stay paused", "[base][pace]") {
   executive->run([&] { executive->sleep_until(at(10ms)); });
   CHECK(executive->now() == at(10ms));
 }
+
+TEST_CASE("a pace keeps the time at which its run began to end, whatever passes later", "[base][pace]") {
+  Pace pace(0.0);
+  const auto executive = paced(virtual_kinds().front(), pace);
+  CHECK_FALSE(pace.look().finished);
+  REQUIRE(pace.step(10ms).ok());
+  executive->run([&] {
+    executive->sleep_until(at(5ms));
+    pace.finish();
+    executive->sleep_until(at(20ms));
+    pace.finish();
+  });
+  CHECK(pace.look().finished == at(5ms));
+  CHECK(pace.look().time == at(20ms));
+}

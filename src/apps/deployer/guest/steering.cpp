@@ -81,9 +81,14 @@ bool Steering::wait(Condition condition) {
 Packet Steering::step(const std::string& nanoseconds) {
   const Result<std::int64_t> span = xml::parse_integer(nanoseconds);
   if (!span) return packet_of(span.error());
+  const TimePoint end = saturating_add(pace_.look().time, Duration(*span));
   if (const Status begun = pace_.step(Duration(*span)); !begun.ok()) return packet_of(begun.error());
-  if (!wait([this] { return !pace_.look().steps; })) return over();
-  return {"ok", std::to_string(pace_.look().time.time_since_epoch().count())};
+  (void)wait([this] { return !pace_.look().steps; });
+  // A run that ends lets time pass until all is taken down. That is no part of a step, and a step up to the end is whole.
+  const Pace::State come = pace_.look();
+  const TimePoint until = come.finished.value_or(come.time);
+  if (until < end) return over();
+  return {"ok", std::to_string(until.time_since_epoch().count())};
 }
 
 Packet Steering::latest(const std::string& port) {

@@ -27,9 +27,10 @@ class Pace {
 
   /// The pace at one moment. A plain value.
   struct State {
-    double factor = kFast;  ///< [s of virtual time per s]; 0: paused; kFast: as fast as it can.
-    bool steps = false;     ///< It lets time pass for a step, and is paused then.
-    TimePoint time;         ///< Virtual time until which the run has come.
+    double factor = kFast;                ///< [s of virtual time per s]; 0: paused; kFast: as fast as it can.
+    bool steps = false;                   ///< It lets time pass for a step, and is paused then.
+    TimePoint time;                       ///< Virtual time until which the run has come.
+    std::optional<TimePoint> finished{};  ///< Virtual time at which finish() was called.
   };
 
   /// @param factor  0, kFast, or from kSlowest to kFastest.
@@ -66,7 +67,7 @@ class Pace {
   TimePoint reached_ ORCA_GUARDED_BY(mutex_);                    // the moment at which the executive is
   TimePoint next_ ORCA_GUARDED_BY(mutex_);                       // the one that it waits for
   std::optional<TimePoint> step_end_ ORCA_GUARDED_BY(mutex_);    // while it steps
-  bool finished_ ORCA_GUARDED_BY(mutex_) = false;
+  std::optional<TimePoint> finished_ ORCA_GUARDED_BY(mutex_);    // when finish() was called
   std::function<void()> changed_ ORCA_GUARDED_BY(mutex_);
 };
 
