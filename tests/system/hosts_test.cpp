@@ -236,7 +236,7 @@ TEST_CASE("in one process AlarmCentral has the alarms of that process", "[system
   CHECK_THAT(run.err, Contains("listener: hears ") && Contains(" FAILED of hooligan: "));
 }
 
-// To load these two takes longer than all the rest of a start.
+// To load these two took half of the time of a start (docs/adr/0092-fcl-measures-what-decides.md).
 TEST_CASE("FCL and cairo are loaded only where they are used", "[system][hosts]") {
   const TempFolder folder;
   const auto libraries_of = [&](const std::string& graph, const Words& more) {
