@@ -145,7 +145,6 @@ void skip_leak_check() {
   const int high = fcntl(report_fd, F_DUPFD_CLOEXEC, kHighDescriptor);
   g_report_fd = high < 0 ? report_fd : high;
   log::mute();
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the parent ends, the copy does not outlive it
   for (const int signal : kSignals) ::signal(signal, SIG_DFL);
   std::set_terminate(report_terminate);
   const int null = open("/dev/null", O_RDWR);  // the copy must not talk to the user
@@ -329,9 +328,12 @@ TrialResult run_trial(const std::function<void(TrialLine&)>& attempt, Duration l
   ActivityKeeper here;
   here.keep();
   ActivityKeeper().restore();  // this fork() must not count as a plugin's
+  const pid_t parent = getpid();
   const pid_t copy = fork();
   const int reason = errno;
   if (copy == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the parent ends, the copy does not outlive it
+    if (getppid() != parent) _exit(1);
     close(fds[0]);
     run_copy(fds[1], attempt, effects);
   }

@@ -2,8 +2,10 @@
 #include "orca/supervisor/control_socket.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -30,6 +32,7 @@ constexpr const char* kSuffix = ".sock";
 constexpr int kWaiting = 128;            // clients that have not been accepted yet
 constexpr int kSendBuffer = 256 * 1024;  // [bytes]
 constexpr timeval kPatience{1, 0};       // with a system that many want to talk to
+constexpr int kLeaving = 2000;           // [ms] for what a killed process had forked, to end too
 
 std::string file_of(const std::string& system) { return system + kSuffix; }
 
@@ -96,6 +99,35 @@ int connect_to(const Descriptor& socket, const Address& address) {
   return connect(socket.number(), plain(address), address.size) == 0 ? 0 : errno;
 }
 
+// Whether who began to listen has ended. Then only what it had forked holds the socket, and that ends with it.
+bool is_left_behind(const Descriptor& asking) {
+  const std::optional<ucred> listener = peer_of(asking);
+  if (!listener) return false;
+  const Descriptor process(static_cast<int>(syscall(SYS_pidfd_open, listener->pid, 0)));
+  if (!process) return errno == ESRCH;
+  pollfd end{process.number(), POLLIN, 0};
+  return poll(&end, 1, 0) == 1;
+}
+
+struct Asked {
+  int reason = 0;  // as of connect_to()
+  Descriptor socket;
+};
+
+// Asks who listens there, and waits while it is only the rest of a process that was killed.
+Asked ask_for_living(const Address& address) {
+  const auto ask = [&] {
+    Asked asked{0, make_socket(SOCK_NONBLOCK)};
+    asked.reason = connect_to(asked.socket, address);
+    return asked;
+  };
+  Asked first = ask();
+  if (first.reason != 0 || !is_left_behind(first.socket)) return first;
+  pollfd last_close{first.socket.number(), 0, 0};
+  (void)poll(&last_close, 1, kLeaving);
+  return ask();
+}
+
 bool is_trusted(uid_t user, uid_t owner) { return user == owner || user == 0; }
 
 // Checks that somebody else has not put a socket in the place of the owner's.
@@ -153,10 +185,10 @@ Result<Descriptor> take_name(const std::string& path, const Error& taken) {
     return refused("cannot keep the name of the socket " + path, errno);
   }
   if (errno != EADDRINUSE) return refused("cannot take the name of the socket " + path, errno);
-  const Descriptor asking = make_socket(SOCK_NONBLOCK);
-  const int reason = connect_to(asking, address);
-  const std::optional<ucred> holder = reason == 0 ? peer_of(asking) : std::nullopt;
-  if (reason == EAGAIN || (holder && holder->uid == geteuid())) return taken;
+  const Asked asked = ask_for_living(address);
+  if (asked.reason == ECONNREFUSED && bind(name.number(), plain(address), address.size) == 0) return name;
+  const std::optional<ucred> holder = asked.reason == 0 ? peer_of(asked.socket) : std::nullopt;
+  if (asked.reason == EAGAIN || (holder && holder->uid == geteuid())) return taken;
   return fail(Code::unavailable, "the name of the socket " + path + " is held by " +
                                      (holder ? "process " + std::to_string(holder->pid) + " of user " +
                                                    std::to_string(holder->uid)
@@ -186,7 +218,7 @@ Result<ControlSocket> ControlSocket::open_file(const std::string& file, const Er
   if (!address) return too_long(path);
   const Result<OwnFolder> lock = lock_folder();  // two deployers may begin at the same time
   if (!lock) return lock.error();
-  const int reason = connect_to(make_socket(SOCK_NONBLOCK), *address);
+  const int reason = ask_for_living(*address).reason;
   if (reason == 0 || reason == EAGAIN) return taken;
   Result<Descriptor> name = take_name(path, taken);
   if (!name) return name.error();

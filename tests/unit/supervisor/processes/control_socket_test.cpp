@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/supervisor/control_socket.hpp"
 
+#include <signal.h>
 #include <sys/socket.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -62,6 +64,32 @@ TEST_CASE("a socket that a dead system has left is replaced", "[supervisor][cont
   const Result<ControlSocket> second = ControlSocket::open("scout");
   REQUIRE(second);
   CHECK(connect_to_system("scout"));
+}
+
+TEST_CASE("a system whose killed predecessor's forks are still about to end waits for them",
+          "[supervisor][control]") {
+  const RuntimeFolder folder;
+  int opened[2];
+  REQUIRE(pipe(opened) == 0);
+  const pid_t first = fork();
+  if (first == 0) {
+    const Result<ControlSocket> socket = ControlSocket::open("scout");
+    if (fork() == 0)
+      usleep(300'000);  // holds the socket like a child that has not come to its exec
+    else if (socket && write(opened[1], "o", 1) == 1)
+      pause();
+    _exit(0);
+  }
+  char byte = 0;
+  REQUIRE(read(opened[0], &byte, 1) == 1);
+  REQUIRE(kill(first, SIGKILL) == 0);
+  const bool is_reaped = GENERATE(true, false);
+  siginfo_t end{};
+  REQUIRE(waitid(P_PID, static_cast<id_t>(first), &end, WEXITED | (is_reaped ? 0 : WNOWAIT)) == 0);
+  CHECK(ControlSocket::open("scout"));
+  if (!is_reaped) CHECK(waitpid(first, nullptr, 0) == first);
+  close(opened[0]);
+  close(opened[1]);
 }
 
 TEST_CASE("a folder that others may write to is not used", "[supervisor][control]") {

@@ -30,7 +30,8 @@ namespace orca::supervisor {
 /// Thread contract: not synchronised.
 class ControlSocket {
  public:
-  /// Makes the socket, and its folder if necessary. A socket that a dead system has left behind is replaced.
+  /// Makes the socket, and its folder if necessary. A socket that a dead system has left behind is replaced; while
+  /// something that the dead process had forked still ends and holds it, the call waits up to 2 s.
   /// @param system  name of the graph.
   /// @errors  already_exists if a system of this name runs; unavailable, with the reason, if the socket cannot be made.
   ///          Throws std::system_error if there are no descriptors left (orca/base/exhaustion.hpp).
