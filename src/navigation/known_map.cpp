@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "orca/base/portable_math.hpp"
 #include "orca/navigation/distance_transform.hpp"
 
 namespace orca::nav {
@@ -124,6 +125,66 @@ double KnownMap::distance_to_surface(Vec2 place) const {
   if (surface == nullptr) return kReach;
   const Vec2 off = place - surface->at;
   return surface->normal == Vec2{} ? norm(off) : std::fabs(dot(off, surface->normal));
+}
+
+double likelihood(std::span<const SurfacePoint> scan, const KnownMap& map, const Pose2& X_MR) {
+  constexpr double kSoft = 0.15;  // [m]
+  constexpr double kElse = 0.1;   // by chance
+  constexpr double kShare = 0.3;  // of the evidence of a beam, as neighbours show the same
+  const Vec2 turned = direction(X_MR.yaw);
+  double sum = 0.0;
+  for (const SurfacePoint& point : scan) {
+    const double off = map.distance(X_MR.position() + rotated(point.at, turned)) / kSoft;
+    sum += portable::log(portable::exp(-0.5 * off * off) + kElse);
+  }
+  return std::max(1e-100, portable::exp(kShare * sum));
+}
+
+namespace {
+
+// Returns by how much better a scan must fit at a pose than where the robot should be.
+double margin_to(const Pose2& pose, const PoseSpread& prior, const FitMargin& margin) {
+  constexpr double kMost = 0.15;  // [1] A slip of the wheels shows by it.
+  return std::clamp(0.5 * squared_distance(prior, pose) / margin.evidence, margin.apart, kMost);
+}
+
+// Lays a scan where it fits best about where the robot should be. The prior decides what is looked at, but counts only once.
+std::optional<ScanMatch> lay_there(std::span<const SurfacePoint> scan, const KnownMap& map,
+                                   const PoseSpread& prior, MatchOptions options, const FitMargin& margin) {
+  constexpr double kUsual = 9.0;  // squared distance
+  constexpr double kOwn = 0.03;   // [m], [rad] by which a scan alone is off
+  const std::optional<ScanMatch> held =
+      refine(scan, map.surface(), prior.mean, options, information_of(prior));
+  if (!held) return std::nullopt;
+  options.reach = options.inlier;
+  const std::optional<ScanMatch> pulled = refine(scan, map.surface(), held->X_MR, options);
+  if (!pulled) return std::nullopt;
+  PoseSpread expected = prior;
+  for (const std::size_t i : {0U, 4U, 8U}) expected.covariance[i] += kOwn * kOwn;
+  const bool is_usual = squared_distance(expected, pulled->X_MR) <= kUsual;
+  return is_usual || pulled->fit >= held->fit + margin_to(pulled->X_MR, expected, margin) ? pulled : held;
+}
+
+}  // namespace
+
+std::optional<ScanMatch> lay_near(std::span<const SurfacePoint> scan, const KnownMap& map,
+                                  const PoseSpread& prior, const MatchOptions& options,
+                                  const FitMargin& margin) {
+  constexpr double kClose = 0.2;  // [m] in which echoes look for their walls about a place that is known well
+  constexpr double kSurely = 0.8;  // [1] share of a scan on the map for which no better place is looked for
+  const double deviation = std::sqrt(prior.covariance[0] + prior.covariance[4]);
+  MatchOptions close = options;
+  close.reach = std::min(close.reach, kClose + 3.0 * deviation);
+  const std::optional<ScanMatch> here = lay_there(scan, map, prior, close, margin);
+  if (here && here->share >= kSurely) return here;
+  const double way = std::clamp(3.0 * deviation, 0.3, 1.0);
+  const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
+  const auto found = map.search().best(thinned(scan, 0.1, 90), {prior.mean, way, turn}, 0.0);
+  if (!found) return here;
+  close.reach = kClose;
+  const std::optional<ScanMatch> other = refine(scan, map.surface(), found->X_MR, close);
+  if (!other || !here) return other ? other : here;
+  return other->fit > here->fit + margin_to(other->X_MR, prior, margin) ? other : here;
 }
 
 }  // namespace orca::nav

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "orca/base/portable_math.hpp"
 #include "orca/navigation/place_search.hpp"
 #include "orca/navigation/sonar_model.hpp"
 
@@ -13,7 +12,6 @@ namespace orca::nav {
 namespace {
 
 constexpr std::size_t kLeastEchoes = 20;
-constexpr double kSurely = 0.8;  // [1] share of a scan on the map for which no better place is looked for
 constexpr std::size_t kParticles = 200;  // of a place that is known roughly
 constexpr double kWide = 0.3;            // [m] beyond which particles are weighed before a scan is laid
 constexpr double kWideTurn = 0.15;       // [rad]
@@ -51,48 +49,6 @@ bool is_same(const Pose2& one, const Pose2& other) {
   return norm(away.position()) < 0.3 && std::fabs(away.yaw) < 0.2;
 }
 
-// Weighs particles by how near the echoes of a scan are to what is occupied.
-void weigh(Particles& particles, const RobotScan& scan, const KnownMap& map) {
-  constexpr double kSoft = 0.15;  // [m]
-  constexpr double kElse = 0.1;   // by chance
-  constexpr double kShare = 0.3;  // of the evidence of a beam, as neighbours show the same
-  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 60);
-  particles.weigh([&](const Pose2& X_MR) {
-    const Vec2 turned = direction(X_MR.yaw);
-    double sum = 0.0;
-    for (const SurfacePoint& point : some) {
-      const double off = map.distance(X_MR.position() + rotated(point.at, turned));
-      sum += portable::log(portable::exp(-0.5 * square(off / kSoft)) + kElse);
-    }
-    return std::max(1e-100, portable::exp(kShare * sum));
-  });
-}
-
-// Lays a scan on the map, near where the robot should be. A place away from there must explain clearly more of the scan, and the more the
-// farther it is: a piece of furniture that was moved explains a little more where it stood.
-std::optional<ScanMatch> match(const RobotScan& scan, const KnownMap& map, const PoseSpread& prior,
-                               const LocalizerOptions& options) {
-  constexpr double kMostMargin = 0.15;  // [1] A slip of the wheels shows by it.
-  MatchOptions close = options.match;
-  close.reach = std::min(close.reach, kClose + 3.0 * deviation_of(prior));
-  std::optional<ScanMatch> best =
-      refine(scan.echoes, map.surface(), prior.mean, close, information_of(prior));
-  // The prior decides what is looked at, but counts only once.
-  close.reach = close.inlier;
-  if (best) best = refine(scan.echoes, map.surface(), best->X_MR, close);
-  if (best && best->share >= kSurely) return best;
-  const double way = std::clamp(3.0 * deviation_of(prior), 0.3, 1.0);
-  const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
-  const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 90);
-  const auto found = map.search().best(some, {prior.mean, way, turn}, 0.0);
-  if (!found) return best;
-  close.reach = kClose;
-  std::optional<ScanMatch> other = refine(scan.echoes, map.surface(), found->X_MR, close);
-  if (!other || !best) return other ? other : best;
-  const double margin = 0.5 * squared_distance(prior, other->X_MR) / options.evidence;
-  return other->fit > best->fit + std::clamp(margin, options.apart, kMostMargin) ? other : best;
-}
-
 // Returns where a scan lies that was found by a search: by 10 cm and 4 degrees at worst, as the search looks more closely.
 PoseSpread spread_of(const ScanMatch& laid) {
   PoseInformation known = laid.information;
@@ -110,6 +66,7 @@ struct MapLocalizer::Candidate {
   PlaceBelief belief;     // but for where
   double behind = 0.0;    // echoes behind the map's walls, those of long ago counting less
   double at_walls = 0.0;  // the same, with those on the walls
+  bool stayed = false;    // The robot is there by its wheels since it was known last.
 
   /// @param weight  1: a whole scan.
   void note(double fit, double weight = 1.0) {
@@ -123,6 +80,8 @@ struct MapLocalizer::Candidate {
     behind += seen.longs - kForgotten * behind;
     at_walls += seen.hits + seen.longs - kForgotten * at_walls;
   }
+  // Furniture that was moved, and people, speak in each view against the place where the robot is: a tenth of that counts.
+  [[nodiscard]] double share_of_lack() const { return stayed ? 0.1 : 1.0; }
   // People explain echoes in front of a wall, nobody explains those behind it.
   [[nodiscard]] bool sees_through_walls(const LocalizerOptions& options) const {
     return behind > options.most_behind * at_walls;
@@ -149,6 +108,7 @@ MapLocalizer::~MapLocalizer() = default;
 
 void MapLocalizer::change_map(std::shared_ptr<const KnownMap> map) {
   search_.reset();
+  left_.reset();
   if (map_) doubt_all();
   for (Candidate& place : places_) place.behind = place.at_walls = 0.0;  // those were other walls
   map_ = std::move(map);
@@ -160,7 +120,9 @@ void MapLocalizer::add_place(const PlaceBelief& belief, std::size_t count) {
   place.particles.shape(belief.where, random_);
 }
 
-void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now) {
+void MapLocalizer::resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now,
+                          const std::vector<SurfaceOffset>& offsets) {
+  if (!offsets.empty()) offsets_ = offsets;
   reckon_anew(now);
   left_some_out_ = suggested_ = false;
   places_.clear();
@@ -209,6 +171,7 @@ void MapLocalizer::settle() {
 void MapLocalizer::reckon_anew(const Reckoned& now) {
   if (moved_) settle();
   search_.reset();
+  left_.reset();
   counted_.clear();
   now_ = settled_ = now;
   seen_time_ = searched_time_ = now.time;
@@ -260,18 +223,23 @@ void MapLocalizer::see(const RobotScan& seen) {
   }
   compare(fits);
   believe(suggested_ ? options_.believed_at_once : options_.believed_from);
+  if (known(now_) == Known::localized) {
+    left_ = {places_.front().particles.spread(), settled_};
+    places_.front().stayed = false;
+  }
   if (options_.searches && !search_) begin_search(scan);
 }
 
 void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   PoseSpread prior = place.particles.spread();
   if (deviation_of(prior) > kWide || std::sqrt(prior.covariance[8]) > kWideTurn) {
-    weigh(place.particles, scan, *map_);
+    const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 60);
+    place.particles.weigh([&](const Pose2& X_MR) { return likelihood(some, *map_, X_MR); });
     place.particles.resample(random_);
     prior = place.particles.spread();
   }
   for (const std::size_t i : {0U, 4U, 8U}) prior.covariance[i] += 1e-6;
-  const std::optional<ScanMatch> found = match(scan, *map_, prior, options_);
+  const std::optional<ScanMatch> found = lay_near(scan.echoes, *map_, prior, options_.match, options_.margin);
   if (!found || found->share < 0.25) return;
   // Only one place that is believed teaches how the map is off.
   SurfaceOffset offset = offsets_[scan.sensor];
@@ -294,7 +262,8 @@ void MapLocalizer::compare(std::span<const double> fits) {
   changed_ = 0.0;
   const double best = std::ranges::max(fits);
   for (std::size_t i = 0; i < places_.size(); ++i)
-    places_[i].belief.odds -= options_.evidence * std::max(0.0, best - fits[i] - options_.apart);
+    places_[i].belief.odds -= places_[i].share_of_lack() * options_.margin.evidence *
+                              std::max(0.0, best - fits[i] - options_.margin.apart);
   drop_unlikely();
 }
 
@@ -353,6 +322,40 @@ void MapLocalizer::go_on_searching() {
   search_.reset();
 }
 
+// Nobody has carried the robot, as a rule: where it is by its wheels is likelier than another place that shows the same, and is one of the places
+// even if the scan by which it was doubted did not fit there.
+void MapLocalizer::count_stayed() {
+  constexpr double kOff = 0.4;      // [m] by which the place may have been wrong already
+  constexpr double kOffTurn = 0.2;  // [rad]
+  if (!left_ || suggested_) return;
+  const auto& [map, scan, taken, places] = *search_;
+  PoseSpread stayed =
+      after(left_->where, seen_from(left_->at.X_OR, taken.X_OR), deviations_of(left_->at, taken));
+  if (deviation_of(stayed) > kMostSpread) return left_.reset();
+  const Pose2 since = seen_from(taken.X_OR, settled_.X_OR);
+  const auto is_there = [&](const Pose2& X_MR) {
+    const Pose2 away = seen_from(stayed.mean * since, X_MR);
+    return norm(away.position()) < kOff && std::fabs(away.yaw) < kOffTurn;
+  };
+  bool is_known = false;
+  for (Candidate& place : places_) {
+    if (!is_there(place.particles.spread().mean)) continue;
+    if (!std::exchange(place.stayed, true)) place.belief.odds += options_.suggested;
+    is_known = true;
+  }
+  if (is_known) return;
+  for (const std::size_t i : {0U, 4U}) stayed.covariance[i] += square(kOff / 3.0);
+  const auto laid = lay_near(scan.echoes, *map_, stayed, options_.match, options_.margin);
+  if (!laid || !is_there(laid->X_MR * since)) return;
+  const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
+  if (explained.fit < options_.doubted_below) return;
+  const double odds = options_.margin.evidence * explained.fit + options_.suggested;
+  const PoseSpread where = after(spread_of(*laid), since, deviations_of(taken, settled_));
+  add_place({where, odds, explained.fit, explained.fit, false}, kParticles);
+  places_.back().note(explained);
+  places_.back().stayed = true;
+}
+
 // Puts particles where the scan of the search fits, moved by the way since. A place that is known already keeps the evidence of other scans.
 void MapLocalizer::take_found() {
   left_some_out_ = search_->places.left_some_out();
@@ -366,7 +369,7 @@ void MapLocalizer::take_found() {
   for (Candidate& place : places_) {
     const Pose2 X_MR = place.particles.spread().mean * inverse(since);
     evidence.push_back(place.belief.odds);
-    place.belief.odds += options_.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
+    place.belief.odds += options_.margin.evidence * map_->explain(scan.echoes, scan.from, X_MR).fit;
     if (suggested_) place.belief.odds += options_.suggested;
   }
   for (const Found& found : search_->places.found()) {
@@ -375,7 +378,8 @@ void MapLocalizer::take_found() {
     const Explanation explained = map_->explain(scan.echoes, scan.from, laid->X_MR);
     if (explained.fit < options_.doubted_below || map_->distance(laid->X_MR.position()) < kBody) continue;
     const PoseSpread where = after(spread_of(*laid), since, deviations);
-    add_place({where, options_.evidence * explained.fit, explained.fit, explained.fit, false}, kParticles);
+    add_place({where, options_.margin.evidence * explained.fit, explained.fit, explained.fit, false},
+              kParticles);
     Candidate& added = places_.back();
     added.note(explained);
     for (std::size_t i = 0; i < known; ++i) {
@@ -385,11 +389,13 @@ void MapLocalizer::take_found() {
       added.at_walls += places_[i].at_walls;
     }
   }
+  count_stayed();
   if (places_.empty()) return;
   double best = places_.front().belief.odds;
   for (const Candidate& place : places_) best = std::max(best, place.belief.odds);
   for (Candidate& place : places_) {
-    place.belief.odds = std::min(0.0, place.belief.odds - best + options_.evidence * options_.apart);
+    const double lack = best - place.belief.odds - options_.margin.evidence * options_.margin.apart;
+    place.belief.odds = -place.share_of_lack() * std::max(0.0, lack);
     place.belief.slow = place.belief.quick;
   }
   drop_unlikely();

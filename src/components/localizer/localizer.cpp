@@ -337,8 +337,7 @@ class Localizer final : public orca::Component {
     last_.forget();
     reckoning_.resume(*memory.reckoned);
     floor_.expect(memory.yaw);
-    localizer_->resume(memory.places, memory.was_known, *reckoning_.latest());
-    localizer_->offsets() = memory.offsets;
+    localizer_->resume(memory.places, memory.was_known, *reckoning_.latest(), memory.offsets);
     return read;
   }
 

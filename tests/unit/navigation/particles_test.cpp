@@ -144,3 +144,17 @@ TEST_CASE("particles that are all alike, or on a line, take a covariance too", "
     CHECK(count_of(particles) == 2000.0);
   }
 }
+
+TEST_CASE("a step of odometry is as wrong as its covariance has grown, within bounds", "[navigation]") {
+  const Reckoned before{0.0, {10.0, 5.0, 0.0}, {0.04, 0, 0, 0, 0.04, 0, 0, 0, 0.01}};
+  Reckoned now{1.0, {10.0, 5.0, 0.0}, before.covariance};
+  CHECK(deviations_of(before, now)[0] == Approx(0.002));
+  now.X_OR = {11.0, 5.0, 0.0};
+  CHECK(deviations_of(before, now)[0] == Approx(0.022));  // the covariance does not even grow: the floor
+  now.covariance = {0.04 + 0.01, 0, 0, 0, 0.04 + 0.01 + 0.01, 0, 0, 0, 0.01 + 0.0036};
+  CHECK(deviations_of(before, now)[0] ==
+        Approx(0.1));  // the error of the direction has moved it by as much, too
+  CHECK(deviations_of(before, now)[2] == Approx(0.06));
+  now.covariance = {400.0, 0, 0, 0, 400.0, 0, 0, 0, 4.0};
+  CHECK(deviations_of(before, now)[0] == Approx(0.222));
+}

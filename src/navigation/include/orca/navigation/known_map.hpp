@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/navigation/lattice.hpp"
+#include "orca/navigation/particles.hpp"
 #include "orca/navigation/scan_match.hpp"
 #include "orca/navigation/surface.hpp"
 
@@ -110,5 +112,28 @@ class KnownMap {
   ScanSearch search_;
   std::vector<Cell> free_blocks_;
 };
+
+/// Returns how likely a scan is at a pose, by how near its echoes are to what is occupied; those beside each other count as one in three.
+/// @param scan  robot frame; about sixty points are enough.
+/// @return [1] at least 1e-100.
+/// @thread  pure function; any thread.
+[[nodiscard]] double likelihood(std::span<const SurfacePoint> scan, const KnownMap& map, const Pose2& X_MR);
+
+/// By how much better a scan must fit at one place than at another to speak for it.
+struct FitMargin {
+  double apart = 0.02;  ///< [1] shares that differ by less say nothing.
+  double evidence =
+      80.0;  ///< [1/1] logarithm of the odds by each share that a place explains more of a scan than another.
+};
+
+/// Lays a scan on a map, near where the robot should be. A place away from there must explain clearly more of the scan, and the more the
+/// farther it is: a piece of furniture that was moved explains a little more where it stood.
+/// @param scan   robot frame.
+/// @param prior  where the robot should be, by its wheels.
+/// @return nothing, if fewer than ten points find a surface.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::optional<ScanMatch> lay_near(std::span<const SurfacePoint> scan, const KnownMap& map,
+                                                const PoseSpread& prior, const MatchOptions& options,
+                                                const FitMargin& margin);
 
 }  // namespace orca::nav

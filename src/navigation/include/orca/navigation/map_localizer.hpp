@@ -39,8 +39,9 @@ struct LocalizerOptions {
   double believed_from =
       0.72;  ///< [1] how well scans fit at a place (Explanation::fit) for it to be believed.
   double believed_at_once =
-      0.9;                  ///< [1] the same for a place that was suggested, before the map was searched.
-  double suggested = 10.0;  ///< logarithm of the odds of such a place against others that fit as well.
+      0.9;  ///< [1] the same for a place that was suggested, before the map was searched.
+  /// logarithm of the odds of such a place against others that fit as well, and of the one where the robot is by its wheels since it was last known.
+  double suggested = 10.0;
   /// [1] share of the echoes behind the map's walls, of those on walls or behind, up to which a place is believed that was not.
   double most_behind = 0.07;
   double doubted_below =
@@ -51,9 +52,7 @@ struct LocalizerOptions {
   double check_time = 0.5;   ///< [s] after which it is looked at even if the robot has not moved.
   double blind_way = 2.0;    ///< [m] after which a robot that senses nothing that says where it is, is lost.
   double blind_time = 3.0;   ///< [s] after which it is, if no scan comes at all.
-  double apart = 0.02;       ///< [1] shares that differ by less say nothing.
-  double evidence =
-      80.0;  ///< [1/1] logarithm of the odds by each share that a place explains more of a scan than another.
+  FitMargin margin;
   bool searches = true;         ///< Whether it searches the whole map for other places when it doubts.
   std::size_t looks = 4000000;  ///< values of the map that are looked up for a search, with each scan.
   MatchOptions match{.error = 0.03, .together = 10.0};
@@ -87,7 +86,9 @@ class MapLocalizer {
   void place(const PoseSpread& where, const Reckoned& now);
   /// Goes on with what another one has believed.
   /// @param was_known  whether the robot has been localized before.
-  void resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now);
+  /// @param offsets    what that one had learnt of each sensor's walls; empty: what this one has learnt stays.
+  void resume(std::span<const PlaceBelief> places, bool was_known, const Reckoned& now,
+              const std::vector<SurfaceOffset>& offsets = {});
   /// Begins with a place that may be wrong, such as where the robot was before it was switched off. It is believed at once only if scans
   /// fit very well there; in any case the map is searched once for places that fit better, as along a corridor many fit well.
   /// If nothing is searched, only scans that fit very well let it be believed.
@@ -116,13 +117,17 @@ class MapLocalizer {
   [[nodiscard]] std::vector<PlaceBelief> places(const Reckoned& now) const;
   [[nodiscard]] bool was_known() const { return was_known_; }
   /// Returns what was learnt of each sensor's walls, by its number.
-  [[nodiscard]] std::vector<SurfaceOffset>& offsets() { return offsets_; }
   [[nodiscard]] const std::vector<SurfaceOffset>& offsets() const { return offsets_; }
   [[nodiscard]] bool searches() const { return search_ != nullptr; }
 
  private:
   struct Candidate;
   struct GlobalSearch;
+  /// A place that was believed, until other places were.
+  struct Left {
+    PoseSpread where;
+    Reckoned at;
+  };
 
   void doubt_all();
   bool begin_update(std::size_t sensor);
@@ -132,6 +137,7 @@ class MapLocalizer {
   void begin_search(const RobotScan& scan);
   void go_on_searching();
   void take_found();
+  void count_stayed();
   void drop_unlikely();
   void believe(double least);
   void add_place(const PlaceBelief& belief, std::size_t count);
@@ -158,6 +164,7 @@ class MapLocalizer {
   std::vector<Reckoned> counted_;       // of each sensor: when its last scan counted
   std::vector<SurfaceOffset> offsets_;  // of each sensor
   std::unique_ptr<GlobalSearch> search_;
+  std::optional<Left> left_;
 };
 
 }  // namespace orca::nav
