@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Takes commands as a base does, and says in whose mission it moves and what for: "moves because of goto".
+/// Takes commands as a base does, and says in whose mission it moves and what for: "moves because of goto". Wheels that are held refuse them.
 class Wheels final : public orca::Component {
  public:
   using Component::Component;
@@ -15,6 +15,7 @@ class Wheels final : public orca::Component {
   orca::Outcome work() override { return orca::done(); }
 
   orca::Status on_command(const orca::ObjectPtr<orca::idl::MotionCommand>& command) {
+    if (*held_) return orca::fail(orca::Code::unavailable, "the wheels are held");
     const std::string line = "moves because of " + command->cause().origin();
     if (command->kind() == orca::idl::NORMAL && (line != last_ || command->mission() != mission_))
       log_warning(line);
@@ -24,6 +25,7 @@ class Wheels final : public orca::Component {
   }
 
   orca::SendServer<orca::idl::MotionCommand> motion_{*this, "motion", &Wheels::on_command};
+  orca::Param<bool> held_{*this, "held", false};
   std::string last_;
   std::uint64_t mission_ = 0;
 };

@@ -155,8 +155,8 @@ bool ComponentLoop::handle_sent(SendServerEndpoint& endpoint) {
       port.c_str());
   contain(endpoint, fault);
   if (!outcome.ok())
-    parts_.write_log(log::Level::warning,
-                     port + ": could not handle an object that it had accepted: " + outcome.error().text());
+    parts_.report_refusal(port +
+                          ": could not handle an object that it had accepted: " + outcome.error().text());
   return handled || fault;
 }
 

@@ -43,4 +43,12 @@ class LineLimit {
   std::map<std::string, Entry> entries_;
 };
 
+/// Returns what a line says of those that were left out before it, as LineLimit counts them; empty if there was none.
+/// @thread  pure function; any thread.
+[[nodiscard]] inline std::string mention_left_out(std::uint64_t lines) {
+  if (lines == 0) return {};
+  return lines == 1 ? " (1 more such line was left out before)"
+                    : " (" + std::to_string(lines) + " more such lines were left out before)";
+}
+
 }  // namespace orca::host

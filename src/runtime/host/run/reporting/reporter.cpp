@@ -24,12 +24,6 @@ std::string mention(std::uint64_t mission) {
   return mission == 0 ? "" : " (mission " + std::to_string(mission) + ")";
 }
 
-std::string mention_left_out(std::uint64_t lines) {
-  if (lines == 0) return {};
-  return lines == 1 ? " (1 more such line was left out before)"
-                    : " (" + std::to_string(lines) + " more such lines were left out before)";
-}
-
 }  // namespace
 
 Reporter::Reporter(const Executive& executive, Trace& trace, RunListener& listener, std::string log_name)

@@ -35,6 +35,17 @@ void ComponentParts::report_failure(Hook hook, const std::string& text, const ch
   run.reporter.note(std::move(alarm));
 }
 
+// Whoever sends twenty commands a second would fill the log while a device is held.
+void ComponentParts::report_refusal(const std::string& text) {
+  constexpr Duration kInterval = std::chrono::seconds(10);
+  if (text != last_refusal) {
+    last_refusal = text;
+    refusal_lines.emplace(kInterval);
+  }
+  if (const auto left_out = refusal_lines->admit(text, now()))
+    write_log(log::Level::warning, text + mention_left_out(*left_out));
+}
+
 void ComponentParts::raise_alarm(const std::string& kind, idl::AlarmSeverity severity,
                                  const std::string& text) {
   const auto [own, is_new] = own_alarms.try_emplace(kind);

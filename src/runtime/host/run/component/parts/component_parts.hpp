@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,6 +21,7 @@
 #include "parameters.hpp"
 #include "peer_orders.hpp"
 #include "port_set.hpp"
+#include "run/reporting/line_limit.hpp"
 #include "run/reporting/run_context.hpp"
 
 namespace orca::host {
@@ -45,6 +47,8 @@ struct ComponentParts {
   /// cause of what the component works on. To be called on its strand.
   /// @param port  port of a handler; "" for other hooks.
   void report_failure(Hook hook, const std::string& text, const char* port = "");
+  /// Writes to the log that a handler refused an object: the same refusal over and over at most once in 10 s. To be called on its strand.
+  void report_refusal(const std::string& text);
   /// Raise or clear an alarm of the component's own; what changes nothing does nothing. To be called on its strand.
   void raise_alarm(const std::string& kind, idl::AlarmSeverity severity, const std::string& text);
   void clear_alarm(const std::string& kind, const std::string& text);
@@ -66,6 +70,8 @@ struct ComponentParts {
   OrderQueue orders;
   const std::unique_ptr<PeerOrders> peer_orders = std::make_unique<PeerOrders>();
   std::map<std::string, idl::Alarm> own_alarms;  // the last of each kind
+  std::string last_refusal;                      // by a handler
+  std::optional<LineLimit> refusal_lines;        // of that one
 };
 
 }  // namespace orca::host
