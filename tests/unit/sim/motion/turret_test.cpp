@@ -115,6 +115,45 @@ TEST_CASE("sensors on a turret look where it points, and say so in the robot's f
   CHECK(std::ranges::min(round.readings, {}, &SonarReading::stamp).stamp == round.stamp);
 }
 
+TEST_CASE(
+    "what sensors on a turret that goes round measure lies where it stands, while the robot drives and "
+    "steers",
+    "[sim][turret]") {
+  constexpr Vec2 kPost{1.2, 0.4};
+  constexpr double kRadius = 0.02;
+  constexpr double kHalfBeam = 4.0 * std::numbers::pi / 180.0;
+  RobotModel model = turreted();
+  InfraredRing ring;
+  ring.name = "infrared";
+  ring.count = 16;
+  ring.pitch = std::numbers::pi / 8.0;
+  ring.half_beam = kHalfBeam;
+  ring.max_range = 0.76;
+  ring.radius = 0.19;
+  ring.height = 0.3;
+  ring.period = std::chrono::milliseconds{50};
+  ring.on_turret = true;
+  model.infrareds = {ring};
+  World world({"post", {{"post", Circle{kPost, kRadius}, 2.5}}, {}}, {.seed = 1, .realism = Realism::ideal});
+  const RobotId id = *world.add_robot("dewey", model, {});
+  REQUIRE(world.set_velocity_command(id, {.forward = 0.3, .turn_rate = 0.2}));
+  int seen = 0;
+  for (int tick = 0; tick < 400; ++tick) {
+    REQUIRE(world.set_turret_command(id, orca::wrapped(world.turret(id)->angle + 1.5)));
+    world.step();
+    const auto& scan = world.infrared(id);
+    if (!scan) continue;
+    for (std::size_t k = 0; k < ring.count; ++k) {
+      if (scan->ranges[k] >= ring.max_range) continue;
+      ++seen;
+      const Vec2 echo = world.pose(id) * scan->X_RB * ring.sensor(k) * Vec2{scan->ranges[k], 0.0};
+      REQUIRE(norm(echo - kPost) < kRadius + scan->ranges[k] * kHalfBeam);
+    }
+  }
+  CHECK(seen > 20);
+  CHECK(std::fabs(world.turret(id)->turn_rate) > 0.5);
+}
+
 TEST_CASE("sensors on the body of a synchro base stay behind when the wheels steer, and say so",
           "[sim][turret]") {
   Bench bench(base_of(DriveKind::synchro), Realism::ideal, {-2.0, 3.0, 0.0});
