@@ -111,6 +111,7 @@ const std::vector<Case> kCases{
     {"nomad_200", "goto", How::silent, Worse::nowhere},
     {"nomad_200", "avoid", How::removed, Worse::contact},
     {"nomad_200", "fuser", How::silent, Worse::stands},
+    {"nomad_200", "turret", How::removed, Worse::contact},
     {"nomad_200", "base", How::silent, Worse::stands},
     {"nomad_200", "localizer", How::crashed, Worse::nowhere},
 

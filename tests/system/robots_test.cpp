@@ -2,6 +2,7 @@
 // Whole systems with robots of other kinds than the Scout.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -34,6 +35,18 @@ double facing_at(const RecordTable& poses, double time) {
   for (const auto& row : poses.rows("localizer.RobotPosePush"))
     if (number(row, "stamp") >= time - 1e-6) return number(row, "orientation");
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Returns how often a turret has gone past what is behind the robot.
+double rounds(const RecordTable& turret) {
+  double rounds = 0.0;
+  double last = 0.0;
+  for (const auto& row : turret.rows("base.TurretAnglePush")) {
+    const double angle = number(row, "angle");
+    if (last > 2.0 && angle < -2.0) ++rounds;
+    last = angle;
+  }
+  return rounds;
 }
 
 }  // namespace
@@ -90,6 +103,61 @@ TEST_CASE("a robot passes by infrared the boxes that lie below its sonars", "[sy
   const Run deaf = run_deployer(Words{folder.write("by_sonar.xml", by_sonar)} + virtual_clock());
   INFO(deaf.err);
   CHECK_FALSE(deaf.contacts().empty());
+}
+
+TEST_CASE(
+    "a robot passes thin stands while its turret goes round, and touches one while the turret points ahead",
+    "[system][robots]") {
+  const Words graph = Words{source_file("graphs/nomad_200.xml")} + virtual_clock();
+  const TempFolder folder;
+  for (const char* seed : {"2", "3"}) {
+    const Run round = run_deployer(
+        graph + Words{"--seed", seed, "--record", folder.file("turret.csv") + "=base.TurretAnglePush"});
+    CAPTURE(seed, round.err);
+    CHECK(round.exit_code() == 0);
+    CHECK(round.arrivals().size() == 3);
+    CHECK(round.contacts().empty());
+    CHECK(rounds(RecordTable(folder.file("turret.csv"))) > round.arrivals()[2].t / 10.0);
+
+    const Run ahead = run_deployer(graph + Words{"--seed", seed, "--set", "turret.lead=0 deg"});
+    CAPTURE(ahead.err);
+    CHECK_FALSE(ahead.contacts().empty());
+  }
+}
+
+TEST_CASE("the turret of a robot that comes to rest turns to where the robot faces", "[system][robots]") {
+  constexpr double kHeld = 10.0;   // [s]
+  constexpr double kTurned = 4.0;  // [s] to come to rest and turn half round
+  const TempFolder folder;
+  const Run run =
+      run_deployer(Words{source_file("graphs/nomad_200.xml"), "--fail", "fuser=silent@10s", "--until", "20s",
+                         "--record", folder.file("turret.csv") + "=base.TurretAnglePush"} +
+                   virtual_clock());
+  INFO(run.err);
+  CHECK(run.ended);
+  double farthest_before = 0.0;
+  double farthest_after = 0.0;
+  for (const auto& row : RecordTable(folder.file("turret.csv")).rows("base.TurretAnglePush")) {
+    double& farthest = number(row, "stamp") < kHeld ? farthest_before : farthest_after;
+    if (number(row, "stamp") < kHeld || number(row, "stamp") > kHeld + kTurned)
+      farthest = std::max(farthest, std::abs(number(row, "angle")));
+  }
+  CHECK(farthest_before > 3.0);
+  CHECK(farthest_after < 0.01);
+}
+
+TEST_CASE("a graph that turns the turret of a robot without one is refused before anything runs",
+          "[system][robots]") {
+  std::string robot = read_text(source_file("sim/robots/nomad_200.urdf"));
+  robot = std::regex_replace(robot, std::regex("<turret [^>]*>"), "");
+  robot = std::regex_replace(robot, std::regex("type=\"continuous\""), "type=\"fixed\"");
+  const TempFolder folder;
+  const Run run = run_deployer({source_file("graphs/nomad_200.xml"), "--check", "--set",
+                                "robot=" + folder.write("no_turret.urdf", robot)});
+  INFO(run.err);
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("TurretCommandSend"));
+  CHECK(run.says("TurretAnglePush"));
 }
 
 TEST_CASE("a holonomic base moves sideways on command", "[system][robots]") {

@@ -373,6 +373,7 @@ TEST_CASE("the shipped experiments have no errors", "[system][batch]") {
                                    std::pair{"radio", "4 variants, 1 world, 10 seeds: 40 runs"},
                                    std::pair{"showroom", "6 variants, 2 worlds, 10 seeds: 120 runs"},
                                    std::pair{"sonar_physics", "5 variants, 4 worlds, 20 seeds: 400 runs"},
+                                   std::pair{"turret", "2 variants, 10 worlds, 4 seeds: 80 runs"},
                                    std::pair{"computing", "6 variants, 40 worlds, 1 seed: 240 runs"},
                                    std::pair{"emulated_office", "4 variants, 2 worlds, 20 seeds: 160 runs"},
                                    std::pair{"surprises", "5 variants, 2 worlds, 20 seeds: 200 runs"}}) {

@@ -29,7 +29,7 @@ TEST_CASE("--types lists the types of all plugins that a graph can name, with ki
   const Run run = good({"--types"});
   const std::vector<std::string> lines = run.lines();
   const std::set<std::string> all(lines.begin(), lines.end());
-  CHECK(lines.size() == 54);
+  CHECK(lines.size() == 55);
   CHECK(all.size() == lines.size());
   CHECK(has(run, "orca.Goto                component  " ORCA_BINARY_DIR
                  "/plugins/goto.so  A behaviour that drives to a goal "
