@@ -36,6 +36,8 @@ TEST_CASE("a goal that no robot on the floor can take is refused with the reason
   const auto [fault, change] = GENERATE(values<Case>({
       {"", [](idl::GoalPoint&) {}},
       {"not finite", [](idl::GoalPoint& goal) { goal.coordinate().point().y(kNan); }},
+      {"farther away than any place", [](idl::GoalPoint& goal) { goal.coordinate().point().x(1e300); }},
+      {"farther away than any place", [](idl::GoalPoint& goal) { goal.coordinate().point().y(-1e9); }},
       {"not finite", [](idl::GoalPoint& goal) { goal.orientation().orientation().yaw(kNan); }},
       {"not finite", [](idl::GoalPoint& goal) { goal.orientation().orientation().roll(kNan); }},
       {"not finite", [](idl::GoalPoint& goal) { goal.reach_radius().distance(kNan); }},
