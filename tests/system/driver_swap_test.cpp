@@ -17,7 +17,7 @@ std::string next_version(const std::string& name) {
   return std::string(ORCA_BINARY_DIR "/tests/next_plugins/") + name + ".so";
 }
 
-// A cart that stands where its driver has left it, whichever drives it next, and is sent 6 m ahead.
+// A cart that stands where its driver has left it, whichever drives it next, and is sent some metres ahead at 0.5 m/s.
 std::string graph(const std::string& file, const std::string& metres) {
   return "<graph name=\"driver_swap\" version=\"1\" ends=\"command\" plugins=\"" ORCA_BINARY_DIR
          "/tests/host_plugins\">\n"
@@ -51,7 +51,7 @@ std::string from(const std::string& log, const std::string& begin) {
 // A robot that drives to its goal.
 class Way {
  public:
-  explicit Way(const std::string& metres = "6")
+  explicit Way(const std::string& metres = "3")
       : program_(deployer(
             {folder_.write("driver_swap.xml", graph(folder_.file("place"), metres)), "--log", "debug"})) {
     REQUIRE(waits_for("cart 1 moves"));
@@ -85,7 +85,7 @@ TEST_CASE(
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   REQUIRE(run.arrivals().size() == 1);
-  CHECK(run.arrivals().front().x == Approx(6.0).margin(0.5));
+  CHECK(run.arrivals().front().x == Approx(3.0).margin(0.5));
   const std::string pause = from(from(run.err, "its driver is to be exchanged"), "cart 1 stops at once");
   CHECK(pause.find("cart 1 close") < pause.find("cart 2 open"));
   CHECK_THAT(pause, !Contains("cart 1 moves"));
@@ -108,7 +108,7 @@ TEST_CASE("whoever would exchange what serves hardware is told how to exchange t
 }
 
 TEST_CASE("a driver's parameters are shown, and changed by putting it in anew", "[system][swap][driver]") {
-  Way way;
+  Way way("4");
   CHECK_THAT(run_orcactl({"get", "cart.speed"}).out, Contains("0.5") && Contains("m/s"));
   const Run of_base = run_orcactl({"get", "base"});  // its own, and its driver's
   CHECK_THAT(of_base.out, Contains("cart") && Contains("speed") && Contains("trouble"));
@@ -133,7 +133,7 @@ TEST_CASE("a driver's parameters are shown, and changed by putting it in anew", 
 
 TEST_CASE("a driver that fails is gone again, and the robot goes on with the one that it had",
           "[system][swap][driver]") {
-  Way way;
+  Way way("4");
   for (const std::string trouble : {"open", "start", "throw", "block"}) {
     const Run refused = Way::swap(next_version("test_cart_2"), {"--set", "trouble=" + trouble});
     INFO(trouble << refused.err);
@@ -152,7 +152,7 @@ TEST_CASE("a driver that fails is gone again, and the robot goes on with the one
 
 TEST_CASE("a driver that hangs while it is made is refused after 10 s, and the robot does not even stop",
           "[system][swap][driver]") {
-  Way way("12");
+  Way way("8");
   const Run refused = Way::swap(next_version("test_cart_2"), {"--set", "trouble=sleep"});
   INFO(refused.err);
   CHECK(refused.exit_code() == 1);
