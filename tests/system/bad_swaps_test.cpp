@@ -21,12 +21,14 @@ struct Version {
   std::string plugin;  // with its type
   Words more;          // of the order
   std::string refusal;
+  std::string tryout = "300 ms";
 };
 
 Version rogue(const std::string& where, const std::string& deed, const std::string& refusal) {
   return {ORCA_BINARY_DIR "/tests/next_plugins/test_rogue.so:test.RogueAvoid",
           {"--set", "where=" + where, "--set", "deed=" + deed},
-          refusal};
+          refusal,
+          where.starts_with("lap") ? "1200 ms" : "300 ms"};  // ten laps a second
 }
 
 Version rogue_built(const std::string& name, const std::string& refusal) {
@@ -61,8 +63,8 @@ class Driving {
 
   // Exchanges the avoider.
   static Run swap(const Version& version, const Words& more = {}) {
-    return run_orcactl(Words{"swap", "avoid", version.plugin, "--probation", "100 ms"} + version.more + more,
-                       Seconds(60));
+    const Words span{"--probation", "100 ms", "--tryout", version.tryout};
+    return run_orcactl(Words{"swap", "avoid", version.plugin} + span + version.more + more, Seconds(60));
   }
 
   // Whether the components work in the process with which all has begun.
@@ -119,12 +121,12 @@ class Driving {
 void exchange(Driving& robot, const Version& bad, const Version& good) {
   INFO(bad.plugin << " " << Catch::StringMaker<Words>::convert(bad.more));
   const std::string before = Driving::shown();
-  const Run refused = Driving::swap(bad, {"--tryout", "1200 ms"});
+  const Run refused = Driving::swap(bad);
   INFO(refused.out << refused.err);
   CHECK(refused.exit_code() == 1);
   CHECK_THAT(refused.err, Contains(bad.refusal));
   CHECK(Driving::shown() == before);
-  const Run taken = Driving::swap(good, {"--tryout", "300 ms"});
+  const Run taken = Driving::swap(good);
   INFO(taken.err << robot.log());
   CHECK(taken.exit_code() == 0);
   CHECK(robot.mapped() == std::vector<std::string>{Driving::shown()});
@@ -263,10 +265,10 @@ TEST_CASE("a version that hangs only in the system's process ends in the old cod
 TEST_CASE("an old version whose stop() hangs is left behind, and further versions can be taken",
           "[system][swap]") {
   Driving robot;
-  const Words here{"--set", "process=main", "--tryout", "300 ms"};
+  const Words here{"--set", "process=main"};
   CHECK(Driving::swap(rogue("stop", "sleep", ""), here).exit_code() == 0);
-  CHECK(Driving::swap(shipped()[0], {"--tryout", "300 ms"}).exit_code() == 0);
-  CHECK(Driving::swap(shipped()[1], {"--tryout", "300 ms"}).exit_code() == 0);
+  CHECK(Driving::swap(shipped()[0]).exit_code() == 0);
+  CHECK(Driving::swap(shipped()[1]).exit_code() == 0);
   CHECK(robot.lives());
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }

@@ -167,7 +167,7 @@ TEST_CASE("a robot that a client of Player drives is stopped when the server or 
           "[system][player]") {
   for (const char* behaviour : {"player", "avoid"})
     for (const char* how : {"silent", "throw", "hang", "slow"}) {
-      Robot robot({"--fail", std::string(behaviour) + "=" + how + "@3s"});
+      Robot robot({"--fail", std::string(behaviour) + "=" + how + "@1s"});
       Client client(robot.port);
       CAPTURE(behaviour, how);
       CHECK(client.subscribe(kPosition2d).type == kAck);
@@ -254,9 +254,9 @@ TEST_CASE("without avoid a client of Player that drives ahead meets the wall, wi
     Robot robot({}, folder.write("graph.xml", graph.text()));
     Client client(robot.port);
     CHECK(client.subscribe(kPosition2d).type == kAck);
-    for (const TimePoint end = steady_now() + 16s;
+    for (const TimePoint end = steady_now() + (avoids ? 12s : 30s);
          steady_now() < end && robot.program.out().find("contact") == std::string::npos;)
-      (void)way_driven(client, 500ms);
+      (void)way_driven(client, 500ms, 0.5);
     CAPTURE(avoids);
     INFO(robot.program.err());
     CHECK((robot.program.out().find("contact") != std::string::npos) == !avoids);
