@@ -2,6 +2,7 @@
 #include "deployer.hpp"
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace orca::test {
@@ -84,6 +85,16 @@ Run finish(Subprocess& program, Seconds limit) {
 Run run_deployer(const Words& words, Seconds limit) {
   Subprocess program(deployer(words));
   return finish(program, limit);
+}
+
+std::vector<Run> run_beside(const std::vector<Words>& commands, Seconds limit) {
+  std::vector<std::unique_ptr<Subprocess>> programs;
+  for (const Words& words : commands)
+    programs.push_back(std::make_unique<Subprocess>(
+        deployer(words + Words{"--name", "beside_" + std::to_string(programs.size())})));
+  std::vector<Run> runs;
+  for (const auto& program : programs) runs.push_back(finish(*program, limit));
+  return runs;
 }
 
 std::string source_file(std::string_view path) {

@@ -84,6 +84,10 @@ struct Run {
 /// Runs the deployer to its end, for at most `limit` times kSlowdown.
 [[nodiscard]] Run run_deployer(const Words& words, Seconds limit = Seconds(30));
 
+/// Runs deployers beside each other, each with a name of its own, and returns their results in the same order. Their wall times say
+/// only when they were looked at.
+[[nodiscard]] std::vector<Run> run_beside(const std::vector<Words>& commands, Seconds limit = Seconds(30));
+
 /// Waits for the end of a program, for at most `limit` times kSlowdown, and returns its result.
 [[nodiscard]] Run finish(Subprocess& program, Seconds limit);
 

@@ -23,10 +23,13 @@ const std::vector<Thrown> kThings{{"exception", "the wheels came off"},
                                   {"nullptr", "of type decltype(nullptr)"},
                                   {"object", "Oddity"}};
 
-Run misbehave(const std::string& where, const std::string& what, const Words& more = virtual_clock()) {
-  return run_deployer(
-      Words{system_graph("misbehaving.xml"), "--set", "where=" + where, "--set", "what=" + what} +
-      with_test_plugins() + more);
+Words misbehaving(const std::string& where, const std::string& what, const Words& clock) {
+  return Words{system_graph("misbehaving.xml"), "--set", "where=" + where, "--set", "what=" + what} +
+         with_test_plugins() + clock;
+}
+
+Run misbehave(const std::string& where, const std::string& what) {
+  return run_deployer(misbehaving(where, what, virtual_clock()));
 }
 
 std::string line_with(const std::string& text, const Run& run) {
@@ -41,8 +44,12 @@ Run alone(const std::string& type) {
 }
 
 void check_fails_alone(const std::string& where, const std::string& hook, const Words& clock) {
+  std::vector<Words> commands;
+  for (const Thrown& thrown : kThings) commands.push_back(misbehaving(where, thrown.what, clock));
+  const std::vector<Run> runs = run_beside(commands);
+  auto next = runs.begin();
   for (const Thrown& thrown : kThings) {
-    const Run run = misbehave(where, thrown.what, clock);
+    const Run& run = *next++;
     CAPTURE(where, thrown.what);
     INFO(run.err);
     CHECK(run.ended);
@@ -257,16 +264,21 @@ TEST_CASE(
 
 namespace {
 
-// Checks or runs a graph of twenty components of a plugin that does not go well for ever.
-Run with_twenty(const std::string& plugin, const std::string& params, const Words& words) {
-  const TempFolder folder;
+// Writes a graph of twenty components of a plugin that does not go well for ever.
+std::string of_twenty(const TempFolder& folder, const std::string& plugin, const std::string& params) {
   std::string graph = "<graph name=\"tired\" version=\"1\" plugins=\"" ORCA_BINARY_DIR
                       "/tests/tired_plugins/" +
                       plugin + "\">\n";
   for (int i = 0; i < 20; ++i)
     graph += "<component name=\"c" + std::to_string(i) + "\" type=\"test.Tired\" autonomous=\"true\">" +
              params + "</component>\n";
-  return run_deployer(Words{folder.write("tired.xml", graph + "</graph>\n")} + words, Seconds(30));
+  return folder.write("tired.xml", graph + "</graph>\n");
+}
+
+// Checks or runs such a graph.
+Run with_twenty(const std::string& plugin, const std::string& params, const Words& words) {
+  const TempFolder folder;
+  return run_deployer(Words{of_twenty(folder, plugin, params)} + words, Seconds(30));
 }
 
 }  // namespace
@@ -309,9 +321,10 @@ TEST_CASE("a constructor that hangs while a graph is checked is an error of its 
 
 TEST_CASE("a destructor that hangs at the end of a run ends the run with its name after 10 s",
           "[system][plugins]") {
-  for (const Words& way : {virtual_clock(), Words{}}) {
-    const Run run =
-        with_twenty("test_tired", "<param name=\"rests\" value=\"true\"/>", way + Words{"--until", "1s"});
+  const TempFolder folder;
+  const Words words{of_twenty(folder, "test_tired", "<param name=\"rests\" value=\"true\"/>"), "--until",
+                    "1s"};
+  for (const Run& run : run_beside({words + virtual_clock(), words})) {
     INFO(run.err);
     CHECK(run.ended);
     CHECK(run.exit_code() == 1);

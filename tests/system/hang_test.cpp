@@ -5,7 +5,11 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <functional>
+#include <future>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "deployer.hpp"
 #include "temp_folder.hpp"
@@ -19,6 +23,7 @@ constexpr double kEndLimit = 3.0 * kSlowdown;  // [s]
 struct Stopped {
   Run run;
   Seconds took{0};
+  bool ran = false;  // until the signal
   bool left_behind = true;
 };
 
@@ -29,17 +34,22 @@ struct Place {
 };
 const std::vector<Place> kPlaces{{{"--in-process"}, "2.5 s after the signal to stop"}, {{}, "in time"}};
 
-// Sends SIGTERM after a while in which the program has come to where it hangs.
-Stopped stop(const Words& words, double after = 3.0) {
-  Subprocess program(deployer(words));
-  std::this_thread::sleep_for(Seconds(after));
-  CHECK(program.group_lives());
-  program.send(SIGTERM);
-  const auto sent = std::chrono::steady_clock::now();
-  Stopped stopped{finish(program, Seconds(10)), {}, true};
-  stopped.took = std::chrono::steady_clock::now() - sent;
-  stopped.left_behind = program.group_lives();
-  return stopped;
+// Sends SIGTERM after a while in which the program has come to where it hangs. The system has a name of its own.
+std::future<Stopped> stop(const Words& words) {
+  static int number = 0;
+  const std::string name = "hang_" + std::to_string(++number);
+  return std::async(std::launch::async, [command = deployer(words + Words{"--name", name})] {
+    Subprocess program(command);
+    std::this_thread::sleep_for(Seconds(3));
+    Stopped stopped;
+    stopped.ran = program.group_lives();
+    program.send(SIGTERM);
+    const auto sent = std::chrono::steady_clock::now();
+    stopped.run = finish(program, Seconds(10));
+    stopped.took = std::chrono::steady_clock::now() - sent;
+    stopped.left_behind = program.group_lives();
+    return stopped;
+  });
 }
 
 // A folder with a pipe that nobody writes to, under a name that ends as it must.
@@ -71,6 +81,26 @@ Words clinger(const Words& settings) {
   Words words = Words{system_graph("clinger.xml")} + with_test_plugins();
   for (const std::string& setting : settings) words = words + Words{"--set", setting};
   return words;
+}
+
+// Stops at the same time what hangs at each place in each way, and checks the end of all.
+void check_all(const std::vector<std::string>& ways,
+               const std::function<Words(const Place&, const std::string& way)>& words,
+               const std::function<void(const Place&, const Stopped&)>& check) {
+  std::vector<std::future<Stopped>> stops;
+  for (const Place& place : kPlaces)
+    for (const std::string& way : ways) stops.push_back(stop(words(place, way)));
+  auto next = stops.begin();
+  for (const Place& place : kPlaces)
+    for (const std::string& way : ways) {
+      const Stopped stopped = (next++)->get();
+      CAPTURE(way, place.words);
+      INFO(stopped.run.err);
+      CHECK(stopped.ran);
+      CHECK(stopped.took < Seconds(kEndLimit));
+      CHECK_FALSE(stopped.left_behind);
+      check(place, stopped);
+    }
 }
 
 }  // namespace
@@ -110,48 +140,44 @@ TEST_CASE("a graph may come from a pipe that somebody writes to", "[system][sign
 
 TEST_CASE("a destructor that hangs is ended with 1 after one signal, and named", "[system][signals]") {
   if (kSanitized) return;  // they take longer to end
-  for (const Place& place : kPlaces) {
-    for (const std::string& until : {std::string("0.1 s"), std::string("1000 s")}) {
-      CAPTURE(until, place.words);
-      const Stopped stopped = stop(clinger({"where=destructor"}) + Words{"--until", until} + place.words);
-      INFO(stopped.run.err);
-      CHECK(stopped.run.exit_code() == 1);
-      CHECK(stopped.took < Seconds(kEndLimit));
-      CHECK(stopped.run.says("error: clinger: its destructor has not ended " + place.when));
-      CHECK(stopped.run.says("test_clinger.so"));
-      CHECK_FALSE(stopped.left_behind);
-    }
-  }
+  const std::vector<std::string> ends{"0.1 s", "1000 s"};
+  check_all(
+      ends,
+      [](const Place& place, const std::string& until) {
+        return clinger({"where=destructor"}) + Words{"--until", until} + place.words;
+      },
+      [](const Place& place, const Stopped& stopped) {
+        CHECK(stopped.run.exit_code() == 1);
+        CHECK(stopped.run.says("error: clinger: its destructor has not ended " + place.when));
+        CHECK(stopped.run.says("test_clinger.so"));
+      });
 }
 
 TEST_CASE(
     "a static destructor or an atexit handler of a plugin that hangs is ended after one signal, and named",
     "[system][signals]") {
   if (kSanitized) return;
-  for (const Place& place : kPlaces) {
-    for (const std::string& where : {std::string("where=static"), std::string("where=atexit")}) {
-      CAPTURE(where, place.words);
-      const Stopped stopped = stop(clinger({where}) + Words{"--until", "0.1 s"} + place.words);
-      INFO(stopped.run.err);
-      CHECK(stopped.run.exit_code() == 1);
-      CHECK(stopped.took < Seconds(kEndLimit));
-      CHECK(stopped.run.says("test_clinger.so: its static destruction has not ended " + place.when));
-      CHECK_FALSE(stopped.left_behind);
-    }
-  }
+  const std::vector<std::string> hooks{"where=static", "where=atexit"};
+  check_all(
+      hooks,
+      [](const Place& place, const std::string& where) {
+        return clinger({where}) + Words{"--until", "0.1 s"} + place.words;
+      },
+      [](const Place& place, const Stopped& stopped) {
+        CHECK(stopped.run.exit_code() == 1);
+        CHECK(stopped.run.says("test_clinger.so: its static destruction has not ended " + place.when));
+      });
 }
 
 TEST_CASE("a constructor that hangs before anything has started is ended with 0 after one signal, and named",
           "[system][signals]") {
   if (kSanitized) return;
-  for (const Place& place : kPlaces) {
-    CAPTURE(place.words);
-    const Stopped stopped = stop(clinger({"type=LateClinger"}) + place.words);
-    INFO(stopped.run.err);
-    CHECK(stopped.run.exit_code() == 0);
-    CHECK(stopped.took < Seconds(kEndLimit));
-    // It hangs in the trial, too. After the signal no host process is started.
-    CHECK(stopped.run.says("clinger: its constructor has not ended") == !place.words.empty());
-    CHECK_FALSE(stopped.left_behind);
-  }
+  const std::vector<std::string> types{"type=LateClinger"};
+  check_all(
+      types, [](const Place& place, const std::string& type) { return clinger({type}) + place.words; },
+      [](const Place& place, const Stopped& stopped) {
+        CHECK(stopped.run.exit_code() == 0);
+        // It hangs in the trial, too. After the signal no host process is started.
+        CHECK(stopped.run.says("clinger: its constructor has not ended") == !place.words.empty());
+      });
 }

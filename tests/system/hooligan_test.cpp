@@ -14,14 +14,27 @@ using Catch::Contains;
 
 namespace {
 
+Words hooligan(const std::string& where, const std::string& deed, const Words& clock) {
+  return Words{system_graph("hooligan.xml"), "--set", "where=" + where, "--set", "deed=" + deed} +
+         with_test_plugins() + clock;
+}
+
 Run act(const std::string& where, const std::string& deed, const Words& clock = virtual_clock()) {
-  return run_deployer(
-      Words{system_graph("hooligan.xml"), "--set", "where=" + where, "--set", "deed=" + deed} +
-      with_test_plugins() + clock);
+  return run_deployer(hooligan(where, deed, clock));
 }
 
 const Words kSteady{"--clock", "steady", "--in-process"};
 const Words kHosted{"--clock", "steady"};  // in a host process
+
+// Lets the component act with several clocks at the same time.
+std::vector<Run> act_with(const std::vector<Words>& clocks, const std::string& where,
+                          const std::string& deed) {
+  std::vector<Words> commands;
+  for (const Words& clock : clocks) commands.push_back(hooligan(where, deed, clock));
+  return run_beside(commands);
+}
+
+const std::vector<Words> kClocks{virtual_clock(), kSteady, kHosted};
 
 std::string line_with(const std::string& text, const Run& run) {
   for (const std::string& line : split_lines(run.err))
@@ -43,8 +56,7 @@ void check_names_culprit(const std::string& line) {
 }  // namespace
 
 TEST_CASE("a component that behaves raises no alarm, with any clock", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
-    const Run run = act("work", "none", clock);
+  for (const Run& run : act_with(kClocks, "work", "none")) {
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(alarms(run) == 0);
@@ -114,8 +126,7 @@ TEST_CASE("a component that redirects stdout loses nobody's output", "[system][p
 }
 
 TEST_CASE("an exception without a text is reported by its type", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
-    const Run run = act("work", "mute", clock);
+  for (const Run& run : act_with(kClocks, "work", "mute")) {
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK_THAT(line_with("bad: ", run), Contains("work() threw (anonymous namespace)::Mute"));
@@ -123,11 +134,13 @@ TEST_CASE("an exception without a text is reported by its type", "[system][plugi
 }
 
 TEST_CASE("a component may use 1.2 MB of stack, with every executor", "[system][plugins]") {
-  for (const Words& clock :
-       {virtual_clock(), kSteady, kHosted, Words{"--clock", "virtual", "--executor", "baton"},
-        kSteady + Words{"--executor", "fiber"}, kHosted + Words{"--executor", "fiber"}}) {
-    const Run run = act("work", "stack", clock);
-    CAPTURE(clock);
+  const std::vector<Words> executors{virtual_clock(),
+                                     kSteady,
+                                     kHosted,
+                                     {"--clock", "virtual", "--executor", "baton"},
+                                     kSteady + Words{"--executor", "fiber"},
+                                     kHosted + Words{"--executor", "fiber"}};
+  for (const Run& run : act_with(executors, "work", "stack")) {
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(alarms(run) == 0);
@@ -136,9 +149,7 @@ TEST_CASE("a component may use 1.2 MB of stack, with every executor", "[system][
 
 TEST_CASE("a configure() that hangs ends the start with 3, and component and hook are named",
           "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
-    const Run run = act("configure", "hang", clock);
-    CAPTURE(clock);
+  for (const Run& run : act_with(kClocks, "configure", "hang")) {
     INFO(run.err);
     REQUIRE(run.ended);
     CHECK(run.exit_code() == 3);
@@ -248,10 +259,7 @@ TEST_CASE("a component that takes all descriptors is named", "[system][plugins]"
 #endif
 
 TEST_CASE("memory that a component takes is blamed on nobody", "[system][plugins]") {
-  for (const Words& clock : {virtual_clock(), kSteady, kHosted}) {
-    const Run run =
-        run_deployer(Words{system_graph("hooligan.xml"), "--set", "where=work", "--set", "deed=memory"} +
-                     with_test_plugins() + clock);
+  for (const Run& run : act_with(kClocks, "work", "memory")) {
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(alarms(run) == 0);
@@ -293,9 +301,7 @@ TEST_CASE(
 
 TEST_CASE("a component that sleeps in its own thread is named, and costs the others nothing",
           "[system][plugins]") {
-  for (const Words& clock : {kSteady, kHosted}) {
-    const Run run = act("work", "sleep", clock);
-    CAPTURE(clock);
+  for (const Run& run : act_with({kSteady, kHosted}, "work", "sleep")) {
     INFO(run.err);
     REQUIRE(run.ended);
     CHECK(run.says("counter: counted 30 laps"));
