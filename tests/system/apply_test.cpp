@@ -85,7 +85,7 @@ class Applied {
   }
 
   [[nodiscard]] Run apply(const Wish& wish) const {
-    return run_orcactl({"apply", write("new.xml", wish)}, Seconds(40));
+    return run_orcactl(Words{"apply", write("new.xml", wish)} + kBriefly, Seconds(40));
   }
   [[nodiscard]] Run diff(const Wish& wish) const {
     return run_orcactl({"diff", write("new.xml", wish)}, Seconds(20));
@@ -142,7 +142,7 @@ TEST_CASE("what runs is printed as a graph, and applying that goes back to it", 
   INFO(away.err << system.log());
   REQUIRE(away.exit_code() == 0);
   CHECK(run_orcactl({"graph", "--running"}).out != graph.out);
-  const Run back = run_orcactl({"apply", file}, Seconds(40));
+  const Run back = run_orcactl(Words{"apply", file} + kBriefly, Seconds(40));
   INFO(back.err);
   REQUIRE(back.exit_code() == 0);
   CHECK(run_orcactl({"graph", "--running"}).out == graph.out);
@@ -214,13 +214,17 @@ TEST_CASE("a graph that is wrong, or asks for more, is refused before anything c
   CHECK(more.exit_code() == 1);
   CHECK_THAT(more.err, Contains("started again for ~ graph: restarts"));
   CHECK(run_orcactl({"apply", "/nowhere/at_all.xml"}).exit_code() == 1);
+  const Run longer = run_orcactl({"apply", system.write("new.xml", {.step = 2}), "--tryout", "2 min"});
+  CHECK(longer.exit_code() == 1);
+  CHECK_THAT(longer.err, Contains("--tryout can be 60 s at most"));
   CHECK(all_that_is_seen() == before);
   CHECK_THAT(system.end(), !Contains("heard 7:"));
 }
 
 TEST_CASE("while one graph is applied another is refused", "[system][apply]") {
   Applied system;
-  Subprocess first(orcactl({"apply", system.write("first.xml", {.first = "test.OtherTeller"})}));
+  Subprocess first(
+      orcactl(Words{"apply", system.write("first.xml", {.first = "test.OtherTeller"})} + kBriefly));
   REQUIRE(system.hears("is to be exchanged"));
   const Run second = system.apply({.step = 2});
   CHECK(second.exit_code() == 1);
@@ -254,7 +258,7 @@ TEST_CASE("another deployer that goes on with the run needs the graph that was a
   const bool is_restarted = GENERATE(false, true);
   CAPTURE(is_restarted);
   const std::string applied = system.write("new.xml", {.step = 4, .is_reordered = true});
-  REQUIRE(run_orcactl({"apply", applied}).exit_code() == 0);
+  REQUIRE(run_orcactl(Words{"apply", applied} + kBriefly).exit_code() == 0);
   if (is_restarted) REQUIRE(run_orcactl({"restart", "a"}).exit_code() == 0);
   system.start_anew(applied);
   const bool is_adopted = system.hears("process main is adopted");

@@ -96,7 +96,7 @@ class Growing {
 
   [[nodiscard]] const Graphs& graphs() const { return graphs_; }
   [[nodiscard]] Run apply(const Pairs& others, const std::string& more = "") const {
-    return run_orcactl({"apply", graphs_.write("new.xml", others, more)}, Seconds(40));
+    return run_orcactl(Words{"apply", graphs_.write("new.xml", others, more)} + kBriefly, Seconds(40));
   }
   [[nodiscard]] std::size_t mark() const { return program_->err().size(); }
   bool hears(const std::string& text, std::size_t mark) {

@@ -64,7 +64,7 @@ class Changing {
   }
 
   [[nodiscard]] Run apply(const Layout& layout) const {
-    return run_orcactl({"apply", write(layout)}, Seconds(60));
+    return run_orcactl(Words{"apply", write(layout)} + kBriefly, Seconds(60));
   }
   [[nodiscard]] Preview preview(const Layout& layout) const {
     Preview preview;

@@ -84,7 +84,7 @@ class Renewing {
   }
 
   [[nodiscard]] Run apply(const Layout& layout) const {
-    return run_orcactl({"apply", write("new.xml", layout)}, Seconds(40));
+    return run_orcactl(Words{"apply", write("new.xml", layout)} + kBriefly, Seconds(40));
   }
   [[nodiscard]] bool runs_like(const Layout& layout) const {
     return run_orcactl({"diff", write("new.xml", layout)}).out.find("the system runs like that already") !=

@@ -220,14 +220,14 @@ TEST_CASE("a graph with other connections is applied, and everything is as befor
   const std::string other =
       system.talk().write("other.xml", "<connect from=\"b.out\" to=\"talker.back\" queue=\"1000\"/>");
   std::size_t mark = system.mark();
-  REQUIRE(run_orcactl({"apply", other}).exit_code() == 0);
+  REQUIRE(run_orcactl(Words{"apply", other} + kBriefly).exit_code() == 0);
   CHECK(system.hears("heard 7:", mark));
   CHECK_THAT(run_orcactl({"diff", other}).out, Contains("runs like that already"));
   const std::string before = shown_graph();
   // The tellers' process makes its end of the connection; the talker's cannot.
   const pid_t talker = children_of(system.program().pid()).at("main");
   kill(talker, SIGSTOP);
-  const Run failed = run_orcactl({"apply", system.talk().file()}, Seconds(40));
+  const Run failed = run_orcactl(Words{"apply", system.talk().file()} + kBriefly, Seconds(40));
   INFO(failed.out << failed.err);
   CHECK(failed.exit_code() == 1);
   CHECK_THAT(failed.err, Contains("main"));

@@ -301,6 +301,8 @@ std::vector<Command> operating_commands() {
   };
 }
 
+const OptionSpec kTryout{"--tryout", "DURATION", "time for which new code is tried out (default 2 s)"};
+const OptionSpec kProbation{"--probation", "DURATION", "time in which a failure takes it back (default 2 s)"};
 const OptionSpec kUntried{"--untried", "", "take new code even if it cannot be tried out"};
 
 // What puts something else in the place of what runs.
@@ -309,10 +311,8 @@ std::vector<Command> exchanging_commands() {
       {.name = "swap",
        .arguments = {kComponent, {"PLUGIN.so[:TYPE]", Names::file}},
        .options = {{"--set", "PARAM=VALUE", "value of a parameter from then on", true},
-                   {"--tryout", "DURATION",
-                    "time for which the new code is tried with what reaches the old one (default 2 s)"},
-                   {"--probation", "DURATION",
-                    "time in which a failure brings the old code back (default 2 s)"},
+                   kTryout,
+                   kProbation,
                    kUntried,
                    {"--fresh", "", "begin without the old code's state, which is not asked for it"},
                    {"--only-try", "", "try the new code out, say what came of it, and change nothing"}},
@@ -353,7 +353,7 @@ std::vector<Command> exchanging_commands() {
        .details = kApplyDetails},
       {.name = "apply",
        .arguments = {{"GRAPH.xml", Names::file}},
-       .options = {kUntried},
+       .options = {kTryout, kProbation, kUntried},
        .text = "let the running system become what a graph says: all of it, or nothing",
        .details = kApplyDetails},
   };

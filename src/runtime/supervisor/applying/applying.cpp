@@ -34,8 +34,11 @@ void Applying::compare(const std::string& file, const ReplyPtr& reply) {
   answer(reply, carry_out({file}, Way::compares));
 }
 
-void Applying::apply(const std::string& file, bool untried, const ReplyPtr& reply) {
-  const Result<Outcome> outcome = carry_out({file}, untried ? Way::carries_out_untried : Way::carries_out);
+void Applying::apply(const std::vector<std::string>& words, const ReplyPtr& reply) {
+  const std::string file = words.empty() ? "" : words.front();
+  const Result<Care> care = read_care(words);
+  if (!care) return reply->refuse(care.error());
+  const Result<Outcome> outcome = carry_out({file}, Way::carries_out, *care);
   answer(reply, outcome);
   if (outcome) log::info(kLogName, "an operator has applied " + file);
 }
@@ -117,9 +120,9 @@ Status Applying::has_one_machine() const {
                   ") takes no other graph while it runs; stop it, and start it with that one");
 }
 
-Result<Applying::Outcome> Applying::carry_out(const GraphSource& source, Way way) {
+Result<Applying::Outcome> Applying::carry_out(const GraphSource& source, Way way, const Care& care) {
   if (Status free = can_change(); !free.ok()) return free.error();
-  return Change(*this, way, source.text.has_value()).carry_out(source);
+  return Change(*this, way, care, source.text.has_value()).carry_out(source);
 }
 
 // Returns the graph as it would be written for what runs now.

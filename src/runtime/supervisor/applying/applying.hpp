@@ -64,8 +64,8 @@ class Applying {
   /// @errors  unimplemented for a system on several machines, which cannot go back.
   void show_present(Reply& reply) const;
   /// Carries a file out. The answer ends when that is done or undone, and has what was changed.
-  /// @param untried  new code is taken even if it cannot be tried out.
-  void apply(const std::string& file, bool untried, const ReplyPtr& reply);
+  /// @param words  GRAPH.xml [--tryout DURATION] [--probation DURATION] [--untried]: how carefully code is exchanged.
+  void apply(const std::vector<std::string>& words, const ReplyPtr& reply);
   /// Returns why the system can take no other graph now, if that is so.
   /// @errors  unavailable while another one is being compared or applied; unimplemented.
   [[nodiscard]] Status can_change() const;
@@ -96,8 +96,8 @@ class Applying {
   };
   static void answer(const ReplyPtr& reply, const Result<Outcome>& outcome);
 
-  enum class Way { compares, carries_out, carries_out_untried };
-  Result<Outcome> carry_out(const GraphSource& source, Way way);
+  enum class Way { compares, carries_out };
+  Result<Outcome> carry_out(const GraphSource& source, Way way, const Care& care = {});
   void carry_out_saved(const std::string& file);
   void edit(const Result<std::string>& text, const ReplyPtr& reply);
   void accept(const CheckedSystem& system, std::string text);

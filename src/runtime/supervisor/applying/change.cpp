@@ -58,10 +58,11 @@ std::vector<JointStep> arrival_steps(const std::vector<AddComponent>& components
 
 }  // namespace
 
-Applying::Change::Change(Applying& owner, Way way, bool is_edit)
+Applying::Change::Change(Applying& owner, Way way, const Care& care, bool is_edit)
     : owner_(owner),
       place_(owner.place_),
       way_(way),
+      care_(care),
       is_edit_(is_edit),
       announcing_(owner.place_.graph, owner.place_.all, owner.place_.starter, owner.place_.ledger) {
   owner.change_ = this;
@@ -146,12 +147,12 @@ Status Applying::Change::exchange(const graph::GraphPlan::Exchange& wanted) {
   const graph::ComponentNode& node = node_of(wanted.component);
   const CodeFacts present = place_.exchanging.code_of(node);
   SwapWish before{wanted.component, present.plugin.file, present.type,
-                  graph::print_values(place_.operating.params_of(node))};
+                  graph::print_values(place_.operating.params_of(node)), care_};
   before.has_worked = true;
-  SwapWish wish{wanted.component,
-                present.type == wanted.type ? present.plugin.file : wanted_.facts.plugins[wanted.type].file,
-                wanted.type, graph::print_values(wanted.params)};
-  wish.untried = way_ == Way::carries_out_untried;
+  const SwapWish wish{
+      wanted.component,
+      present.type == wanted.type ? present.plugin.file : wanted_.facts.plugins[wanted.type].file,
+      wanted.type, graph::print_values(wanted.params), care_};
   if (const Result<Record> done = place_.exchanging.exchange(wish); !done) return done.error();
   undo_.emplace_back([this, before](const Error& reason) { return exchange_back(before, reason); });
   return ok();

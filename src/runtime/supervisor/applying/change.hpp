@@ -17,7 +17,7 @@ namespace orca::supervisor {
 /// Thread contract: the supervisor's thread; carry_out() waits, so a job of the conductor calls it.
 class Applying::Change {
  public:
-  Change(Applying& owner, Way way, bool is_edit);
+  Change(Applying& owner, Way way, const Care& care, bool is_edit);
   ~Change();
   Change(const Change&) = delete;
   Change& operator=(const Change&) = delete;
@@ -67,6 +67,7 @@ class Applying::Change {
   Applying& owner_;
   const Place& place_;
   const Way way_;
+  const Care care_;     // of each exchange, there and back
   const bool is_edit_;  // of the run's graph: what operators have set and exchanged stays as it is
   CheckedSystem wanted_;
   graph::GraphPlan plan_;

@@ -33,20 +33,23 @@ Status read_setting(const std::string& word, SwapWish& wish) {
   return ok();
 }
 
-// Reads an option with its value.
-Status read_option(const std::string& option, const std::string& text, SwapWish& wish) {
-  if (option == "--set") return read_setting(text, wish);
+Status read_time(const std::string& option, const std::string& text, Care& care) {
   const Result<Duration> read = xml::parse_duration(text);
   if (!read) return read.error();
   if (option == "--tryout" && *read > kLongestTryout)
     return fail(Code::invalid_argument, "--tryout can be 60 s at most, not " + text);
-  (option == "--tryout" ? wish.tryout : wish.probation) = *read;
+  (option == "--tryout" ? care.tryout : care.probation) = *read;
   return ok();
+}
+
+// Reads an option with its value.
+Status read_option(const std::string& option, const std::string& text, SwapWish& wish) {
+  return option == "--set" ? read_setting(text, wish) : read_time(option, text, wish.care);
 }
 
 // Takes an option without a value, if it is one.
 bool take_flag(const std::string& option, SwapWish& wish) {
-  if (option == "--untried") return wish.untried = true;
+  if (option == "--untried") return wish.care.untried = true;
   if (option == "--fresh") return wish.fresh = true;
   if (option == "--only-try") return wish.only_tries = true;
   return false;
@@ -115,6 +118,18 @@ class Busy {
 };
 
 }  // namespace
+
+Result<Care> read_care(const std::vector<std::string>& words) {
+  Care care;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--untried") care.untried = true;
+    if (words[i] != "--tryout" && words[i] != "--probation") continue;
+    const std::string& option = words[i];
+    if (Status read = read_time(option, i + 1 < words.size() ? words[++i] : "", care); !read.ok())
+      return read.error();
+  }
+  return care;
+}
 
 const PluginFacts& Exchanging::plugin_of(const std::string& type) const {
   static const PluginFacts unknown;
@@ -224,7 +239,7 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
   return order_swap(**member, {order.component,
                                order.type,
                                {order.new_params.begin(), order.new_params.end()},
-                               static_cast<std::uint64_t>(wish.probation.count()),
+                               static_cast<std::uint64_t>(wish.care.probation.count()),
                                file,
                                std::move(*image).take_bytes(),
                                was_tried,
@@ -238,7 +253,7 @@ host::ShadowOrder Exchanging::trial_of(const SwapWish& wish, const graph::Compon
           ports_of(wish.component),
           operating_.params_of(node),
           wish.params,
-          wish.tryout};
+          wish.care.tryout};
 }
 
 Result<Record> Exchanging::only_try(const SwapWish& wish) {
@@ -281,7 +296,7 @@ Result<Record> Exchanging::exchange_driver(const SwapWish& wish, const graph::Ha
 Result<host::ShadowReport> Exchanging::try_out(const SwapWish& wish, const host::ShadowOrder& order,
                                                Member& member, plugin::PluginImage& image) {
   std::vector<WatchedPort> ports;
-  if (wish.tryout > Duration{0}) ports = watch(order.graph, wish.component, member);
+  if (wish.care.tryout > Duration{0}) ports = watch(order.graph, wish.component, member);
   TryoutLines lines{std::move(ports), lines_to_servers_of(wish.component)};
   Result<host::ShadowReport> tried = host::ShadowReport{};
   conductor_.run_aside("tryout", [&](const std::function<bool()>& give_up) {
@@ -294,7 +309,7 @@ Result<host::ShadowReport> Exchanging::try_out(const SwapWish& wish, const host:
   if (tried->untried.empty()) {
     log::info(wish.component, "the new code was tried out: it got " + counted(tried->given, "object") +
                                   " and pushed " + std::to_string(tried->pushed));
-  } else if (wish.untried || !host::kTriesCode) {
+  } else if (wish.care.untried || !host::kTriesCode) {
     log::warning(wish.component, "the new code could not be tried out: " + tried->untried);
   } else {
     return fail(Code::failed_precondition,

@@ -29,16 +29,25 @@ struct CodeFacts {
   std::uint64_t swaps = 0;  ///< How often it was exchanged in this process.
 };
 
+/// How carefully code is exchanged.
+struct Care {
+  Duration tryout{2s};     ///< For which it is tried with what reaches the present one.
+  Duration probation{2s};  ///< In which a failure brings the present one back.
+  bool untried = false;    ///< It is taken even if it cannot be tried out.
+};
+
+/// Reads it from the words of an order: [--tryout DURATION] [--probation DURATION] [--untried]. Other words are left alone.
+/// @errors  invalid_argument.
+[[nodiscard]] Result<Care> read_care(const std::vector<std::string>& words);
+
 /// What an operator wants to exchange.
 struct SwapWish {
   std::string component;  ///< Or hardware.
   std::string file;
   std::string type;                           ///< Empty: the present one.
   std::map<std::string, std::string> params;  ///< New values, as written in a graph.
-  Duration tryout{2s};
-  Duration probation{2s};
+  Care care{};
   bool has_worked = false;  ///< In this system before, so it is not tried out.
-  bool untried = false;     ///< It is taken even if it cannot be tried out.
   bool fresh = false;       ///< It begins without the state of the old one, which is not asked for it.
   bool only_tries = false;  ///< Nothing is exchanged.
 };

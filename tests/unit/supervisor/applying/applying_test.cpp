@@ -75,7 +75,7 @@ class StagedSystem {
     wanted_ = std::move(wanted);
     lost_at_ = lost_at;
     conductor_.run([&] {
-      conductor_.begin("apply", [this] { applying_.apply("wanted.xml", false, reply_); });
+      conductor_.begin("apply", [this] { applying_.apply({"wanted.xml"}, reply_); });
       while (applying_.can_change().ok() == false) {
         while (answer_next()) conductor_.go_on(Moment::clock::now());
         std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the graph is read on another thread
