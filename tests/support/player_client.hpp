@@ -141,11 +141,11 @@ class Client {
 };
 
 /// Drives ahead for a while, ten times a second, and returns how far it has come by the odometry that the client gets.
-inline double way_driven(Client& client, Duration time, double speed = 0.3) {
+inline double way_driven(Client& client, Duration time) {
   const double before = double_at(client.receive(kPosition2d, kData).payload, 0);
   double after = before;
   for (const TimePoint end = steady_now() + time; steady_now() < end;) {
-    client.drive(speed, 0.0);
+    client.drive(0.3, 0.0);
     after = double_at(client.receive(kPosition2d, kData).payload, 0);
   }
   return after - before;

@@ -176,7 +176,7 @@ TEST_CASE("a robot stands while its commands are cut off, and then drives on", "
   Pair pair({"interface=orca0", kNear}, kDrive);
   pair.start_both();
   pair.says(1, "machine base is there", 0, Seconds(10));
-  std::this_thread::sleep_for(Seconds(6));
+  std::this_thread::sleep_for(Seconds(3));
   const std::size_t mark = pair.mark(0);
   CHECK_FALSE(pair.at(0).err().find("the base stands") != std::string::npos);
   pair.network().connect(false);
@@ -201,7 +201,7 @@ TEST_CASE("a robot drives on while the deployers of both machines are killed and
   Pair pair({"interface=orca0", kNear, "on_supervisor_loss=continue"}, kDrive);
   pair.start_both();
   pair.says(1, "machine base is there", 0, Seconds(10));
-  std::this_thread::sleep_for(Seconds(4));
+  std::this_thread::sleep_for(Seconds(2));
   for (const int machine : {0, 1}) {
     pair.replace(machine);
     pair.says(machine, "is adopted", 0, Seconds(10));

@@ -60,6 +60,7 @@ void begin() { REQUIRE(comes_to_show("visitor", "WORK")); }
 
 // The graph that has the process from the start; only the component comes and goes.
 const Words kOnlyComponent{"process=at_once", "component=on_demand"};
+const Words kSoonIdle{"idle_time=0.5 s"};
 
 }  // namespace
 
@@ -67,8 +68,8 @@ TEST_CASE("a component is loaded for a client in another process, and unloaded w
           "[system][on_demand]") {
   const auto link = GENERATE(as<std::string>{}, "shm", "dds");
   CAPTURE(link);
-  System system(
-      visit("cold_component", "send 3; ask 7; listen 11; leave 12", kOnlyComponent + Words{"link=" + link}));
+  System system(visit("cold_component", "send 2; ask 4.5; listen 7; leave 8",
+                      kOnlyComponent + kSoonIdle + Words{"link=" + link}));
   begin();
   CHECK(comes_to_show("visited", "UNLOADED"));
   took(system, "sent", "ok");
@@ -88,7 +89,7 @@ TEST_CASE("a process on demand is started by the first use, and ends when nobody
   const auto [verb, word] =
       GENERATE(table<std::string, std::string>({{"send", "sent"}, {"ask", "asked"}, {"listen", "heard"}}));
   CAPTURE(verb);
-  System system(visit("cold_process", verb + " 3; leave 6; " + verb + " 10"));
+  System system(visit("cold_process", verb + " 2; leave 3; " + verb + " 5.5", kSoonIdle));
   begin();
   CHECK_FALSE(has_house(system));
   CHECK(comes_to_show("visited", "on demand"));
@@ -113,8 +114,8 @@ TEST_CASE("a process that is to stay warm stays", "[system][on_demand]") {
 
 TEST_CASE("a process on demand is in use while a question is answered, however long that takes",
           "[system][on_demand]") {
-  System system(visit("cold_process", "ask 1", {"answer_time=4 s"}));
-  CHECK(took(system, "asked", "ok") >= Seconds(4));
+  System system(visit("cold_process", "ask 1", {"answer_time=2.5 s"}));
+  CHECK(took(system, "asked", "ok") >= Seconds(2.5));
   CHECK(house_goes(system));
   stop(system);
 }

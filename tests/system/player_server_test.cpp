@@ -251,12 +251,13 @@ TEST_CASE("without avoid a client of Player that drives ahead meets the wall, wi
     const TempFolder folder;
     ShippedGraph graph("scout_player");
     if (!avoids) graph.remove("avoid");
-    Robot robot({}, folder.write("graph.xml", graph.text()));
+    Robot robot({"--set", "scout.place=", "--set", "scout.x=3.5 m", "--set", "scout.y=6 m"},
+                folder.write("graph.xml", graph.text()));
     Client client(robot.port);
     CHECK(client.subscribe(kPosition2d).type == kAck);
-    for (const TimePoint end = steady_now() + (avoids ? 12s : 30s);
+    for (const TimePoint end = steady_now() + (avoids ? 10s : 30s);
          steady_now() < end && robot.program.out().find("contact") == std::string::npos;)
-      (void)way_driven(client, 500ms, 0.5);
+      (void)way_driven(client, 500ms);
     CAPTURE(avoids);
     INFO(robot.program.err());
     CHECK((robot.program.out().find("contact") != std::string::npos) == !avoids);

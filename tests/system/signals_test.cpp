@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <random>
 #include <thread>
 
@@ -81,10 +82,17 @@ TEST_CASE(
     "[system][signals]") {
   constexpr unsigned kSeed = 20040611;
   std::mt19937 random(kSeed);
+  std::vector<std::pair<double, std::future<Stopped>>> stops;
   for (int i = 0; i < 10; ++i) {
-    const double instant = 3.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
-    CAPTURE(kSeed, i, instant);
-    check_stopped(stop_after(std::max(0.2, instant), i % 2 == 0 ? SIGINT : SIGTERM));
+    const double instant =
+        std::max(0.2, 3.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()));
+    stops.emplace_back(instant,
+                       std::async(std::launch::async, stop_after, instant, i % 2 == 0 ? SIGINT : SIGTERM,
+                                  Words{"--name", "stopped_" + std::to_string(i)}));
+  }
+  for (auto& [instant, stopped] : stops) {
+    CAPTURE(kSeed, instant);
+    check_stopped(stopped.get());
   }
 }
 
@@ -201,18 +209,26 @@ TEST_CASE("any other signal that ends a process stops the robot first; the run h
     int signal;
     std::string name;
   };
-  for (const Case& c :
-       {Case{SIGUSR1, "SIGUSR1"}, Case{SIGUSR2, "SIGUSR2"}, Case{SIGALRM, "SIGALRM"},
-        Case{SIGVTALRM, "SIGVTALRM"}, Case{SIGPROF, "SIGPROF"}, Case{SIGXCPU, "SIGXCPU"},
-        Case{SIGPWR, "SIGPWR"}, Case{SIGSTKFLT, "SIGSTKFLT"}, Case{SIGRTMIN + 1, "SIGRTMIN+1"}}) {
+  const std::vector<Case> cases{
+      {SIGUSR1, "SIGUSR1"},     {SIGUSR2, "SIGUSR2"},     {SIGALRM, "SIGALRM"},
+      {SIGVTALRM, "SIGVTALRM"}, {SIGPROF, "SIGPROF"},     {SIGXCPU, "SIGXCPU"},
+      {SIGPWR, "SIGPWR"},       {SIGSTKFLT, "SIGSTKFLT"}, {SIGRTMIN + 1, "SIGRTMIN+1"}};
+  const TempFolder folder;
+  std::vector<std::future<Run>> runs;
+  for (const Case& c : cases)
+    runs.push_back(std::async(std::launch::async, [&c, &folder] {
+      return end_driving_robot(c.signal, folder.file(c.name),
+                               {"--name", "ended_by_" + std::to_string(c.signal)});
+    }));
+  auto next = runs.begin();
+  for (const Case& c : cases) {
     CAPTURE(c.name);
-    const TempFolder folder;
-    const Run run = end_driving_robot(c.signal, folder.file("trace"));
+    const Run run = (next++)->get();
     INFO(run.err);
     CHECK(run.ended);
     CHECK(run.exit_code() == 1);
     CHECK(run.says("the signal " + c.name + " ended the run"));
-    check_at_rest(folder.file("trace"));
+    check_at_rest(folder.file(c.name));
   }
 }
 
