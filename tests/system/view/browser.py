@@ -39,3 +39,9 @@ def start_browser(width, height, profile, *switches):
     extra = browser.execute_script("return window.outerHeight - window.innerHeight")
     browser.set_window_size(width, height + extra)
     return browser
+
+
+def draw_at_most(browser, frames):
+    """Lets the pages that a browser opens from now on draw at most so many frames per second."""
+    browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {
+        "source": f"{{ const next = requestAnimationFrame.bind(window); requestAnimationFrame = draw => setTimeout(() => next(draw), {1000 // frames}); }}"})

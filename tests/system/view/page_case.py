@@ -44,6 +44,7 @@ class PageCase(ViewCase):
 
     ADDRESS = 0  # of those that orcaview prints, the one that the browser opens
     SWITCHES = ()  # of the browser
+    FRAMES = 10  # that it draws in a second at most: without a graphics card each costs 4 ms of processor time; 0: as many as it can
 
     @classmethod
     def setUpClass(cls):
@@ -53,6 +54,8 @@ class PageCase(ViewCase):
         width, height = PICTURE if PICTURES else (1280, 800)
         cls.browser = chromium.start_browser(width, height, profile.name, *cls.SWITCHES)
         cls.addClassCleanup(cls.browser.quit)
+        if cls.FRAMES:
+            chromium.draw_at_most(cls.browser, cls.FRAMES)
         cls.browser.get(cls.addresses[cls.ADDRESS])
 
     def tearDown(self):

@@ -46,6 +46,8 @@ class LoadServer(http.server.BaseHTTPRequestHandler):
 
 
 class Speed(PageCase):
+    FRAMES = 0
+
     def test_1_the_first_picture_comes_within_a_second(self):
         paint = wait_for("the first picture", lambda: self.browser.execute_script(
             "return performance.getEntriesByName('first-contentful-paint')[0]?.startTime"))
