@@ -149,12 +149,17 @@ TEST_CASE("one process may write to a ring while another reads", "[patterns][shm
     for (int number = 0; number < kCount;)
       if (pipe.write(numbered(static_cast<std::size_t>(number % 200), number)).value() == Written::yes)
         ++number;
+      else
+        std::this_thread::yield();
   });
   bool same = true;
   for (int number = 0; number < kCount;) {
     if (!pipe.reader.look().ok()) break;
     const auto record = pipe.reader.next();
-    if (!record || !record->has_value()) continue;
+    if (!record || !record->has_value()) {
+      std::this_thread::yield();
+      continue;
+    }
     const Bytes expected = numbered(static_cast<std::size_t>(number % 200), number);
     same = same && std::equal(expected.begin(), expected.end(), (*record)->begin(), (*record)->end());
     pipe.reader.release();
