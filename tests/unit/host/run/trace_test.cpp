@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "executives.hpp"
-#include "orca/base/hash.hpp"
 #include "orca/idl/motion.hpp"
 #include "run/recording/trace.hpp"
+#include "run/recording/trace_hash.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca;
@@ -24,8 +24,8 @@ ObjectRef command_of_goto(double direction, std::uint64_t seq) {
   return ObjectLoan(std::move(made)).seal();
 }
 
-// Hashes a delivery as the definition says: time in ns, component, port, seq, XCDR1 payload.
-void add(Fnv1a& hash, Duration time, std::string_view component, std::string_view port,
+// Hashes a delivery as the definition says: time in ns, component, port, seq, hash of the XCDR1 payload.
+void add(TraceHash& hash, Duration time, std::string_view component, std::string_view port,
          const ObjectRef& object) {
   std::vector<std::byte> payload;
   object.type().serialize(object.get(), payload);
@@ -33,16 +33,18 @@ void add(Fnv1a& hash, Duration time, std::string_view component, std::string_vie
   hash.add_text(component);
   hash.add_text(port);
   hash.add_u64(object.header().seq());
-  hash.add(payload);
+  TraceHash of_payload;
+  of_payload.add(payload);
+  hash.add_u64(of_payload.value());
 }
 
 }  // namespace
 
-TEST_CASE("the trace hash of virtual time is FNV-1a over every delivery, in order", "[host][trace]") {
+TEST_CASE("the trace hash of virtual time is that of every delivery, in order", "[host][trace]") {
   for (const ExecutiveOptions& kind : virtual_executives()) {
     run_on(kind, [](Executive& executive) {
       Trace trace(executive);
-      Fnv1a expected;
+      TraceHash expected;
       CHECK(trace.hash() == expected.value());
       const Duration start = executive.now().time_since_epoch();
       const ObjectRef first = command_of_goto(0.1, 1);
@@ -59,11 +61,34 @@ TEST_CASE("the trace hash of virtual time is FNV-1a over every delivery, in orde
   }
 }
 
+TEST_CASE("a trace hash takes words of eight bytes, and sees where a text ends and which signs change",
+          "[host][trace]") {
+  const auto of = [](const std::vector<std::uint64_t>& words) {
+    TraceHash hash;
+    for (const std::uint64_t word : words) hash.add_u64(word);
+    return hash.value();
+  };
+  TraceHash text;
+  text.add_text("delivered");
+  CHECK(text.value() == of({9, 0x65726576696c6564, 0x64}));
+  const auto of_texts = [](std::string_view first, std::string_view second) {
+    TraceHash hash;
+    hash.add_text(first);
+    hash.add_text(second);
+    return hash.value();
+  };
+  CHECK(of_texts("ab", "c") != of_texts("a", "bc"));
+  CHECK(of_texts("a", "") != of_texts(std::string_view("a\0", 2), ""));
+  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+  CHECK(of({7, 8, 9}) != of({7 ^ kSign, 8 ^ kSign, 9}));
+  CHECK(of({0}) != of({0, 0}));
+}
+
 TEST_CASE("in steady time nothing is hashed", "[host][trace]") {
   run_on(steady_executives().front(), [](Executive& executive) {
     Trace trace(executive);
     trace.delivered("fuser", "motion", command_of_goto(0.1, 1));
-    CHECK(trace.hash() == Fnv1a{}.value());
+    CHECK(trace.hash() == TraceHash{}.value());
   });
 }
 

@@ -48,6 +48,9 @@ void Trace::serialize(const ObjectRef& object) {
   if (serialized_ == object) return;
   payload_.clear();
   object.type().serialize(object.get(), payload_);
+  TraceHash hash;
+  hash.add(payload_);
+  hash_of_payload_ = hash.value();
   serialized_ = object;
 }
 
@@ -62,7 +65,7 @@ void Trace::delivered(std::string_view component, std::string_view port, const O
     hash_.add_text(component);
     hash_.add_text(port);
     hash_.add_u64(header.seq());
-    hash_.add(payload_);
+    hash_.add_u64(hash_of_payload_);
   }
   if (!writes_) return;
   const std::string value = detail_ == Detail::values ? " " + to_xml(object) : "";

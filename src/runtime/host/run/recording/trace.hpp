@@ -11,18 +11,18 @@
 #include <vector>
 
 #include "orca/base/executive.hpp"
-#include "orca/base/hash.hpp"
 #include "orca/base/output_file.hpp"
 #include "orca/base/result.hpp"
 #include "orca/patterns/endpoints/link_observer.hpp"
+#include "run/recording/trace_hash.hpp"
 
 namespace orca::host {
 
 /// The origin of what comes from outside the graph, from an operator.
 inline constexpr std::string_view kOutside = "orcactl";
 
-/// A recorder of what happens in a run. In virtual time it also computes the trace hash: FNV-1a over (time in
-/// ns, component, port, seq, XCDR1 payload) of every delivery, in delivery order. Questions from outside, which are nobody's
+/// A recorder of what happens in a run. In virtual time it also computes the trace hash: TraceHash over (time in
+/// ns, component, port, seq, hash of the XCDR1 payload) of every delivery, in delivery order. Questions from outside, which are nobody's
 /// mission, are not among them.
 ///
 /// The file has one line per event: time [s], what, who, details; a delivery's last words are the object itself
@@ -62,10 +62,11 @@ class Trace final : public LinkObserver {
   std::atomic<bool> writes_{false};
   Detail detail_ = Detail::events;
   OutputFile file_{"the trace"};
-  Fnv1a hash_;
-  // The object whose payload is in payload_, so that an object with many readers is serialised once.
+  TraceHash hash_;
+  // The object whose payload is in payload_, so that an object with many readers is serialised and hashed once.
   ObjectRef serialized_;
   std::vector<std::byte> payload_;
+  std::uint64_t hash_of_payload_ = 0;
 };
 
 }  // namespace orca::host
