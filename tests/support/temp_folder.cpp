@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 namespace orca::test {
@@ -32,7 +32,9 @@ std::string TempFolder::write(std::string_view name, std::string_view text) cons
 std::string read_text(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("cannot read " + file.string());
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;  // quicker than iterators in code that is not optimised
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace orca::test

@@ -8,8 +8,6 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "places.hpp"
@@ -17,14 +15,10 @@
 
 using namespace orca;
 using orca::plugin::PluginImage;
+using orca::test::read_text;
 using orca::test::TempFolder;
 
 namespace {
-
-std::string contents_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Code refusal_of(const std::string& file) {
   const Result<PluginImage> copied = PluginImage::copy(file);
@@ -43,7 +37,7 @@ TEST_CASE("an image has the bytes of its file, whatever becomes of the file, and
   Result<PluginImage> image = PluginImage::copy(file);
   REQUIRE(image);
   (void)folder.write("some.so", "another");
-  CHECK(contents_of(image->path()) == bytes);
+  CHECK(read_text(image->path()) == bytes);
   CHECK(image->origin() == file);
   const Descriptor taken = std::move(*image).take_bytes();
   CHECK(write(taken.number(), "y", 1) < 0);
@@ -76,7 +70,7 @@ TEST_CASE("a file that is not there, is none, or cannot be read has no image", "
 
 TEST_CASE("a file that others can write is neither loaded nor copied", "[plugin][image]") {
   const TempFolder folder;
-  const std::string file = folder.write("open.so", contents_of(orca::test::kExample));
+  const std::string file = folder.write("open.so", read_text(orca::test::kExample));
   REQUIRE(chmod(file.c_str(), 0755) == 0);
   CHECK(plugin::PluginLibrary::load(file));
   REQUIRE(chmod(file.c_str(), 0757) == 0);

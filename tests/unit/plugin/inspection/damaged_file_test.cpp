@@ -2,12 +2,12 @@
 // A plugin's file is not trusted: cut short or damaged anywhere, it gives an error or a description, never a
 // crash.
 #include <cstring>
-#include <fstream>
 
 #include "../places.hpp"
 #include "elf_image.hpp"
 #include "inspection/plugin_file.hpp"
 #include "slow_run.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca;
 using namespace orca::plugin;
@@ -19,8 +19,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes small_plugin() {
-  std::ifstream file(test_plugin("test_small"), std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = read_text(test_plugin("test_small"));
   Bytes bytes(text.size());
   std::memcpy(bytes.data(), text.data(), text.size());
   return bytes;

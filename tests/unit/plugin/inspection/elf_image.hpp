@@ -4,7 +4,6 @@
 #include <elf.h>
 
 #include <cstring>
-#include <fstream>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -12,6 +11,7 @@
 
 #include "../places.hpp"
 #include "inspection/plugin_file.hpp"
+#include "temp_folder.hpp"
 
 namespace orca::test {
 
@@ -23,8 +23,7 @@ inline std::string sample(const std::string& name) { return kSamples + "/" + nam
 class ElfImage {
  public:
   explicit ElfImage(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = read_text(path);
     if (text.size() < sizeof(Elf64_Ehdr)) throw std::runtime_error("no library: " + path);
     bytes_.resize(text.size());
     std::memcpy(bytes_.data(), text.data(), text.size());
