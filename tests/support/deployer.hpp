@@ -81,6 +81,9 @@ struct Run {
 [[nodiscard]] Words virtual_clock();
 [[nodiscard]] Words operator+(Words a, const Words& b);
 
+/// Lets an exchange of code take a third of a second of trial and of probation each.
+inline const Words kBriefly{"--tryout", "300 ms", "--probation", "300 ms"};
+
 /// Runs the deployer to its end, for at most `limit` times kSlowdown.
 [[nodiscard]] Run run_deployer(const Words& words, Seconds limit = Seconds(30));
 

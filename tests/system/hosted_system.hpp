@@ -29,9 +29,6 @@ inline constexpr Seconds kMoment{0.001};  // between two looks at what happens
 
 inline Seconds since_boot() { return Clock::now().time_since_epoch(); }
 
-/// Lets an exchange of code take a third of a second of trial and of probation each.
-inline const std::vector<std::string> kBriefly{"--tryout", "300 ms", "--probation", "300 ms"};
-
 using Nobody = std::vector<std::string>;
 
 // Copies a plugin into a folder, with the list of its types, which lies beside it.

@@ -233,7 +233,8 @@ TEST_CASE("a behaviour whose sensors are on another machine is exchanged while i
   Pair pair({"interface=orca0"}, kDrive);
   start_driving(pair);
   CHECK_THAT(pair.orcactl(kBrain, {"fits", "avoid"}).out, Contains("orca.SonarAvoid"));
-  const Run swap = pair.orcactl(kBrain, {"swap", "avoid", ORCA_BINARY_DIR "/plugins/sonar_avoid.so"});
+  const Run swap =
+      pair.orcactl(kBrain, Words{"swap", "avoid", ORCA_BINARY_DIR "/plugins/sonar_avoid.so"} + kBriefly);
   INFO(swap.out << swap.err);
   CHECK(swap.exit_code() == 0);
   CHECK_THAT(pair.at(kBrain).err(), Contains("the new code was tried out: it got "));

@@ -234,8 +234,8 @@ TEST_CASE("when the code of the server is exchanged, clients of Player find the 
   (void)finish(robot.program, Seconds(20));
   Subprocess again(deployer({source_file("graphs/scout_player.xml"), "--set", "port=" + port}));
   REQUIRE(again.wait_for_output("clients of Player find the robot at", Seconds(30 * kSlowdown)));
-  const Run swapped =
-      run_orcactl({"swap", "player", ORCA_BINARY_DIR "/plugins/player_server.so", "--untried"});
+  const Run swapped = run_orcactl(
+      Words{"swap", "player", ORCA_BINARY_DIR "/plugins/player_server.so", "--untried"} + kBriefly);
   INFO(swapped.out << swapped.err << again.err());
   CHECK(swapped.exit_code() == 0);
   const std::string said = "clients of Player find the robot at";

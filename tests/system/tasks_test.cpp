@@ -243,7 +243,7 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
           "[system][tasks]") {
   Operated robot(with_task("tour.xml"));
   robot.step("30s");  // on the way to the library
-  CHECK_THAT(robot.order({"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"}).out,
+  CHECK_THAT(robot.order(Words{"swap", "task", ORCA_BINARY_DIR "/plugins/task_tree.so"} + kBriefly).out,
              Contains("orca.TaskTree/2"));
   const std::string tree = robot.order({"tasks"}).out;
   CHECK_THAT(tree, Contains("task: tour, on the way"));
@@ -293,7 +293,7 @@ TEST_CASE("an operator sends a robot here and there, and sees how far it is and 
   CHECK_THAT(robot.order({"go"}).out,
              Contains("on the way to library, ") && Contains("then point_1") &&
                  Contains("the last one: kitchen: cancelled: there are other goals"));
-  robot.order({"swap", "command", ORCA_BINARY_DIR "/plugins/command.so"});
+  robot.order(Words{"swap", "command", ORCA_BINARY_DIR "/plugins/command.so"} + kBriefly);
   CHECK_THAT(robot.order({"go"}).out, Contains("on the way to library, ") && Contains("then point_1"));
   robot.step("40s");
   CHECK_THAT(robot.order({"go"}).out, Contains("command: no goal; the last one: point_1: reached"));
