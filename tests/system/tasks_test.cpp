@@ -249,7 +249,7 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
   CHECK_THAT(tree, Contains("task: tour, on the way"));
   CHECK_THAT(tree, Contains("done            Drive to=kitchen"));
   CHECK_THAT(tree, Contains("now             Drive to=library"));
-  robot.step("40s");  // on the way to the office
+  robot.step("50s");  // on the way to the office
   robot.order({"tasks", "skip"});
   robot.order({"tasks", "pause"});
   robot.step("60s");
@@ -295,7 +295,7 @@ TEST_CASE("an operator sends a robot here and there, and sees how far it is and 
                  Contains("the last one: kitchen: cancelled: there are other goals"));
   robot.order(Words{"swap", "command", ORCA_BINARY_DIR "/plugins/command.so"} + kBriefly);
   CHECK_THAT(robot.order({"go"}).out, Contains("on the way to library, ") && Contains("then point_1"));
-  robot.step("40s");
+  robot.step("55s");
   CHECK_THAT(robot.order({"go"}).out, Contains("command: no goal; the last one: point_1: reached"));
 
   CHECK_THAT(robot.refused({"go", "kichen"}), Contains("did you mean \"kitchen\"?"));
