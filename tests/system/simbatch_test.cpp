@@ -257,8 +257,11 @@ TEST_CASE("kill -9 loses nothing that was finished, and --resume makes the rest 
   {
     Subprocess program(simbatch({experiment, "--out", out, "--jobs", "1"}));
     const auto has_some = [&] {
+      program.send_to_group(SIGSTOP);  // on a busy machine it would end while another program starts to look
       const Run run = run_simbatch({"export", out});
-      return run.exit_code() == 0 && split_lines(run.out).size() > 2;
+      const bool some = run.exit_code() == 0 && split_lines(run.out).size() > 2;
+      if (!some) program.send_to_group(SIGCONT);
+      return some;
     };
     while (!has_some()) REQUIRE_FALSE(program.wait(Seconds(0.02)));
     program.send(SIGKILL);
