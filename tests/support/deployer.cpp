@@ -87,7 +87,7 @@ Run run_deployer(const Words& words, Seconds limit) {
   return finish(program, limit);
 }
 
-std::vector<Run> run_beside(const std::vector<Words>& commands, Seconds limit) {
+std::vector<Run> run_together(const std::vector<Words>& commands, Seconds limit) {
   std::vector<std::unique_ptr<Subprocess>> programs;
   for (const Words& words : commands)
     programs.push_back(std::make_unique<Subprocess>(

@@ -89,7 +89,7 @@ inline const Words kBriefly{"--tryout", "300 ms", "--probation", "300 ms"};
 
 /// Runs deployers beside each other, each with a name of its own, and returns their results in the same order. Their wall times say
 /// only when they were looked at.
-[[nodiscard]] std::vector<Run> run_beside(const std::vector<Words>& commands, Seconds limit = Seconds(30));
+[[nodiscard]] std::vector<Run> run_together(const std::vector<Words>& commands, Seconds limit = Seconds(30));
 
 /// Waits for the end of a program, for at most `limit` times kSlowdown, and returns its result.
 [[nodiscard]] Run finish(Subprocess& program, Seconds limit);

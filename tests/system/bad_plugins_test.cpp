@@ -46,7 +46,7 @@ Run alone(const std::string& type) {
 void check_fails_alone(const std::string& where, const std::string& hook, const Words& clock) {
   std::vector<Words> commands;
   for (const Thrown& thrown : kThings) commands.push_back(misbehaving(where, thrown.what, clock));
-  const std::vector<Run> runs = run_beside(commands);
+  const std::vector<Run> runs = run_together(commands);
   auto next = runs.begin();
   for (const Thrown& thrown : kThings) {
     const Run& run = *next++;
@@ -324,7 +324,7 @@ TEST_CASE("a destructor that hangs at the end of a run ends the run with its nam
   const TempFolder folder;
   const Words words{of_twenty(folder, "test_tired", "<param name=\"rests\" value=\"true\"/>"), "--until",
                     "1s"};
-  for (const Run& run : run_beside({words + virtual_clock(), words})) {
+  for (const Run& run : run_together({words + virtual_clock(), words})) {
     INFO(run.err);
     CHECK(run.ended);
     CHECK(run.exit_code() == 1);

@@ -31,7 +31,7 @@ std::vector<Run> act_with(const std::vector<Words>& clocks, const std::string& w
                           const std::string& deed) {
   std::vector<Words> commands;
   for (const Words& clock : clocks) commands.push_back(hooligan(where, deed, clock));
-  return run_beside(commands);
+  return run_together(commands);
 }
 
 const std::vector<Words> kClocks{virtual_clock(), kSteady, kHosted};

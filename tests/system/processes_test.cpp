@@ -39,7 +39,7 @@ Words hooligan(const Words& settings) {
 
 TEST_CASE("a graph in three processes reaches its goals, and says so as in one", "[system][processes]") {
   const Words words{kScout, "--set", kNear};
-  const std::vector<Run> runs = run_beside({words, words + Words{"--in-process"}}, Seconds(60));
+  const std::vector<Run> runs = run_together({words, words + Words{"--in-process"}}, Seconds(60));
   const Run& several = runs[0];
   const Run& one = runs[1];
   INFO(several.err << one.err);
