@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/goals/route.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "orca/base/portable_math.hpp"
@@ -50,7 +51,8 @@ const char* fault_of(const idl::GoalPoint& goal, double height) {
   constexpr double kFarthest = 1e8;  // [m] more than twice around the Earth
   const auto& place = goal.coordinate().point();
   if (!is_finite(goal)) return "holds a number that is not finite";
-  if (std::hypot(place.x(), place.y()) > kFarthest) return "lies farther away than any place on Earth";
+  if (std::max(std::fabs(place.x()), std::fabs(place.y())) > kFarthest)
+    return "lies farther away than any place on Earth";
   const double reach = goal.reach_radius().distance();
   if (reach < 0.0) return "has a negative reach_radius";
   if (goal.use_orientation() && goal.reach_angle() <= 0.0)
