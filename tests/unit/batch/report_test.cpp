@@ -121,6 +121,23 @@ TEST_CASE("metrics that no run has are named with what they need", "[batch][repo
   CHECK_THAT(page, !Contains("No run has clearance:"));
 }
 
+TEST_CASE("no interval of a measure goes below 0, and none of a share beyond 1", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0);
+  for (Row& row : rows) {
+    const bool is_first = row.world == "w10";
+    row.outcome.measures.noticed = is_first ? 0.7 : 1.0;
+    row.outcome.measures.sure_but_wrong = is_first ? 0.3 : 0.0;
+    row.outcome.measures.people_touched = is_first ? 3.0 : 0.0;
+  }
+  rows.resize(4);  // few worlds: Student's intervals know no bounds
+  const std::string page = report_on(rows, experiment()).markdown;
+  INFO(page);
+  CHECK_THAT(page, Contains("| noticed | 0.925 (0.686 to 1.000)"));
+  CHECK_THAT(page, Contains("| sure_but_wrong | 0.075 (0.000 to 0.314)"));
+  CHECK_THAT(page, Contains("| people_touched | 0.750 (0.000 to 3.137)"));
+}
+
 TEST_CASE("a failed run is shown with its kind and the command that makes it again", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad", 5);

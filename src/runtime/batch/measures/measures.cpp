@@ -37,6 +37,8 @@ constexpr const char* kGoals = "goals of the experiment";
 constexpr const char* kRobot = "a simulated robot";
 constexpr const char* kMotion = "a simulated robot that moves";
 
+constexpr double kAll = 1.0;  // [1]
+
 constexpr std::array kMeasures{
     Measure{"claimed", "", "Goals that components said were reached.", &Measures::claimed, kGoals},
     Measure{"claimed_wrongly", "", "Those that they said while the robot was not there.",
@@ -47,9 +49,9 @@ constexpr std::array kMeasures{
     Measure{"way_ratio", "", "The way divided by the world's reference; 1 is best.", &Measures::way_ratio,
             kReference},
     Measure{"spl", "", "Success weighted by path length: 1 / way_ratio, at most 1, and 0 without success.",
-            &Measures::spl, kReference},
+            &Measures::spl, kReference, kAll},
     Measure{"barn_score", "", "Score of the BARN benchmark: of the reference at 2 m/s, 0.5 at best.",
-            &Measures::barn_score, kReference},
+            &Measures::barn_score, kReference, 0.5},
     Measure{"clearance", "m", "Smallest distance to anything that a robot could touch, at most 2 m.",
             &Measures::clearance, kRobot},
     Measure{"clearance_p5", "m", "Distance that was kept in 95 % of the time.", &Measures::clearance_p5,
@@ -70,13 +72,13 @@ constexpr std::array kMeasures{
     Measure{"near_misses", "", "Times that a robot came nearer than 0.3 m to a person and touched nobody.",
             &Measures::near_misses, kPeople},
     Measure{"noticed", "", "Share of kidnappings that its localizer noticed within 3 s or 1 m.",
-            &Measures::noticed, kKidnapping},
+            &Measures::noticed, kKidnapping, kAll},
     Measure{"found_again", "", "Share of kidnappings after which it was right within 15 s or 8 m.",
-            &Measures::found_again, kKidnapping},
+            &Measures::found_again, kKidnapping, kAll},
     Measure{"sure_but_wrong", "", "Share of the time in which it was sure and more than 0.5 m off.",
-            &Measures::sure_but_wrong, kLocalizer},
+            &Measures::sure_but_wrong, kLocalizer, kAll},
     Measure{"ambiguous", "", "Share of the time in which it said that there are several places.",
-            &Measures::ambiguous, kLocalizer},
+            &Measures::ambiguous, kLocalizer, kAll},
     Measure{"recoveries", "", "Times that a planner found no way on and recovered.", &Measures::recoveries,
             kRobot}};
 

@@ -2,6 +2,7 @@
 #include "comparison.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <tuple>
@@ -84,10 +85,12 @@ Result<Summary> summary_of(const Values& values, const Metric& metric) {
   for (const std::vector<double>& of_world : values) std::ranges::copy(of_world, std::back_inserter(all));
   const Result<Sample> sample = sample_of(values);
   if (!sample) return sample.error();
-  const Result<Estimate> mean =
+  Result<Estimate> mean =
       metric.is_success() ? estimate_share(sample->values, kShares) : estimate_mean(sample->values);
   const Result<double> middle = interquartile_mean(all);
   if (!mean || !middle) return (mean ? middle.error() : mean.error());
+  if (Interval& interval = mean->interval; std::isfinite(interval.low))  // otherwise it is that of one value
+    interval = {std::max(0.0, interval.low), std::min(metric.most, interval.high)};
   return Summary{all.size(), sample->scope, *mean, *middle};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace orca::batch {
 namespace {
@@ -17,10 +18,11 @@ bool is_among(const auto& names, std::string_view name) {
 }
 
 Metric metric(const char* name, const char* unit, const char* text,
-              std::optional<double> Measures::*measure = nullptr, const std::string& needs = "") {
+              std::optional<double> Measures::*measure = nullptr, const std::string& needs = "",
+              double most = std::numeric_limits<double>::infinity()) {
   const bool of_successes = is_among(kOfSuccesses, name);
   const std::string success = !of_successes ? "" : needs.empty() ? "a success" : "a success and ";
-  return {name, unit, text, is_among(kBetterWhenMore, name), of_successes, measure, success + needs};
+  return {name, unit, text, is_among(kBetterWhenMore, name), of_successes, measure, success + needs, most};
 }
 
 std::vector<Metric> listed_metrics() {
@@ -28,7 +30,7 @@ std::vector<Metric> listed_metrics() {
       metric("success", "", "Share of the runs that reached all goals and touched nothing."),
       metric("time", "s", "Simulated time until the last goal was reached.")};
   for (const Measure& one : all_measures())
-    metrics.push_back(metric(one.name, one.unit, one.text, one.value, one.needs));
+    metrics.push_back(metric(one.name, one.unit, one.text, one.value, one.needs, one.most));
   return metrics;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct Metric {
   bool of_successes = false;  ///< Runs without success have it not: their time and way are those of a part.
   std::optional<double> Measures::*measure = nullptr;  ///< Null: success or time.
   std::string needs{};  ///< Needed of a run for it, "a success and a simulated robot"; empty: nothing.
+  double most = std::numeric_limits<double>::infinity();  ///< No value is greater, and none below 0.
 
   [[nodiscard]] bool is_success() const { return name == "success"; }
   /// Returns the value of a run, if it has one.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -65,7 +66,8 @@ struct Measure {
   const char* unit;  ///< "" for a ratio.
   const char* text;
   std::optional<double> Measures::*value;
-  const char* needs;  ///< Needed of a run for it, "a world with people".
+  const char* needs;                                      ///< Needed of a run for it, "a world with people".
+  double most = std::numeric_limits<double>::infinity();  ///< None is greater, and none below 0.
 };
 
 /// Returns all measures, in the order of the columns.
