@@ -29,8 +29,7 @@ void Navigator::set_rules(const NavigatorRules& rules) {
 }
 
 void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
-  const bool lost = !map_.lattice().holds(map_.lattice().cell_at(pose.position()));
-  if (!std::exchange(begun_, true) || lost) map_.reset(pose.position());
+  if (!std::exchange(begun_, true) || !covers(pose.position())) map_.reset(pose.position());
   map_.follow(pose.position());
   map_.see(scan);
   if (doubts_) map_.clear_along(scan);
@@ -43,6 +42,8 @@ void Navigator::hear(std::span<const Beam> scan, const Pose2& pose) {
     if (beam.echo && norm(beam.to - pose.position()) < reach && !is_known(beam.to)) points.push_back(beam.to);
   news_ = true;
 }
+
+bool Navigator::covers(Vec2 place) const { return map_.lattice().holds(map_.lattice().cell_at(place)); }
 
 bool Navigator::is_known(Vec2 echo) const {
   const Cell cell = map_.lattice().cell_at(echo);
@@ -71,6 +72,10 @@ bool Navigator::has_seen(Vec2 point) const {
 }
 
 Steer Navigator::steer(const Moment& moment, const Errand& errand) {
+  if (!covers(moment.pose.position())) {  // The pose has jumped: nothing is known there before the next scan.
+    drop_path();
+    return {};
+  }
   if (!planned_for_) driver_.begin(moment);
   const auto seen = [this](Vec2 point) { return has_seen(point); };
   const auto recovered = driver_.recover(moment, rules_.pursuit, seen);

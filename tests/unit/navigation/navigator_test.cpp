@@ -230,3 +230,20 @@ TEST_CASE("the navigator names the place ahead on its path, and none while it kn
   navigator.drop_path();
   CHECK_FALSE(navigator.ahead(moment));
 }
+
+TEST_CASE("a robot whose pose jumps out of the map stands until a scan is heard there", "[navigation]") {
+  Navigator navigator(kBase, {});
+  const std::vector<Wall> wall{{{-1.0, 2.0}, {6.0, 2.0}}};
+  const auto speed_at = [&](Vec2 place) {
+    const Moment moment{TimePoint{}, {place.x, place.y, 0.0}, {0.5, 0.0, 0.0}};
+    return navigator.steer(moment, {place + Vec2{4.0, 0.0}}).speed;
+  };
+  navigator.hear(scan_of(wall, {}), {});
+  REQUIRE(speed_at({}) > 0.1);
+  for (const Vec2 place : {Vec2{30.0, 0.0}, Vec2{-3000.0, 6000.0}, Vec2{1e7, 1e7}}) {
+    CHECK(speed_at(place) == 0.0);
+    const Pose2 there{place.x, place.y, 0.0};
+    navigator.hear(scan_of(wall, there), there);
+    CHECK(speed_at(place) > 0.1);
+  }
+}

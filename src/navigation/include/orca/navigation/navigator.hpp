@@ -48,7 +48,8 @@ class Navigator {
   void set_rules(const NavigatorRules& rules);
   /// Takes over a scan that was taken about where the robot is now.
   void hear(std::span<const Beam> scan, const Pose2& pose);
-  /// Returns the motion of the next moment.
+  /// Returns the motion of the next moment; none while the robot is said to be outside of what the map covers: the next scan moves
+  /// that.
   [[nodiscard]] Steer steer(const Moment& moment, const Errand& errand);
   /// Returns the place on the path that is as far ahead as it looks, map frame; nothing while it recovers or no path leads on.
   [[nodiscard]] std::optional<Vec2> ahead(const Moment& moment) const;
@@ -80,6 +81,7 @@ class Navigator {
   void keep_path(const Moment& moment, const Errand& errand);
   void replan(const Moment& moment, const Errand& errand);
   void doubt(Vec2 robot);
+  [[nodiscard]] bool covers(Vec2 place) const;
   [[nodiscard]] bool is_known(Vec2 echo) const;
   [[nodiscard]] bool has_seen(Vec2 point) const;
 
