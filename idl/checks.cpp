@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/idl/checks.hpp"
 
+#include "orca/base/portable_math.hpp"
 #include "orca/idl/moving.hpp"
 
 #include <algorithm>
@@ -19,8 +20,11 @@ constexpr double kLargest = 1e7;
 constexpr double kFastestOfAll = 100.0;   // [m/s], [rad/s] ten times what any robot of Orca does
 constexpr double kFarthestSensor = 50.0;  // [m] from the middle of its robot
 constexpr double kShortestView = 0.1;     // [m] By a sensor that sees less far nobody can drive.
-constexpr double kLeastStep = 1e-6;       // [rad] from a beam to the next
-constexpr double kLongestSweep = 10.0;    // [s]
+constexpr double kLongestView = 1000.0;   // [m]
+constexpr double kFarBeyond = 10.0;       // times max_range
+constexpr double kLeastUpright = 0.5;  // share of a laser's own upward direction that is upward: up to 60 deg
+constexpr double kLeastStep = 1e-6;    // [rad] from a beam to the next
+constexpr double kLongestSweep = 10.0;                  // [s]
 constexpr double kWidestScan = 4.0 * std::numbers::pi;  // [rad]
 
 std::string in_digits(double number) {
@@ -44,6 +48,16 @@ bool is_possible(const idl::Point& point, const idl::Rotation3D& rotation) {
 
 bool is_number(double range) { return !std::isnan(range); }
 
+// Returns whether ranges differ where nothing can be measured any more. Whoever says by a number that there was no echo says always the same one;
+// the usual reason for several is a length in millimetres, by which nothing would ever be near.
+bool are_measured_far_beyond(const idl::RangeReadings& readings) {
+  const double beyond = kFarBeyond * readings.max_range();
+  const auto is_beyond = [&](double range) { return range > beyond && std::isfinite(range); };
+  const auto first = std::ranges::find_if(readings.ranges(), is_beyond);
+  return std::any_of(first, readings.ranges().end(),
+                     [&](double range) { return is_beyond(range) && range != *first; });
+}
+
 // Checks the part that scans and rounds have in common.
 Status check_ranges(const idl::RangeReadings& readings) {
   if (readings.ranges().empty()) return wrong("it has no ranges");
@@ -51,9 +65,12 @@ Status check_ranges(const idl::RangeReadings& readings) {
     return wrong("none of its " + std::to_string(readings.ranges().size()) + " ranges is a number");
   const double least = readings.min_range();
   const double most = readings.max_range();
-  if (!(least >= 0.0 && least < most && most >= kShortestView && is_possible(most)))
+  if (!(least >= 0.0 && least < most && most >= kShortestView && most <= kLongestView))
     return wrong("its limits are min_range " + in_digits(least) + " m and max_range " + in_digits(most) +
-                 " m; expected 0 <= min_range < max_range, both finite, and max_range at least 0.1 m");
+                 " m; expected 0 <= min_range < max_range, and max_range from 0.1 m to 1000 m");
+  if (are_measured_far_beyond(readings))
+    return wrong("its ranges are more than ten times its max_range of " + in_digits(most) +
+                 " m, and differ: are they in millimetres?");
   if (!is_possible(readings.pose().position(), readings.pose().rotation()))
     return wrong(
         "its pose holds a number that is not finite, or of no possible size: it is the sensor's in the frame "
@@ -108,6 +125,13 @@ Status check_motion(const Quantity (&quantities)[Count], const std::array<double
 
 Status check_reading(const idl::LaserRangeReadings& scan) {
   if (Status sound = check_ranges(scan); !sound.ok()) return sound;
+  const idl::Rotation3D& tilt = scan.pose().rotation();
+  if (portable::cos(tilt.roll()) * portable::cos(tilt.pitch()) < kLeastUpright)
+    return wrong(
+        "its laser has a roll of " + in_digits(tilt.roll()) + " rad and a pitch of " +
+        in_digits(tilt.pitch()) +
+        " rad; expected one that lies level: one that hangs upside down reports its angles the other "
+        "way round, and no roll");
   const double step = scan.angle_increment();
   const bool is_one = scan.ranges().size() == 1;
   const double width = std::abs(step) * static_cast<double>(scan.ranges().size() - 1);

@@ -176,6 +176,12 @@ class Liar final : public orca::Component {
           [&] { std::fill(scan.ranges().begin() + 1, scan.ranges().end(), nan); }},
          {"all beams in one direction", [&] { scan.angle_increment(1e-310); }},
          {"a place in millimetres", [&] { scan.pose().position().x(210.0); }},
+         {"ranges in millimetres",
+          [&] {
+            for (double& range : scan.ranges()) range *= 1000.0;
+          }},
+         {"a laser that looks up", [&] { scan.pose().rotation().pitch(-1.57); }},
+         {"a laser that hangs upside down", [&] { scan.pose().rotation().roll(3.1416); }},
          {"a stamp of two seconds ago", [&] { scan.stamp(orca::to_time_value(now() - 2s)); }},
          {"an impossible increment", [&] { scan.angle_increment(no_number()); }},
          {"no increment", [&] { scan.angle_increment(0.0); }},
@@ -221,6 +227,7 @@ class Liar final : public orca::Component {
   void one_of(const char* object, std::vector<Way> ways, Readings& readings) {
     ways.push_back({"an impossible least range", [&] { readings.min_range(no_number()); }});
     ways.push_back({"an impossible largest range", [&] { readings.max_range(no_number()); }});
+    ways.push_back({"a largest range in millimetres", [&] { readings.max_range(8000.0); }});
     ways.push_back({"a largest range of 0", [&] { readings.max_range(0.0); }});
     ways.push_back({"a largest range of almost 0", [&] { readings.max_range(1e-310); }});
     ways.push_back({"a negative least range", [&] { readings.min_range(-1.0); }});

@@ -79,8 +79,7 @@ TEST_CASE(
     "none",
     "[idl][checks]") {
   CHECK_THAT(fault_of(scan(), [](auto& s) { s.min_range(0.0), s.max_range(1e-310); }), Contains("max_range"));
-  CHECK_THAT(fault_of(scan(), [](auto& s) { s.min_range(0.0), s.max_range(0.05); }),
-             Contains("at least 0.1 m"));
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.min_range(0.0), s.max_range(0.05); }), Contains("from 0.1 m"));
   CHECK_THAT(fault_of(scan(), [](auto& s) { s.pose().position().x(210.0); }), Contains("in metres"));
   CHECK_THAT(fault_of(sonar_round(),
                       [](auto& round) {
@@ -101,6 +100,27 @@ TEST_CASE("readings whose range limits leave nothing between them count as none"
   CHECK_THAT(fault_of(scan(), [](auto& s) { s.max_range(0.0); }), Contains("max_range 0 m"));
   CHECK_THAT(fault_of(scan(), [](auto& s) { s.max_range(0.05); }), Contains("min_range < max_range"));
   CHECK_THAT(fault_of(sonar_round(), [](auto& r) { r.min_range(-1.0); }), Contains("min_range -1 m"));
+}
+
+TEST_CASE("readings in millimetres count as none, by their limits or by what is far beyond them",
+          "[idl][checks]") {
+  CHECK_THAT(fault_of(scan(), [](auto& s) { s.max_range(8000.0); }), Contains("max_range 8000 m"));
+  CHECK_THAT(fault_of(scan({900.0, 2000.0}), [](auto& /*s*/) {}), Contains("in millimetres?"));
+  CHECK_THAT(fault_of(sonar_round({kNaN, 300.0, 1e5}), [](auto& /*r*/) {}), Contains("in millimetres?"));
+  // A number for "no echo", whatever it is.
+  CHECK(check_reading(scan({8190.0, 1.0, 8190.0, kInfinity})).ok());
+  CHECK(check_reading(scan({70.0, 79.0})).ok());
+}
+
+TEST_CASE("a scan of a laser that does not lie level counts as none", "[idl][checks]") {
+  const auto tilted = [](double roll, double pitch) {
+    return fault_of(scan(),
+                    [&](auto& s) { s.pose().rotation().roll(roll), s.pose().rotation().pitch(pitch); });
+  };
+  CHECK(tilted(0.2, -0.2).empty());
+  CHECK(tilted(3.1416, 3.1416).empty());  // turned round
+  CHECK_THAT(tilted(3.1416, 0.0), Contains("upside down"));
+  CHECK_THAT(tilted(0.0, -1.57), Contains("a pitch of -1.57 rad"));
 }
 
 TEST_CASE("a sonar round counts if one range is a number and its sonar has a pose", "[idl][checks]") {
