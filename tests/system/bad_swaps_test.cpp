@@ -262,6 +262,25 @@ TEST_CASE("a version that hangs only in the system's process ends in the old cod
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
+TEST_CASE("a version whose lap does not end in the system's process is not taken for one that works",
+          "[system][swap]") {
+  Driving robot;
+  const auto swap = [](const std::string& deed) {
+    const Version version = rogue("lap1", deed, "");
+    return run_orcactl(Words{"swap", "avoid", version.plugin, "--tryout", "300 ms", "--probation", "1 s",
+                             "--fresh", "--set", "process=main"} +
+                           version.more,
+                       Seconds(60));
+  };
+  CHECK(swap("nap").exit_code() == 0);  // it may take 3 s
+  const Run refused = swap("sleep");
+  INFO(refused.out << refused.err << robot.log());
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(robot.log(), Contains("work() of the new one hangs, so the process is ended"));
+  CHECK(comes_true([] { return Driving::shown() == "laser_avoid"; }, Seconds(20)));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
 TEST_CASE("an old version whose stop() hangs is left behind, and further versions can be taken",
           "[system][swap]") {
   Driving robot;

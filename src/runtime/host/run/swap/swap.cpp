@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "swap.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,8 @@ constexpr Duration kConfigureLimit = 10s;
 constexpr Duration kLapEndLimit = 5s;     // for the component to come to the end of a lap
 constexpr Duration kTakeOverLimit = 10s;  // of save_state(), start() and load_state() together
 constexpr Duration kEndLimit = 5s;
+constexpr Duration kLongLap = 500ms;    // of which a probation must not be the beginning
+constexpr Duration kLookAgain = 100ms;  // at a lap that is longer than the probation
 
 }  // namespace
 
@@ -175,12 +178,29 @@ Swap::Outcome Swap::watch() {
   };
   if (const Outcome outcome = back(); outcome || phase_ == Phase::ending) return outcome;
   if (!task_.is_late()) return std::nullopt;
+  if (phase_ == Phase::probation && is_in_long_lap()) return wait_for_lap();
   if (place_.component.succession().confirm()) {
     const Outcome outcome = back();
     return outcome || phase_ == Phase::ending ? outcome : end(report_);
   }
   if (phase_ == Phase::going_back) return lose("the old object, which is to be back, hangs");
   enter(Phase::going_back, kTakeOverLimit);
+  return std::nullopt;
+}
+
+// Returns whether the new object has computed or slept for long without waiting for anything of Orca.
+bool Swap::is_in_long_lap() const {
+  if (order_.probation == Duration{0}) return false;
+  const auto stuck = place_.run.executive.stuck_task(std::min(kLongLap, order_.probation / 2));
+  return stuck && stuck->name == order_.component;
+}
+
+// If the lap never ends, nothing could take the new object's place any more.
+Swap::Outcome Swap::wait_for_lap() {
+  overtime_ += kLookAgain;
+  if (overtime_ > kTakeOverLimit)
+    return lose(std::string(place_.component.current_hook()) + " of the new one hangs");
+  enter(Phase::probation, kLookAgain);
   return std::nullopt;
 }
 

@@ -71,6 +71,8 @@ class Swap final : public Exchange {
   Outcome taken_over();
   Outcome withdraw();
   Outcome watch();
+  [[nodiscard]] bool is_in_long_lap() const;
+  Outcome wait_for_lap();
   Outcome end(Result<SwapReport> outcome);
   Outcome ended();
   Outcome leave_behind(const std::string& hangs);
@@ -90,6 +92,7 @@ class Swap final : public Exchange {
   Phase phase_ = Phase::making;
   std::shared_ptr<Order> pending_;  // at the component
   TakeOver take_over_;
+  Duration overtime_{0};  // of the probation, until a lap ends
   SwapReport report_;
   Outcome outcome_;  // once the object that is not needed any more has ended
   bool is_stuck_ = false;
