@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "convert.hpp"
+#include "orca/base/portable_math.hpp"
+#include "orca/geometry/angle.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
@@ -46,6 +49,15 @@ void mount(idl::RangeReadings& readings, const std_msgs::Header& header, const M
   readings.pose().stamp(to_time_value(to_instant(header.stamp)));
 }
 
+// A laser of ROS that hangs upside down says its angles as it measures them; Orca's angles are those seen from above.
+void turn_upright(idl::LaserRangeReadings& scan) {
+  idl::Rotation3D& rotation = scan.pose().rotation();
+  if (portable::cos(rotation.roll()) >= 0.0) return;
+  rotation.roll(wrapped(rotation.roll() - std::numbers::pi));
+  scan.angle_start(-scan.angle_start());
+  scan.angle_increment(-scan.angle_increment());
+}
+
 // --- LaserScan --------------------------------------------------------------------------------------------
 
 void to_ros(const idl::LaserRangeReadings& scan, TimePoint stamp,
@@ -79,6 +91,7 @@ Status from_ros(const sensor_msgs::LaserScan& message, const MountOf& mount_of,
   for (const float range : message.ranges)
     scan.ranges().push_back(from_ros_range(range, message.range_min, message.range_max));
   mount(scan, message.header, mount_of);
+  turn_upright(scan);
   scan.stamp(scan.pose().stamp());
   return ok();
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "hex.hpp"
+#include "orca/idl/checks.hpp"
 #include "orca/idl/geometry.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -335,6 +336,32 @@ TEST_CASE("a camera's images are in its optical frame, and a camera of ROS looks
   CHECK(seen->pose().rotation().roll() == Approx(0.0).margin(1e-9));
   CHECK(seen->pose().rotation().pitch() == Approx(0.0).margin(1e-9));
   CHECK(seen->pose().rotation().yaw() == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("a laser of others that hangs upside down is heard as one that stands upright", "[ros][twin]") {
+  sensor_msgs::LaserScan message;
+  message.header.frame_id = "laser";
+  message.angle_min = -1.0F;
+  message.angle_increment = 0.5F;
+  message.range_min = 0.1F;
+  message.range_max = 10.0F;
+  message.ranges = {1.0F, 2.0F, 3.0F};
+  const auto mount_of = [](const std::string&) {
+    idl::Frame3D place;
+    place.rotation().roll(std::numbers::pi - 0.1);
+    place.rotation().yaw(0.3);
+    return std::optional(place);
+  };
+  const auto heard =
+      twin_from_ros(object_type<idl::LaserRangeReadings>())->from_ros(to_cdr(message), mount_of, {});
+  REQUIRE(heard);
+  const auto scan = object_cast<idl::LaserRangeReadings>(*heard);
+  CHECK(check_reading(*scan).ok());
+  CHECK(scan->angle_start() == 1.0);
+  CHECK(scan->angle_increment() == -0.5);
+  CHECK(scan->ranges() == std::vector<double>{1.0, 2.0, 3.0});
+  CHECK(scan->pose().rotation().roll() == Approx(-0.1));
+  CHECK(scan->pose().rotation().yaw() == 0.3);
 }
 
 TEST_CASE("a goal in another frame than the map's is refused", "[ros][twin]") {
