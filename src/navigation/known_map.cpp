@@ -170,18 +170,17 @@ std::optional<ScanMatch> lay_there(std::span<const SurfacePoint> scan, const Kno
 std::optional<ScanMatch> lay_near(std::span<const SurfacePoint> scan, const KnownMap& map,
                                   const PoseSpread& prior, const MatchOptions& options,
                                   const FitMargin& margin) {
-  constexpr double kClose = 0.2;  // [m] in which echoes look for their walls about a place that is known well
   constexpr double kSurely = 0.8;  // [1] share of a scan on the map for which no better place is looked for
-  const double deviation = std::sqrt(prior.covariance[0] + prior.covariance[4]);
+  const double deviation = deviation_of(prior);
   MatchOptions close = options;
-  close.reach = std::min(close.reach, kClose + 3.0 * deviation);
+  close.reach = std::min(close.reach, kCloseReach + 3.0 * deviation);
   const std::optional<ScanMatch> here = lay_there(scan, map, prior, close, margin);
   if (here && here->share >= kSurely) return here;
   const double way = std::clamp(3.0 * deviation, 0.3, 1.0);
   const double turn = std::clamp(3.0 * std::sqrt(prior.covariance[8]), 0.2, 0.5);
   const auto found = map.search().best(thinned(scan, 0.1, 90), {prior.mean, way, turn}, 0.0);
   if (!found) return here;
-  close.reach = kClose;
+  close.reach = kCloseReach;
   const std::optional<ScanMatch> other = refine(scan, map.surface(), found->X_MR, close);
   if (!other || !here) return other ? other : here;
   return other->fit > here->fit + margin_to(other->X_MR, prior, margin) ? other : here;

@@ -16,16 +16,10 @@ constexpr std::size_t kParticles = 200;  // of a place that is known roughly
 constexpr double kWide = 0.3;            // [m] beyond which particles are weighed before a scan is laid
 constexpr double kWideTurn = 0.15;       // [rad]
 constexpr double kLongWay = 0.5;         // [m], [rad]
-constexpr double kClose = 0.2;  // [m] in which echoes look for their walls about a place that is known well
-constexpr double kBody = 0.1;   // [m] that the middle of a robot is at least from what is occupied
-constexpr double kMostSpread = 0.5;  // [m] up to which a place is known
+constexpr double kBody = 0.1;            // [m] that the middle of a robot is at least from what is occupied
+constexpr double kMostSpread = 0.5;      // [m] up to which a place is known
 
 double square(double x) { return x * x; }
-
-// How far the place itself may be off.
-double deviation_of(const PoseSpread& spread) {
-  return std::sqrt(spread.covariance[0] + spread.covariance[4]);
-}
 
 PoseSpread widened(const PoseSpread& spread, double factor) {
   PoseSpread result = spread;
@@ -363,7 +357,7 @@ void MapLocalizer::take_found() {
   const Pose2 since = seen_from(search_->taken.X_OR, settled_.X_OR);
   const std::array<double, 3> deviations = deviations_of(search_->taken, settled_);
   MatchOptions close = options_.match;
-  close.reach = kClose;
+  close.reach = kCloseReach;
   const std::size_t known = places_.size();
   std::vector<double> evidence;
   for (Candidate& place : places_) {

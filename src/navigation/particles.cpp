@@ -103,6 +103,10 @@ double squared_distance(const PoseSpread& spread, const Pose2& pose) {
   return away.dot(matrix_of(spread.covariance).ldlt().solve(away));
 }
 
+double deviation_of(const PoseSpread& spread) {
+  return std::sqrt(spread.covariance[0] + spread.covariance[4]);
+}
+
 PoseInformation information_of(const PoseSpread& spread) {
   const Vec2 ahead = direction(spread.mean.yaw);
   Matrix turn = Matrix::Identity();

@@ -25,6 +25,17 @@ struct Drive {
   Reckoned reckoned{};
   bool sees = true;
 
+  // Puts the robot among other walls, all of which its map shows.
+  void build(const std::vector<test::Walls>& parts, Vec2 least, Vec2 most) {
+    walls.clear();
+    for (const test::Walls& part : parts) walls.insert(walls.end(), part.begin(), part.end());
+    draw(walls, least, most);
+  }
+  void draw(const test::Walls& drawn, Vec2 least, Vec2 most) {
+    map = std::make_shared<const KnownMap>(test::grid_of(drawn, least, most));
+    localizer.change_map(map);
+  }
+
   void drive(const Pose2& step) {
     X_MR = X_MR * step;
     reckoned.X_OR = reckoned.X_OR * Pose2{1.03 * step.x, 0.0, step.yaw + 0.01 * step.x};
@@ -90,11 +101,9 @@ TEST_CASE("a robot whose place nobody has said is found, at once or by what it s
 TEST_CASE("a robot in one of two rooms alike is at either, until it sees more", "[navigation]") {
   Drive drive;
   // Two equal rooms that are 4 m by 3 m, so each is alike to itself when it is turned by half a circle. A box at the wall of one shows in no other.
-  drive.walls = test::box({0.03, 0.02}, {4.03, 3.02});
-  for (const test::Walls& more : {test::box({6.03, 0.02}, {10.03, 3.02}), test::box({0.5, 2.3}, {1.2, 3.0})})
-    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 3.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {4.03, 3.02}), test::box({6.03, 0.02}, {10.03, 3.02}),
+               test::box({0.5, 2.3}, {1.2, 3.0})},
+              {-0.5, -0.5}, {10.5, 3.5});
   // The box is behind it.
   drive.X_MR = {2.2, 1.3, -0.5};
   drive.stand(40);
@@ -108,11 +117,8 @@ TEST_CASE("a robot in one of two rooms alike is at either, until it sees more", 
 
 TEST_CASE("a robot in one of two rooms that are alike all around stays at either", "[navigation]") {
   Drive drive;
-  drive.walls = test::box({0.03, 0.02}, {4.03, 4.02});
-  const test::Walls other = test::box({6.03, 0.02}, {10.03, 4.02});
-  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 4.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {4.03, 4.02}), test::box({6.03, 0.02}, {10.03, 4.02})}, {-0.5, -0.5},
+              {10.5, 4.5});
   drive.X_MR = {1.3, 1.7, 0.3};
   drive.stand(40);
   CHECK(drive.known() == Known::ambiguous);
@@ -124,11 +130,8 @@ TEST_CASE("a robot in one of two rooms that are alike all around stays at either
 
 TEST_CASE("a search leaves a place the evidence against it that other scans gave", "[navigation]") {
   Drive drive;
-  drive.walls = test::box({0.03, 0.02}, {4.03, 4.02});
-  const test::Walls other = test::box({6.03, 0.02}, {10.03, 4.02});
-  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 4.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {4.03, 4.02}), test::box({6.03, 0.02}, {10.03, 4.02})}, {-0.5, -0.5},
+              {10.5, 4.5});
   drive.X_MR = {1.3, 1.7, 0.3};
   // The best place is doubted, so the next scan begins a search, in which both rooms look alike.
   const PlaceBelief here{.where = around(drive.X_MR), .quick = 0.3, .slow = 0.8};
@@ -213,12 +216,9 @@ TEST_CASE("people around a robot do not make it lost", "[navigation]") {
 TEST_CASE("a robot that loses its place among people is found in its own room, not in one alike",
           "[navigation]") {
   Drive drive;
-  drive.walls = test::box({0.03, 0.02}, {4.03, 3.02});
-  for (const test::Walls& more : {test::box({6.03, 0.02}, {10.03, 3.02}), test::box({0.5, 2.3}, {1.2, 3.0}),
-                                  test::box({6.5, 2.3}, {7.2, 3.0})})
-    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 3.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {4.03, 3.02}), test::box({6.03, 0.02}, {10.03, 3.02}),
+               test::box({0.5, 2.3}, {1.2, 3.0}), test::box({6.5, 2.3}, {7.2, 3.0})},
+              {-0.5, -0.5}, {10.5, 3.5});
   drive.X_MR = {GENERATE(2.2, 8.2), 1.3, 0.5};
   drive.localizer.place(around(drive.X_MR), drive.reckoned);
   drive.stand(20);
@@ -263,8 +263,7 @@ TEST_CASE("a crate that was moved along a corridor does not draw a robot with it
     walls.insert(walls.end(), crate.begin(), crate.end());
     return walls;
   };
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(with_crate_at(12.0), {-0.5, -0.5}, {30.5, 2.5}));
-  drive.localizer.change_map(drive.map);
+  drive.draw(with_crate_at(12.0), {-0.5, -0.5}, {30.5, 2.5});
   drive.walls = with_crate_at(12.0 + GENERATE(0.1, 0.15, 0.2, 0.25));
   drive.X_MR = {8.0, 1.0, 0.0};
   drive.localizer.place({drive.X_MR, {1e-4, 0, 0, 0, 1e-4, 0, 0, 0, 1e-4}}, drive.reckoned);
@@ -296,8 +295,7 @@ TEST_CASE("a place where light goes through a wall of the map is not believed be
   for (const test::Wall& wall :
        test::Walls{{{6.03, 0.02}, {6.03, 1.5}}, {{6.03, 2.7}, {6.03, 5.02}}, {{9.03, 0.0}, {9.03, 5.0}}})
     drive.walls.push_back(wall);
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drawn, {-0.5, -0.5}, {6.5, 5.5}));
-  drive.localizer.change_map(drive.map);
+  drive.draw(drawn, {-0.5, -0.5}, {6.5, 5.5});
   drive.X_MR = {4.0, 2.2, 0.0};
   drive.stand(40);
   const auto places = drive.localizer.places(drive.reckoned);
@@ -363,12 +361,9 @@ TEST_CASE("a place from before is checked before it is believed", "[navigation]"
 
 TEST_CASE("a place from before gives way to one along the same corridor that fits better", "[navigation]") {
   Drive drive;
-  drive.walls = test::box({0.03, 0.02}, {24.03, 2.02});
-  for (const test::Walls& more : {test::box({5.0, 0.0}, {5.5, 0.4}), test::box({9.0, 1.5}, {9.3, 2.0}),
-                                  test::box({16.0, 0.0}, {16.8, 0.3})})
-    drive.walls.insert(drive.walls.end(), more.begin(), more.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {24.5, 2.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {24.03, 2.02}), test::box({5.0, 0.0}, {5.5, 0.4}),
+               test::box({9.0, 1.5}, {9.3, 2.0}), test::box({16.0, 0.0}, {16.8, 0.3})},
+              {-0.5, -0.5}, {24.5, 2.5});
   drive.X_MR = {3.0, 1.0, 0.0};
   drive.localizer.suggest(around({11.0, 1.0, 0.0}), drive.reckoned);
   drive.stand(20);
@@ -380,11 +375,8 @@ TEST_CASE("a place from before gives way to one along the same corridor that fit
 
 TEST_CASE("a place from before is believed although others fit as well", "[navigation]") {
   Drive drive;
-  drive.walls = test::box({0.03, 0.02}, {4.03, 3.02});
-  const test::Walls other = test::box({6.03, 0.02}, {10.03, 3.02});
-  drive.walls.insert(drive.walls.end(), other.begin(), other.end());
-  drive.map = std::make_shared<const KnownMap>(test::grid_of(drive.walls, {-0.5, -0.5}, {10.5, 3.5}));
-  drive.localizer.change_map(drive.map);
+  drive.build({test::box({0.03, 0.02}, {4.03, 3.02}), test::box({6.03, 0.02}, {10.03, 3.02})}, {-0.5, -0.5},
+              {10.5, 3.5});
   drive.X_MR = {8.2, 1.3, -0.5};
   drive.localizer.suggest(around({8.1, 1.4, -0.45}), drive.reckoned);
   drive.stand(40);

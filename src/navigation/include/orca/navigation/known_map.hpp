@@ -126,6 +126,9 @@ struct FitMargin {
       80.0;  ///< [1/1] logarithm of the odds by each share that a place explains more of a scan than another.
 };
 
+/// [m] MatchOptions::reach about a place that is known well.
+inline constexpr double kCloseReach = 0.2;
+
 /// Lays a scan on a map, near where the robot should be. A place away from there must explain clearly more of the scan, and the more the
 /// farther it is: a piece of furniture that was moved explains a little more where it stood.
 /// @param scan   robot frame.

@@ -35,6 +35,10 @@ struct PoseSpread {
 /// @pre  the covariance is positive definite.
 [[nodiscard]] double squared_distance(const PoseSpread& spread, const Pose2& pose);
 
+/// Returns how far the place itself may be off [m].
+/// @thread  pure function; any thread.
+[[nodiscard]] double deviation_of(const PoseSpread& spread);
+
 /// Where odometry has a robot at an instant, and how well it knows that since its start.
 struct Reckoned {
   double time = 0.0;  ///< [s] from any beginning.
