@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace orca {
 namespace {
@@ -19,16 +20,19 @@ struct Given {
   bool can_run = false;
 };
 
-bool can_run(const path& thread) {
-  std::ifstream file(thread / "stat");
+// Not below the folder of its process: there each of its entries costs who waits for the end of the process a millisecond.
+path facts_of(pid_t thread) { return path("/proc") / std::to_string(thread); }
+
+bool can_run(pid_t thread) {
+  std::ifstream file(facts_of(thread) / "stat");
   std::string line;
   std::getline(file, line);
   const std::size_t name_end = line.rfind(')');
   return name_end != std::string::npos && line.compare(name_end, 3, ") R") == 0;
 }
 
-void add(const path& thread, Given& sum) {
-  std::ifstream file(thread / "schedstat");
+void add(pid_t thread, Given& sum) {
+  std::ifstream file(facts_of(thread) / "schedstat");
   std::int64_t ran = 0;     // [ns]
   std::int64_t waited = 0;  // [ns]
   if (!(file >> ran >> waited)) return;
@@ -37,14 +41,19 @@ void add(const path& thread, Given& sum) {
   sum.can_run = sum.can_run || can_run(thread);
 }
 
-path threads_of(pid_t process) { return path("/proc") / std::to_string(process) / "task"; }
+std::vector<pid_t> threads_of(pid_t process) {
+  std::vector<pid_t> threads;
+  std::error_code gone;  // the process may end meanwhile
+  std::filesystem::directory_iterator each(facts_of(process) / "task", gone);
+  for (; !gone && each != std::filesystem::directory_iterator(); each.increment(gone))
+    threads.push_back(static_cast<pid_t>(std::stol(each->path().filename().string())));
+  return threads;
+}
 
 Given given_to(pid_t process, std::optional<pid_t> thread) {
   Given sum;
-  if (thread) return add(threads_of(process) / std::to_string(*thread), sum), sum;
-  std::error_code unused;
-  for (const auto& each : std::filesystem::directory_iterator(threads_of(process), unused))
-    add(each.path(), sum);
+  if (thread) return add(*thread, sum), sum;
+  for (const pid_t each : threads_of(process)) add(each, sum);
   return sum;
 }
 
@@ -62,12 +71,10 @@ Duration ProcessorWait::look() {
 }
 
 std::optional<pid_t> find_thread(pid_t process, const char* name) {
-  std::error_code unused;
-  for (const auto& each : std::filesystem::directory_iterator(threads_of(process), unused)) {
-    std::ifstream file(each.path() / "comm");
+  for (const pid_t thread : threads_of(process)) {
+    std::ifstream file(facts_of(thread) / "comm");
     std::string called;
-    if (std::getline(file, called) && called == name)
-      return static_cast<pid_t>(std::stol(each.path().filename().string()));
+    if (std::getline(file, called) && called == name) return thread;
   }
   return std::nullopt;
 }
