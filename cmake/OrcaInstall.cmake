@@ -22,9 +22,15 @@ set(ORCA_EXPORTED language base idl xml text geometry geometry_objects carmen re
     hw_framing hw_link hw_api hw_driver graph plugin host testing options)
 list(TRANSFORM ORCA_EXPORTED PREPEND orca_)
 
+# orca_set_rpath(PATHS TARGETS...): the folders in which they look for libraries, in the build folder and once they are installed. Else CMake
+# would fill up the paths of the build folder with ":", and each would have the loader search the folder that a program is started in.
+function(orca_set_rpath paths)
+  set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH "${paths}" BUILD_WITH_INSTALL_RPATH ON)
+endfunction()
+
 # orca_install_program(PROGRAM COMPONENT): with its page and completions.
 function(orca_install_program program component)
-  set_target_properties(${program} PROPERTIES INSTALL_RPATH $ORIGIN/../${ORCA_LIB})
+  orca_set_rpath("$ORIGIN/../${ORCA_LIB};$ORIGIN/../lib" ${program})
   install(TARGETS ${program} RUNTIME DESTINATION bin COMPONENT ${component})
   set(share ${CMAKE_BINARY_DIR}/share)
   install(FILES ${share}/man/man1/${program}.1 DESTINATION share/man/man1 COMPONENT ${component})
@@ -35,7 +41,7 @@ endfunction()
 # Libraries that a program loads, and what other projects compile and link with.
 function(orca_install_libraries)
   get_property(shared GLOBAL PROPERTY ORCA_SHARED_LIBRARIES)
-  set_target_properties(${shared} PROPERTIES INSTALL_RPATH $ORIGIN)
+  orca_set_rpath($ORIGIN ${shared})
   list(REMOVE_ITEM shared ${ORCA_EXPORTED})
   install(TARGETS ${shared} LIBRARY DESTINATION ${ORCA_LIB} COMPONENT runtime)
   install(TARGETS ${ORCA_EXPORTED} EXPORT Orca
@@ -59,7 +65,7 @@ function(orca_install_plugins)
     else()
       set(component runtime)
     endif()
-    set_target_properties(${plugin} PROPERTIES INSTALL_RPATH $ORIGIN/..)
+    orca_set_rpath("$ORIGIN/..;$ORIGIN/../lib" ${plugin})
     install(TARGETS ${plugin} LIBRARY DESTINATION ${ORCA_LIB}/plugins COMPONENT ${component})
     install(FILES ${ORCA_PLUGIN_DIR}/${plugin}.types DESTINATION ${ORCA_LIB}/plugins COMPONENT ${component})
   endforeach()

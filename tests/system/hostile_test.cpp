@@ -417,3 +417,17 @@ TEST_CASE("an emergency stop gets through a storm of connections", "[system][hos
   CHECK(system.obeys({"estop", "--release"}));
   system.end();
 }
+
+TEST_CASE("no program loads libraries that lie in the folder where it is started", "[system][hostile]") {
+  const TempFolder folder;
+  folder.write("libstdc++.so.6", "no library");
+  folder.write("libspdlog.so.1.10", "no library");
+  for (const Words& words : {deployer({"--version"}), orcactl({"--version"}), hwprobe({"--version"})}) {
+    CAPTURE(words);
+    Subprocess program(words, {.folder = folder.path()});
+    const std::optional<Ending> ending = program.wait(Seconds(60));
+    INFO(program.err());
+    REQUIRE(ending);
+    CHECK(ending->exit_code == 0);
+  }
+}
