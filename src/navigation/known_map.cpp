@@ -167,6 +167,14 @@ std::optional<ScanMatch> lay_there(std::span<const SurfacePoint> scan, const Kno
 
 }  // namespace
 
+PoseSpread spread_of(const ScanMatch& laid) {
+  PoseInformation known = laid.information;
+  known.xx += 100.0;
+  known.yy += 100.0;
+  known.tt += 200.0;
+  return {laid.X_MR, covariance_of(known, laid.X_MR.yaw)};
+}
+
 std::optional<ScanMatch> lay_near(std::span<const SurfacePoint> scan, const KnownMap& map,
                                   const PoseSpread& prior, const MatchOptions& options,
                                   const FitMargin& margin) {

@@ -43,25 +43,22 @@ bool is_same(const Pose2& one, const Pose2& other) {
   return norm(away.position()) < 0.3 && std::fabs(away.yaw) < 0.2;
 }
 
-// Returns where a scan lies that was found by a search: by 10 cm and 4 degrees at worst, as the search looks more closely.
-PoseSpread spread_of(const ScanMatch& laid) {
-  PoseInformation known = laid.information;
-  known.xx += 100.0;
-  known.yy += 100.0;
-  known.tt += 200.0;
-  return {laid.X_MR, covariance_of(known, laid.X_MR.yaw)};
-}
-
 }  // namespace
 
 /// A place where the robot may be.
 struct MapLocalizer::Candidate {
   Particles particles;
-  PlaceBelief belief;     // but for where
-  double behind = 0.0;    // echoes behind the map's walls, those of long ago counting less
-  double at_walls = 0.0;  // the same, with those on the walls
-  bool stayed = false;    // The robot is there by its wheels since it was known last.
+  PlaceBelief belief;  // but for where
+  SeenThrough through{};
+  bool stayed = false;  // The robot is there by its wheels since it was known last.
+  Rivals rivals{};
 
+  // Returns how well the place is known.
+  [[nodiscard]] PoseSpread spread() const { return rivals.with(particles.spread()); }
+  void move(const Pose2& step, const std::array<double, 3>& deviations, RandomStream& random) {
+    particles.move(step, deviations, random);
+    rivals.move(step, deviations);
+  }
   /// @param weight  1: a whole scan.
   void note(double fit, double weight = 1.0) {
     constexpr double kQuick = 0.3;
@@ -69,16 +66,11 @@ struct MapLocalizer::Candidate {
     belief.quick = belief.quick < 0.0 ? fit : belief.quick + kQuick * weight * (fit - belief.quick);
     belief.slow = belief.slow < 0.0 ? fit : belief.slow + kSlow * weight * (fit - belief.slow);
   }
-  void note(const Explanation& seen) {
-    constexpr double kForgotten = 0.03;  // with each scan
-    behind += seen.longs - kForgotten * behind;
-    at_walls += seen.hits + seen.longs - kForgotten * at_walls;
-  }
   // Furniture that was moved, and people, speak in each view against the place where the robot is: a tenth of that counts.
   [[nodiscard]] double share_of_lack() const { return stayed ? 0.1 : 1.0; }
   // People explain echoes in front of a wall, nobody explains those behind it.
   [[nodiscard]] bool sees_through_walls(const LocalizerOptions& options) const {
-    return behind > options.most_behind * at_walls;
+    return through.is_more_than(options.most_behind);
   }
   [[nodiscard]] bool is_doubtful(const LocalizerOptions& options) const {
     return belief.quick >= 0.0 &&
@@ -104,7 +96,7 @@ void MapLocalizer::change_map(std::shared_ptr<const KnownMap> map) {
   search_.reset();
   left_.reset();
   if (map_) doubt_all();
-  for (Candidate& place : places_) place.behind = place.at_walls = 0.0;  // those were other walls
+  for (Candidate& place : places_) place.through = {};  // those were other walls
   map_ = std::move(map);
 }
 
@@ -157,7 +149,7 @@ void MapLocalizer::move(const Reckoned& now) {
 void MapLocalizer::settle() {
   const std::array<double, 3> deviations = deviations_of(settled_, now_);
   const Pose2 step = seen_from(settled_.X_OR, now_.X_OR);
-  for (Candidate& place : places_) place.particles.move(step, deviations, random_);
+  for (Candidate& place : places_) place.move(step, deviations, random_);
   settled_ = now_;
   unsettled_ = 0.0;
 }
@@ -177,6 +169,7 @@ void MapLocalizer::doubt_all() {
   for (Candidate& place : places_) {
     place.belief.quick = place.belief.slow = -1.0;
     place.belief.believed = false;
+    place.rivals.clear();
   }
 }
 
@@ -213,7 +206,8 @@ void MapLocalizer::see(const RobotScan& seen) {
     const Explanation explained = map_->explain(scan.echoes, scan.from, place.particles.spread().mean);
     fits.push_back(explained.fit);
     place.note(place.belief.believed ? explained.fit_of_room : explained.fit);
-    place.note(explained);
+    place.through.note(explained);
+    place.rivals.judge(scan, *map_, explained, options_);
   }
   compare(fits);
   believe(suggested_ ? options_.believed_at_once : options_.believed_from);
@@ -226,7 +220,9 @@ void MapLocalizer::see(const RobotScan& seen) {
 
 void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   PoseSpread prior = place.particles.spread();
-  if (deviation_of(prior) > kWide || std::sqrt(prior.covariance[8]) > kWideTurn) {
+  const PoseSpread expected = prior;
+  const bool is_wide = deviation_of(prior) > kWide || std::sqrt(prior.covariance[8]) > kWideTurn;
+  if (is_wide) {
     const std::vector<SurfacePoint> some = thinned(scan.echoes, 0.1, 60);
     place.particles.weigh([&](const Pose2& X_MR) { return likelihood(some, *map_, X_MR); });
     place.particles.resample(random_);
@@ -245,7 +241,11 @@ void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   if (places_.size() == 1 && place.belief.believed) offsets_[scan.sensor] = offset;
   constexpr double kMost = 9.0;
   const double misfit = squared_distance(both, seen.mean);
-  if (misfit > kMost) prior = widened(prior, misfit / kMost);
+  if (is_wide && place.belief.believed) place.rivals.look_about(expected, *found, scan, *map_, options_);
+  if (misfit > kMost) {
+    if (place.belief.believed) place.rivals.contradict(prior);
+    prior = widened(prior, misfit / kMost);
+  }
   place.particles.shape(fused(prior, seen), random_);
 }
 
@@ -346,7 +346,7 @@ void MapLocalizer::count_stayed() {
   const double odds = options_.margin.evidence * explained.fit + options_.suggested;
   const PoseSpread where = after(spread_of(*laid), since, deviations_of(taken, settled_));
   add_place({where, odds, explained.fit, explained.fit, false}, kParticles);
-  places_.back().note(explained);
+  places_.back().through.note(explained);
   places_.back().stayed = true;
 }
 
@@ -375,12 +375,11 @@ void MapLocalizer::take_found() {
     add_place({where, options_.margin.evidence * explained.fit, explained.fit, explained.fit, false},
               kParticles);
     Candidate& added = places_.back();
-    added.note(explained);
+    added.through.note(explained);
     for (std::size_t i = 0; i < known; ++i) {
       if (!is_same(places_[i].particles.spread().mean, where.mean)) continue;
       added.belief.odds += evidence[i];
-      added.behind += places_[i].behind;
-      added.at_walls += places_[i].at_walls;
+      added.through.add(places_[i].through);
     }
   }
   count_stayed();
@@ -415,15 +414,14 @@ std::vector<PlaceBelief> MapLocalizer::places(const Reckoned& now) const {
   std::vector<PlaceBelief> result;
   for (const Candidate& place : places_) {
     result.push_back(place.belief);
-    result.back().where = after(place.particles.spread(), step, deviations);
+    result.back().where = after(place.spread(), step, deviations);
   }
   return result;
 }
 
 std::optional<PoseSpread> MapLocalizer::where(const Reckoned& now) const {
   if (places_.empty()) return std::nullopt;
-  return after(places_.front().particles.spread(), seen_from(settled_.X_OR, now.X_OR),
-               deviations_of(settled_, now));
+  return after(places_.front().spread(), seen_from(settled_.X_OR, now.X_OR), deviations_of(settled_, now));
 }
 
 // They show too little for a search: many places sound alike.

@@ -64,6 +64,12 @@ PoseSpread fused(const PoseSpread& a, const PoseSpread& b) {
   return {moved(a.mean, gain * off(b.mean, a.mean)), array_of(A - gain * A)};
 }
 
+PoseSpread mixed(const PoseSpread& likely, const PoseSpread& other, double share) {
+  const Eigen::Vector3d away = off(other.mean, likely.mean);
+  const Matrix about_likely = matrix_of(other.covariance) + away * away.transpose();
+  return {likely.mean, array_of((1.0 - share) * matrix_of(likely.covariance) + share * about_likely)};
+}
+
 PoseSpread after(const PoseSpread& before, const Pose2& step, const std::array<double, 3>& deviations) {
   const Vec2 chord = rotated(step.position(), before.mean.yaw);
   Matrix by_start = Matrix::Identity();

@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
+
+#include "orca/base/portable_math.hpp"
 
 namespace orca::nav {
 namespace {
@@ -23,6 +26,33 @@ int turns_of(std::span<const SurfacePoint> scan) {
   for (const SurfacePoint& point : scan) farthest = std::max(farthest, norm(point.at));
   farthest = std::min(farthest, kFar);
   return static_cast<int>(std::ceil(2.0 * std::numbers::pi * farthest / (1.5 * kSide)));
+}
+
+// Whether two poses are one and the same place of a scan.
+bool is_one_place(const Pose2& one, const Pose2& other) {
+  constexpr double kApart = 0.1;  // [m], [rad]
+  const Pose2 away = seen_from(one, other);
+  return norm(away.position()) < kApart && std::fabs(away.yaw) < kApart;
+}
+
+// Returns where a scan lies in a wide prior, a place for each neighbourhood.
+std::vector<ScanMatch> laid_within(const PoseSpread& prior, std::span<const SurfacePoint> scan,
+                                   const KnownMap& map, const MatchOptions& options) {
+  constexpr double kUsual = 9.0;  // squared distance
+  const double side = 0.9 * deviation_of(prior);
+  MatchOptions close = options;
+  close.reach = std::min(close.reach, 0.5 * side + options.inlier);
+  std::vector<ScanMatch> places;
+  for (const double x : {-side, 0.0, side})
+    for (const double y : {-side, 0.0, side}) {
+      const Pose2 from{prior.mean.x + x, prior.mean.y + y, prior.mean.yaw};
+      const auto laid = refine(scan, map.surface(), from, close);
+      if (!laid || squared_distance(prior, laid->X_MR) > kUsual) continue;
+      if (std::ranges::none_of(places,
+                               [&](const ScanMatch& it) { return is_one_place(it.X_MR, laid->X_MR); }))
+        places.push_back(*laid);
+    }
+  return places;
 }
 
 }  // namespace
@@ -126,6 +156,68 @@ void PlaceSearch::keep(const Block& place) {
   found_.insert(std::ranges::upper_bound(found_, found.score, std::ranges::greater(), &Found::score), found);
   while (found_.size() > options_.most || found_.back().score <= found_.front().score - options_.margin)
     found_.pop_back();
+}
+
+void SeenThrough::note(const Explanation& seen) {
+  constexpr double kForgotten = 0.03;  // with each scan
+  behind += seen.longs - kForgotten * behind;
+  at_walls += seen.hits + seen.longs - kForgotten * at_walls;
+}
+
+void SeenThrough::add(const SeenThrough& other) {
+  behind += other.behind;
+  at_walls += other.at_walls;
+}
+
+void Rivals::contradict(const PoseSpread& by_wheels) {
+  way_ = 0.0;
+  if (!rivals_.empty()) return;
+  believed_ = {};
+  rivals_.push_back({by_wheels, 1.0, {}});
+}
+
+void Rivals::look_about(const PoseSpread& prior, const ScanMatch& laid, const RobotScan& scan,
+                        const KnownMap& map, const LocalizerOptions& options) {
+  constexpr double kUnlikely = 0.01;
+  way_ = 0.0;
+  believed_ = {};
+  rivals_.clear();
+  for (const ScanMatch& other : laid_within(prior, scan.echoes, map, options.match)) {
+    if (is_one_place(other.X_MR, laid.X_MR)) continue;
+    const double lack = std::max(0.0, laid.fit - other.fit - options.margin.apart);
+    const double odds = portable::exp(-options.margin.evidence * lack);
+    if (odds >= kUnlikely) rivals_.push_back({spread_of(other), odds, {}});
+  }
+}
+
+void Rivals::move(const Pose2& step, const std::array<double, 3>& deviations) {
+  way_ += norm(step.position());
+  for (Rival& rival : rivals_) rival.where = after(rival.where, step, deviations);
+}
+
+void Rivals::judge(const RobotScan& scan, const KnownMap& map, const Explanation& believed,
+                   const LocalizerOptions& options) {
+  constexpr double kOtherViews = 5.0;  // [m] Furniture that was moved is out of sight by then, as a rule.
+  constexpr double kClearly = 3.0;     // The wheels know a place less and less.
+  constexpr double kLost = 0.5;        // [m]
+  if (rivals_.empty()) return;
+  if (way_ > kOtherViews) return clear();
+  believed_.note(believed);
+  const bool is_sound = !believed_.is_more_than(options.most_behind);
+  for (Rival& rival : rivals_) rival.there.note(map.explain(scan.echoes, scan.from, rival.where.mean));
+  std::erase_if(rivals_, [&](const Rival& rival) {
+    return (is_sound && rival.there.is_more_than(kClearly * options.most_behind)) ||
+           deviation_of(rival.where) > kLost;
+  });
+}
+
+PoseSpread Rivals::with(PoseSpread believed) const {
+  double all = 1.0;
+  for (const Rival& rival : rivals_) {
+    all += rival.odds;
+    believed = mixed(believed, rival.where, rival.odds / all);
+  }
+  return believed;
 }
 
 }  // namespace orca::nav

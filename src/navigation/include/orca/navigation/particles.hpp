@@ -24,6 +24,10 @@ struct PoseSpread {
 /// @thread  pure function; any thread.
 [[nodiscard]] PoseSpread fused(const PoseSpread& a, const PoseSpread& b);
 
+/// Returns the spread, about the mean of `likely`, of a pose that is with a probability `share` [1] as `other` says, and else as `likely` does.
+/// @thread  pure function; any thread.
+[[nodiscard]] PoseSpread mixed(const PoseSpread& likely, const PoseSpread& other, double share);
+
 /// Returns the pose of a robot after a step, whose standard deviations ahead, to the left [m] and of the turn [rad] are given.
 /// @param step  seen from where the robot was.
 /// @thread  pure function; any thread.

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "orca/geometry/pose2.hpp"
 #include "orca/navigation/known_map.hpp"
+#include "orca/navigation/map_localizer.hpp"
+#include "orca/navigation/particles.hpp"
+#include "orca/navigation/scan_match.hpp"
 
 namespace orca::nav {
 
@@ -65,6 +70,56 @@ class PlaceSearch {
   bool sorted_ = false;
   std::size_t looked_ = 0;
   std::vector<Found> found_;
+};
+
+/// How many echoes lie behind the map's walls, of those on walls or behind; those of long ago count less.
+struct SeenThrough {
+  double behind = 0.0;
+  double at_walls = 0.0;  ///< On walls or behind.
+
+  void note(const Explanation& seen);
+  void add(const SeenThrough& other);
+  /// Returns whether they are more than a share [1].
+  [[nodiscard]] bool is_more_than(double share) const { return behind > share * at_walls; }
+};
+
+/// Other places near the one where a robot is believed to be, at which it may be as well. They follow odometry alone. Until they are refuted,
+/// or the robot has come to other views, its place is not known better than they lie apart.
+///
+/// Thread contract: one thread at a time.
+/// @source  Olson 2009: the covariance of a match comes from all places that the prior allows, not from the best one alone. The moments of
+///          a mixture: Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001, 1.4.16.
+class Rivals {
+ public:
+  /// Says that a scan has drawn the robot away from where the wheels have it, by more than these are wrong as a rule. Either may be right:
+  /// wheels slip, and furniture is moved.
+  void contradict(const PoseSpread& by_wheels);
+  /// Looks in all of a wide prior for places that explain a scan nearly as well as the one where it was laid.
+  /// @param scan  its echoes corrected as they were laid.
+  void look_about(const PoseSpread& prior, const ScanMatch& laid, const RobotScan& scan, const KnownMap& map,
+                  const LocalizerOptions& options);
+  /// Moves them as Particles::move() does.
+  void move(const Pose2& step, const std::array<double, 3>& deviations);
+  /// Judges them by a scan, and forgets those that need no thought any more: where light would have to go through walls, but not where the
+  /// robot is believed to be; those that the wheels have lost; and all when the robot has come to other views.
+  /// @param believed  how the scan lies where the robot is believed to be.
+  void judge(const RobotScan& scan, const KnownMap& map, const Explanation& believed,
+             const LocalizerOptions& options);
+  void clear() { rivals_.clear(); }
+
+  [[nodiscard]] bool empty() const { return rivals_.empty(); }
+  /// Returns how well the place is known, with them: the mean stays.
+  [[nodiscard]] PoseSpread with(PoseSpread believed) const;
+
+ private:
+  struct Rival {
+    PoseSpread where;
+    double odds;  // against the place that is believed
+    SeenThrough there;
+  };
+  std::vector<Rival> rivals_;
+  SeenThrough believed_;  // since there are any
+  double way_ = 0.0;      // [m] driven since a scan contradicted the wheels last
 };
 
 }  // namespace orca::nav
