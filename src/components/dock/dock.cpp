@@ -12,6 +12,7 @@
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/goal_relay.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -39,10 +40,11 @@ class Dock final : public orca::Component {
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     // Its points may be sent again, along another way, when the robot is there already.
-    if (docking_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
-    if (!goal_ || goal->mission() != goal_->mission()) waiting_.clear();
+    const bool goes_on = relay_.goal() && goal->mission() == relay_.goal()->mission();
+    if (docking_ && goes_on) return orca::ok();
+    if (!goes_on) waiting_.clear();
     docking_.reset();
-    goal_ = goal;
+    relay_.keep(goal);
     waiting_.push_back(goal);
     return orca::ok();
   }
@@ -53,8 +55,8 @@ class Dock final : public orca::Component {
 
   orca::Outcome work() override {
     const auto here = localizer_.get_update();
-    while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
-    while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    while (const auto arrived = relay_.next_arrival()) hear(*arrived);
+    while (const auto failed = relay_.next_failure()) relay_.end_as(*failed, relay_.goal()->name());
     const double age = orca::to_seconds(now() - orca::to_time_point(here->stamp()));
     const bool knows = senders_.accepts(*here) && senders_.accepts(*here, orca::check_age(age, kOldest)) &&
                        !orca::is_anywhere(here->covariance());
@@ -96,7 +98,7 @@ class Dock final : public orca::Component {
 
   void pass_on() {
     for (const auto& goal : std::exchange(waiting_, {})) {
-      const orca::Status sent = is_dock(*goal) ? send_before(*goal) : goto_.send(copy_value(goal));
+      const orca::Status sent = is_dock(*goal) ? send_before(*goal) : relay_.pass_on(copy_value(goal));
       if (!sent.ok()) return give_up(orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
     }
   }
@@ -115,7 +117,7 @@ class Dock final : public orca::Component {
     near->use_orientation(true);
     near->orientation().orientation().yaw(before.yaw);
     near->reach_angle(kNear);
-    return goto_.send(std::move(near));
+    return relay_.pass_on(std::move(near));
   }
 
   orca::Result<double> direction_of(const orca::idl::GoalPoint& goal) {
@@ -133,27 +135,13 @@ class Dock final : public orca::Component {
 
   // Goto has done its part when the robot is before the charger.
   void hear(const orca::idl::Arrived& arrived) {
-    if (is_late(arrived)) return;
-    if (is_dock(*goal_)) {
-      if (arrived.name() == "before_" + goal_->name()) docking_.emplace();
+    const auto& goal = *relay_.goal();
+    if (is_dock(goal)) {
+      if (arrived.name() == "before_" + goal.name()) docking_.emplace();
       return;
     }
-    if (arrived.name() != goal_->name()) return;  // The points of another way are coming.
-    done_.push(arrived);
-    forget_goal();
-  }
-
-  void hear(const orca::idl::GoalFailed& failed) {
-    if (is_late(failed)) return;
-    auto own = orca::make_object(failed);
-    own->name() = goal_->name();
-    undone_.push(std::move(own));
-    forget_goal();
-  }
-
-  // Returns whether it reports a goal that was replaced by another one meanwhile.
-  [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
-    return !goal_ || goal_->mission() != result.mission();
+    if (arrived.name() != goal.name()) return;  // The points of another way are coming.
+    relay_.end_as(arrived);
   }
 
   [[nodiscard]] bool charges() const {
@@ -183,44 +171,30 @@ class Dock final : public orca::Component {
   }
 
   void conclude(orca::Vec2 contacts) {
-    auto arrived = done_.loan();
-    arrived->name() = goal_->name();
-    arrived->x(pose_.x);
-    arrived->y(pose_.y);
-    arrived->stamp(orca::to_time_value(now()));
-    done_.push(std::move(arrived));
+    relay_.report_arrival(pose_);
     docked_ = contacts;
     end_work();
   }
 
   void give_up(orca::idl::GoalFailure kind, const std::string& reason) {
-    if (!goal_) return;
-    auto failed = undone_.loan();
-    failed->name() = goal_->name();
-    failed->kind(kind);
-    failed->reason() = reason;
-    failed->stamp(orca::to_time_value(now()));
-    undone_.push(std::move(failed));
+    if (!relay_.goal()) return;
+    relay_.report_failure(kind, reason);
     end_work();
   }
 
   void end_work() {
     docking_.reset();
     motion_.push(orca::full_stop());
-    forget_goal();
-  }
-
-  void forget_goal() {
-    goal_ = {};
-    end_mission();
+    relay_.end();
   }
 
   void save_state(orca::StateWriter& state) const override {
-    state.write(goal_, waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
+    state.write(relay_.task(), waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
   }
   orca::Status load_state(orca::StateReader& state) override {
-    return state.read(goal_, waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
+    return state.read(relay_.task(), waiting_, X_WD_, docking_, docked_, leaves_since_, pose_, known_at_);
   }
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
 
   static constexpr double kNear = 0.1;  // [m], [rad] to which Goto brings the robot before a charger
   static constexpr double kFace = 0.4;  // [m] around the contacts, what the robot may touch there
@@ -230,16 +204,13 @@ class Dock final : public orca::Component {
   static constexpr double kOldest = 1.0;  // [s] An older pose says where the robot was.
   static constexpr double kFresh = 3.0;   // [s] Batteries are read once a second, or in ten.
 
-  orca::SendServer<orca::idl::GoalPoint> goals_{
-      *this, "GotoCoordinateSend", &Dock::on_goal, {.text = "Via points and goals, as Goto takes them."}};
-  orca::PushServer<orca::idl::Arrived> done_{
+  orca::go::GoalRelay relay_{
       *this,
-      "ArrivedPush",
-      {.text = "One object per goal reached; at a charger when the battery is charged."}};
-  orca::PushServer<orca::idl::GoalFailed> undone_{
-      *this,
-      "GoalFailedPush",
-      {.text = "One object per goal not reached, or where the battery is not charged."}};
+      host(),
+      &Dock::on_goal,
+      {.driver = "Goto",
+       .done = "One object per goal reached; at a charger when the battery is charged.",
+       .undone = "One object per goal not reached, or where the battery is not charged."}};
   orca::PushServer<orca::idl::MotionCommand> motion_{
       *this, "motion", {.text = "One command per lap: a wish at a charger, no opinion elsewhere."}};
   orca::PushServer<orca::idl::GoalPoint> touch_{
@@ -247,9 +218,6 @@ class Dock final : public orca::Component {
       "TouchPush",
       {.text = "The contacts that the robot is to touch, in its own frame, once per lap at a charger."}};
 
-  orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
-  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of Goto."}};
-  orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "Goals that Goto has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};
   orca::PushProxy<orca::idl::Battery> battery_{
@@ -291,10 +259,9 @@ class Dock final : public orca::Component {
                                        "turn a robot at a charger; 0: they "
                                        "never count."}};
 
-  orca::ObjectPtr<orca::idl::GoalPoint> goal_;                  // the last point that came, until its result
   std::vector<orca::ObjectPtr<orca::idl::GoalPoint>> waiting_;  // that Goto does not have yet
   orca::SenderWatch senders_{host()};
-  Pose2 X_WD_;                        // of the charger that goal_ is
+  Pose2 X_WD_;                        // of the charger that the goal is
   std::optional<Docking> docking_;    // from when the robot is before it
   std::optional<orca::Vec2> docked_;  // the contacts in the frame of the robot, since it was charged there
   std::optional<orca::TimePoint> leaves_since_;

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "frontiers.hpp"
-#include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/goal_relay.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
@@ -45,13 +45,12 @@ class Explorer final : public orca::Component {
     reached_.reset();
     left_out_.clear();
     explores_ = !goal->via() && goal->name() == *explore_at_;
-    mission_ = goal->mission();
     began_ = now();
     empty_looks_ = 0;
     turn_ = Turn::due;
-    goal_ = goal;
+    relay_.keep(goal);
     looked_ = {};
-    return explores_ ? orca::ok() : planner_.send(copy_value(goal));
+    return explores_ ? orca::ok() : relay_.pass_on(copy_value(goal));
   }
 
   orca::Outcome work() override {
@@ -60,10 +59,10 @@ class Explorer final : public orca::Component {
     while (map_.new_data_arrived())
       if (const orca::Status taken = floor_.take(*map_.get_update()); !taken.ok())
         log_warning(taken.error().message);
-    while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
-    while (failed_.new_data_arrived()) hear(*failed_.get_update());
-    if (is_over()) forget_goal();
-    if (!goal_ || !explores_ || !senders_.accepts(*here)) return orca::again();
+    while (const auto arrived = relay_.next_arrival()) hear(*arrived);
+    while (const auto failed = relay_.next_failure()) hear(*failed);
+    if (is_over()) relay_.end();
+    if (!relay_.goal() || !explores_ || !senders_.accepts(*here)) return orca::again();
     if (!robot_.body() || now() < looked_ + kEvery || known_area() <= 0.0) return orca::again();
     looked_ = now();
     const orca::Pose2 pose = orca::plane_pose(*here);
@@ -74,29 +73,20 @@ class Explorer final : public orca::Component {
 
   // Returns whether the time of the goal is over: who has sent it has given it up.
   [[nodiscard]] bool is_over() const {
-    return goal_ && explores_ && goal_->time_limit() > 0.0 &&
-           now() > began_ + orca::from_seconds(goal_->time_limit());
+    return relay_.goal() && explores_ && relay_.goal()->time_limit() > 0.0 &&
+           now() > began_ + orca::from_seconds(relay_.goal()->time_limit());
   }
 
   void hear(const orca::idl::Arrived& arrived) {
-    if (is_late(arrived)) return;
     if (turn_ == Turn::on) return void(turn_ = Turn::done);
     if (explores_) return void(reached_ = now());
-    done_.push(arrived);
-    forget_goal();
+    relay_.end_as(arrived);
   }
 
   void hear(const orca::idl::GoalFailed& failed) {
-    if (is_late(failed)) return;
     if (turn_ == Turn::on) return void(turn_ = Turn::done);
     if (explores_) return leave_out(failed.reason());
-    undone_.push(failed);
-    forget_goal();
-  }
-
-  // Returns whether it reports a goal that was replaced by another one meanwhile.
-  [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
-    return !goal_ || mission_ != result.mission();
+    relay_.end_as(failed, failed.name());
   }
 
   void leave_out(const std::string& reason) {
@@ -170,9 +160,8 @@ class Explorer final : public orca::Component {
 
   // Returns a goal of another mission: a planner that has given up one takes nothing more of its mission.
   orca::Loan<GoalPoint> point_of_its_own() {
-    mission_ = begin_mission();
-    auto point = orca::make_object(*goal_);
-    point->mission(mission_);
+    auto point = orca::make_object(*relay_.goal());
+    point->mission(begin_mission());
     point->time_limit(0.0);
     return point;
   }
@@ -186,8 +175,7 @@ class Explorer final : public orca::Component {
         (left_out_.empty() ? "" : ", and " + std::to_string(left_out_.size()) + " places were left out"));
     explores_ = false;
     towards_.reset();
-    mission_ = goal_->mission();
-    send(orca::make_object(*goal_));
+    send(orca::make_object(*relay_.goal()));
   }
 
   [[nodiscard]] double known_area() const {
@@ -198,30 +186,17 @@ class Explorer final : public orca::Component {
   }
 
   void send(orca::Loan<GoalPoint> point) {
-    if (const orca::Status sent = planner_.send(std::move(point)); !sent.ok()) {
-      auto failed = undone_.loan();
-      failed->mission(goal_->mission());
-      failed->name() = goal_->name();
-      failed->kind(orca::idl::GOAL_REFUSED);
-      failed->reason() = "refused: " + sent.error().text();
-      failed->stamp(orca::to_time_value(now()));
-      undone_.push(std::move(failed));
-      forget_goal();
+    if (const orca::Status sent = relay_.pass_on(std::move(point)); !sent.ok()) {
+      relay_.report_failure(orca::idl::GOAL_REFUSED, "refused: " + sent.error().text());
+      relay_.end();
     }
   }
 
-  void forget_goal() {
-    goal_ = {};
-    explores_ = false;
-    towards_.reset();
-    end_mission();
-  }
-
   void save_state(orca::StateWriter& state) const override {
-    state.write(goal_, mission_, began_, turn_, explores_, drives_, left_out_, floor_);
+    state.write(relay_.task(), began_, turn_, explores_, drives_, left_out_, floor_);
   }
   orca::Status load_state(orca::StateReader& state) override {
-    return state.read(goal_, mission_, began_, turn_, explores_, drives_, left_out_, floor_);
+    return state.read(relay_.task(), began_, turn_, explores_, drives_, left_out_, floor_);
   }
 
   static constexpr orca::Duration kEvery = std::chrono::seconds(1);      // it looks for frontiers
@@ -235,21 +210,14 @@ class Explorer final : public orca::Component {
   static constexpr double kSame = 0.6;    // [m] between two places at one frontier
   static constexpr double kSpare = 0.05;  // [m] beside the robot
 
-  orca::SendServer<GoalPoint> goals_{*this,
-                                     "GotoCoordinateSend",
-                                     &Explorer::on_goal,
-                                     {.text = "Via points and goals, as a planner takes them."}};
-  orca::PushServer<orca::idl::Arrived> done_{
+  orca::go::GoalRelay relay_{
       *this,
-      "ArrivedPush",
-      {.text = "One object per goal reached, after all that could be reached was seen."}};
-  orca::PushServer<orca::idl::GoalFailed> undone_{
-      *this, "GoalFailedPush", {.text = "One object per goal not reached."}};
+      host(),
+      &Explorer::on_goal,
+      {.driver = "a planner",
+       .done = "One object per goal reached, after all that could be reached was seen.",
+       .undone = "One object per goal not reached."}};
 
-  orca::SendProxy<GoalPoint> planner_{*this, "goto", {.text = "Where to drive to: a planner."}};
-  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of the planner."}};
-  orca::PushProxy<orca::idl::GoalFailed> failed_{
-      *this, "failed", {.text = "Goals that the planner has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the map."}};
   orca::PushProxy<orca::idl::OccupancyGrid> map_{
@@ -267,8 +235,6 @@ class Explorer final : public orca::Component {
       {.unit = "m", .min = 0.05, .text = "Borders of what is known that are narrower are not driven to."}};
 
   orca::planning::Floor floor_{orca::planning::Floor::kMostToPlan, orca::planning::Floor::Edge::grows};
-  orca::ObjectPtr<GoalPoint> goal_;  // the last point that came, until its result
-  std::uint64_t mission_ = 0;        // of the point that was sent last
   orca::TimePoint began_{};
   Turn turn_ = Turn::due;
   bool explores_ = false;        // it has not seen everything

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/goal_relay.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/sensing.hpp"
@@ -43,15 +45,15 @@ class Porter final : public orca::Component {
 
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     // Its points may be sent again, along another way, when the robot is there already.
-    if (errand_ && goal_ && goal->mission() == goal_->mission()) return orca::ok();
+    if (errand_ && relay_.goal() && goal->mission() == relay_.goal()->mission()) return orca::ok();
     errand_.reset();
-    goal_ = goal;
-    if (!kind_of(*goal)) return goto_.send(copy_value(goal));
+    relay_.keep(goal);
+    if (!kind_of(*goal)) return relay_.pass_on(copy_value(goal));
     auto near = orca::make_object(*goal);
     near->name() = "near_" + goal->name();
     near->reach_radius().distance(*standoff_);
     near->use_orientation(false);
-    return goto_.send(std::move(near));
+    return relay_.pass_on(std::move(near));
   }
 
   // Returns what is to be done at the goal, if it is one of those where something is.
@@ -66,8 +68,8 @@ class Porter final : public orca::Component {
 
   orca::Outcome work() override {
     const auto here = localizer_.get_update();
-    while (arrived_.new_data_arrived()) hear(*arrived_.get_update());
-    while (failed_.new_data_arrived()) hear(*failed_.get_update());
+    while (const auto arrived = relay_.next_arrival()) hear(*arrived);
+    while (const auto failed = relay_.next_failure()) relay_.end_as(*failed, relay_.goal()->name());
     if (!senders_.accepts(*here) || orca::is_anywhere(here->covariance())) {
       motion_.push(errand_ ? orca::full_stop() : orca::dont_care());
       return orca::again();
@@ -83,28 +85,14 @@ class Porter final : public orca::Component {
 
   // Goto has done its part when the robot is as near as it was to bring it.
   void hear(const orca::idl::Arrived& arrived) {
-    if (is_late(arrived)) return;
-    if (const auto kind = kind_of(*goal_); kind || arrived.name() != goal_->name()) {
-      if (!kind) return;  // The points of another way are coming.
-      errand_.emplace(*kind, place_of(*goal_));
+    const auto& goal = *relay_.goal();
+    if (const auto kind = kind_of(goal)) {
+      errand_.emplace(*kind, place_of(goal));
       heard_ = now();
       return;
     }
-    done_.push(arrived);
-    forget_goal();
-  }
-
-  void hear(const orca::idl::GoalFailed& failed) {
-    if (is_late(failed)) return;
-    auto own = orca::make_object(failed);
-    own->name() = goal_->name();
-    undone_.push(std::move(own));
-    forget_goal();
-  }
-
-  // Returns whether it reports a goal that was replaced by another one meanwhile.
-  [[nodiscard]] bool is_late(const orca::idl::OrcaObject& result) const {
-    return !goal_ || goal_->mission() != result.mission();
+    if (arrived.name() != goal.name()) return;  // The points of another way are coming.
+    relay_.end_as(arrived);
   }
 
   [[nodiscard]] static orca::Vec2 place_of(const orca::idl::GoalPoint& goal) {
@@ -134,55 +122,40 @@ class Porter final : public orca::Component {
   }
 
   void conclude(const orca::Pose2& pose) {
-    auto arrived = done_.loan();
-    arrived->name() = goal_->name();
-    arrived->x(pose.x);
-    arrived->y(pose.y);
-    arrived->stamp(orca::to_time_value(now()));
-    done_.push(std::move(arrived));
+    relay_.report_arrival(pose);
     end_errand();
   }
 
   void give_up(const std::string& reason) {
-    auto failed = undone_.loan();
-    failed->name() = goal_->name();
-    failed->kind(orca::idl::GOAL_UNDONE);
-    failed->reason() = "undone: " + reason;
-    failed->stamp(orca::to_time_value(now()));
-    undone_.push(std::move(failed));
+    relay_.report_failure(orca::idl::GOAL_UNDONE, "undone: " + reason);
     end_errand();
   }
 
   void end_errand() {
     errand_.reset();
     motion_.push(orca::full_stop());
-    forget_goal();
-  }
-
-  void forget_goal() {
-    goal_ = {};
-    end_mission();
+    relay_.end();
   }
 
   [[nodiscard]] Manner manner() const {
     return {*reach_, *approach_speed_, *turn_rate_, *back_off_, *patience_};
   }
 
-  void save_state(orca::StateWriter& state) const override { state.write(goal_, errand_, heard_); }
-  orca::Status load_state(orca::StateReader& state) override { return state.read(goal_, errand_, heard_); }
+  void save_state(orca::StateWriter& state) const override { state.write(relay_.task(), errand_, heard_); }
+  orca::Status load_state(orca::StateReader& state) override {
+    return state.read(relay_.task(), errand_, heard_);
+  }
+  [[nodiscard]] std::uint32_t state_version() const override { return 2; }
 
-  orca::SendServer<orca::idl::GoalPoint> goals_{
-      *this, "GotoCoordinateSend", &Porter::on_goal, {.text = "Via points and goals, as Goto takes them."}};
-  orca::PushServer<orca::idl::Arrived> done_{
-      *this, "ArrivedPush", {.text = "One object per goal reached, with what was to be done there."}};
-  orca::PushServer<orca::idl::GoalFailed> undone_{
-      *this, "GoalFailedPush", {.text = "One object per goal not reached, or where the gripper failed."}};
+  orca::go::GoalRelay relay_{*this,
+                             host(),
+                             &Porter::on_goal,
+                             {.driver = "Goto",
+                              .done = "One object per goal reached, with what was to be done there.",
+                              .undone = "One object per goal not reached, or where the gripper failed."}};
   orca::PushServer<orca::idl::MotionCommand> motion_{
       *this, "motion", {.text = "One command per lap: a wish at such a place, no opinion elsewhere."}};
 
-  orca::SendProxy<orca::idl::GoalPoint> goto_{*this, "goto", {.text = "Where to drive to."}};
-  orca::PushProxy<orca::idl::Arrived> arrived_{*this, "arrived", {.text = "Arrivals of Goto."}};
-  orca::PushProxy<orca::idl::GoalFailed> failed_{*this, "failed", {.text = "Goals that Goto has given up."}};
   orca::PushProxy<orca::idl::RobotPose> localizer_{
       *this, "localizer", {.text = "Pose of the robot, in the frame of the goals."}};
   orca::SendProxy<orca::idl::GripperCommand> gripper_{*this, "gripper", {.text = "Commands to the gripper."}};
@@ -240,7 +213,6 @@ class Porter final : public orca::Component {
       1.0,
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
-  orca::ObjectPtr<orca::idl::GoalPoint> goal_;  // the last point that came, until its result
   orca::SenderWatch senders_{host()};
   std::optional<Errand> errand_;  // from when the robot is there
   orca::TimePoint heard_{};       // when the gripper has said something, in an errand
