@@ -3,23 +3,21 @@
 
 #include <zlib.h>
 
-#include <algorithm>
-
 namespace orca::recording {
 
 void put(Bytes& out, std::string_view text) {
-  put(out, static_cast<std::uint32_t>(text.size()));
-  put(out, std::as_bytes(std::span(text)));
+  put(out, static_cast<std::uint32_t>(text.size()), std::as_bytes(std::span(text)));
 }
 
 void put(Bytes& out, const Values& values) {
   Bytes inner;
-  for (const auto& [name, value] : values) {
-    put(inner, std::string_view(name));
-    put(inner, std::string_view(value));
-  }
-  put(out, static_cast<std::uint32_t>(inner.size()));
-  put(out, inner);
+  for (const auto& [name, value] : values) put(inner, name, value);
+  put(out, static_cast<std::uint32_t>(inner.size()), inner);
+}
+
+void put(Bytes& out, const CountsByChannel& counts) {
+  put(out, static_cast<std::uint32_t>(counts.size() * 10));
+  for (const auto& [channel, count] : counts) put(out, channel, count);
 }
 
 std::span<const std::byte> Cursor::take(std::uint64_t count) {
@@ -32,20 +30,25 @@ std::span<const std::byte> Cursor::take(std::uint64_t count) {
   return taken;
 }
 
-std::string Cursor::text() {
+void Cursor::get(std::string& text) {
   const auto bytes = take(number<std::uint32_t>());
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-Values Cursor::values() {
+void Cursor::get(Values& values) {
   Cursor inner(take(number<std::uint32_t>()));
-  Values values;
   while (inner.is_good() && !inner.left().empty()) {
-    std::string name = inner.text();
-    values[std::move(name)] = inner.text();
+    std::string name;
+    inner.get(name);
+    inner.get(values[std::move(name)]);
   }
   good_ = good_ && inner.is_good();
-  return values;
+}
+
+void Cursor::get(CountsByChannel& counts) {
+  Cursor inner(take(number<std::uint32_t>()));
+  while (inner.is_good() && !inner.left().empty()) inner.get(counts[inner.number<std::uint16_t>()]);
+  good_ = good_ && inner.is_good();
 }
 
 std::uint32_t crc_of(std::span<const std::byte> bytes) {

@@ -1,131 +1,78 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "records.hpp"
 
-#include <algorithm>
-
 #include "compression.hpp"
 
 namespace orca::recording {
-namespace {
-
-template <class T>
-std::optional<T> if_good(const Cursor& cursor, T value) {
-  return cursor.is_good() ? std::optional(std::move(value)) : std::nullopt;
-}
-
-}  // namespace
 
 void put_magic(Bytes& out) { put(out, std::as_bytes(std::span(kMagic))); }
 
 void put_record(Bytes& out, Op op, std::span<const std::byte> content) {
-  put(out, static_cast<std::uint8_t>(op));
-  put(out, static_cast<std::uint64_t>(content.size()));
-  put(out, content);
+  put(out, static_cast<std::uint8_t>(op), static_cast<std::uint64_t>(content.size()), content);
 }
 
 void put_record(Bytes& out, const Header& header) {
-  Bytes content;
-  put(content, std::string_view(header.profile));
-  put(content, std::string_view(header.library));
-  put_record(out, Op::header, content);
+  put_record(out, Op::header, encoded(header.profile, header.library));
 }
 
 void put_record(Bytes& out, const Schema& schema) {
-  Bytes content;
-  put(content, schema.id);
-  put(content, std::string_view(schema.name));
-  put(content, std::string_view(schema.encoding));
-  put(content, std::string_view(schema.data));
-  put_record(out, Op::schema, content);
+  put_record(out, Op::schema, encoded(schema.id, schema.name, schema.encoding, schema.data));
 }
 
 void put_record(Bytes& out, const Channel& channel) {
-  Bytes content;
-  put(content, channel.id);
-  put(content, channel.schema);
-  put(content, std::string_view(channel.topic));
-  put(content, std::string_view(channel.message_encoding));
-  put(content, channel.metadata);
-  put_record(out, Op::channel, content);
+  put_record(out, Op::channel,
+             encoded(channel.id, channel.schema, channel.topic, channel.message_encoding, channel.metadata));
 }
 
 void put_record(Bytes& out, const Message& message) {
   constexpr std::uint64_t kHead = 2 + 4 + 8 + 8;
-  put(out, static_cast<std::uint8_t>(Op::message));
-  put(out, kHead + message.payload.size());
-  put(out, message.channel);
-  put(out, message.sequence);
-  put(out, message.log_time);
-  put(out, message.publish_time);
-  put(out, message.payload);
+  put(out, static_cast<std::uint8_t>(Op::message), kHead + message.payload.size());
+  put(out, message.channel, message.sequence, message.log_time, message.publish_time, message.payload);
 }
 
 void put_record(Bytes& out, const Attachment& attachment) {
-  Bytes content;
-  put(content, attachment.log_time);
-  put(content, attachment.create_time);
-  put(content, std::string_view(attachment.name));
-  put(content, std::string_view(attachment.media_type));
-  put(content, static_cast<std::uint64_t>(attachment.data.size()));
-  put(content, attachment.data);
+  Bytes content = encoded(attachment.log_time, attachment.create_time, attachment.name, attachment.media_type,
+                          static_cast<std::uint64_t>(attachment.data.size()), attachment.data);
   put(content, crc_of(content));
   put_record(out, Op::attachment, content);
 }
 
 void put_record(Bytes& out, const Metadata& metadata) {
-  Bytes content;
-  put(content, std::string_view(metadata.name));
-  put(content, metadata.values);
-  put_record(out, Op::metadata, content);
+  put_record(out, Op::metadata, encoded(metadata.name, metadata.values));
 }
 
 std::optional<Header> read_header(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  Header header{cursor.text(), {}};
-  header.library = cursor.text();
-  return if_good(cursor, std::move(header));
+  return read_members(content, &Header::profile, &Header::library);
 }
 
 std::optional<Schema> read_schema(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  Schema schema;
-  schema.id = cursor.number<std::uint16_t>();
-  schema.name = cursor.text();
-  schema.encoding = cursor.text();
-  schema.data = cursor.text();
-  if (schema.id == 0) return std::nullopt;
-  return if_good(cursor, std::move(schema));
+  auto schema = read_members(content, &Schema::id, &Schema::name, &Schema::encoding, &Schema::data);
+  return schema && schema->id != 0 ? schema : std::nullopt;
 }
 
 std::optional<Channel> read_channel(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  Channel channel;
-  channel.id = cursor.number<std::uint16_t>();
-  channel.schema = cursor.number<std::uint16_t>();
-  channel.topic = cursor.text();
-  channel.message_encoding = cursor.text();
-  channel.metadata = cursor.values();
-  return if_good(cursor, std::move(channel));
+  return read_members(content, &Channel::id, &Channel::schema, &Channel::topic, &Channel::message_encoding,
+                      &Channel::metadata);
 }
 
 std::optional<Message> read_message(std::span<const std::byte> content) {
   Cursor cursor(content);
   Message message;
-  message.channel = cursor.number<std::uint16_t>();
-  message.sequence = cursor.number<std::uint32_t>();
-  message.log_time = cursor.number<std::uint64_t>();
-  message.publish_time = cursor.number<std::uint64_t>();
+  cursor.get(message.channel);
+  cursor.get(message.sequence);
+  cursor.get(message.log_time);
+  cursor.get(message.publish_time);
   message.payload = cursor.left();
-  return if_good(cursor, message);
+  return cursor.is_good() ? std::optional(message) : std::nullopt;
 }
 
 std::optional<Attachment> read_attachment(std::span<const std::byte> content) {
   Cursor cursor(content);
   Attachment attachment;
-  attachment.log_time = cursor.number<std::uint64_t>();
-  attachment.create_time = cursor.number<std::uint64_t>();
-  attachment.name = cursor.text();
-  attachment.media_type = cursor.text();
+  cursor.get(attachment.log_time);
+  cursor.get(attachment.create_time);
+  cursor.get(attachment.name);
+  cursor.get(attachment.media_type);
   const auto data = cursor.take(cursor.number<std::uint64_t>());
   attachment.data.assign(data.begin(), data.end());
   const auto crc = cursor.number<std::uint32_t>();
@@ -135,19 +82,11 @@ std::optional<Attachment> read_attachment(std::span<const std::byte> content) {
 }
 
 std::optional<Metadata> read_metadata(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  Metadata metadata{cursor.text(), {}};
-  metadata.values = cursor.values();
-  return if_good(cursor, std::move(metadata));
+  return read_members(content, &Metadata::name, &Metadata::values);
 }
 
 std::optional<Footer> read_footer(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  Footer footer;
-  footer.summary_start = cursor.number<std::uint64_t>();
-  footer.summary_offset_start = cursor.number<std::uint64_t>();
-  footer.summary_crc = cursor.number<std::uint32_t>();
-  return if_good(cursor, footer);
+  return read_members(content, &Footer::summary_start, &Footer::summary_offset_start, &Footer::summary_crc);
 }
 
 std::optional<Record> RecordWalk::next() {
@@ -164,12 +103,12 @@ std::optional<Record> RecordWalk::next() {
 Result<OpenChunk> open_chunk(std::span<const std::byte> content) {
   Cursor cursor(content);
   OpenChunk chunk;
-  chunk.start = cursor.number<std::uint64_t>();
-  chunk.end = cursor.number<std::uint64_t>();
+  cursor.get(chunk.start);
+  cursor.get(chunk.end);
   const auto size = cursor.number<std::uint64_t>();
   const auto crc = cursor.number<std::uint32_t>();
-  chunk.compression = cursor.text();
-  chunk.compressed_size = cursor.number<std::uint64_t>();
+  cursor.get(chunk.compression);
+  cursor.get(chunk.compressed_size);
   const auto frame = cursor.take(chunk.compressed_size);
   if (!cursor.is_done())
     return fail(Code::data_loss, "a chunk is damaged: its lengths contradict each other");

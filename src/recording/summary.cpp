@@ -12,55 +12,29 @@ namespace {
 using Places = std::map<std::uint16_t, std::vector<std::pair<Stamp, std::uint64_t>>>;
 
 void put_record(Bytes& out, const ChunkIndex& index) {
-  Bytes content;
-  for (const std::uint64_t number : {index.start, index.end, index.offset, index.length})
-    put(content, number);
-  put(content, static_cast<std::uint32_t>(index.message_index_offsets.size() * 10));
-  for (const auto& [channel, offset] : index.message_index_offsets) {
-    put(content, channel);
-    put(content, offset);
-  }
-  put(content, index.message_index_length);
-  put(content, std::string_view(index.compression));
-  put(content, index.compressed_size);
-  put(content, index.uncompressed_size);
-  put_record(out, Op::chunk_index, content);
+  put_record(
+      out, Op::chunk_index,
+      encoded(index.start, index.end, index.offset, index.length, index.message_index_offsets,
+              index.message_index_length, index.compression, index.compressed_size, index.uncompressed_size));
 }
 
 void put_attachment_index(Bytes& out, const IndexEntry& entry) {
-  Bytes content;
-  for (const std::uint64_t number :
-       {entry.offset, entry.length, entry.log_time, entry.create_time, entry.data_size})
-    put(content, number);
-  put(content, std::string_view(entry.name));
-  put(content, std::string_view(entry.media_type));
-  put_record(out, Op::attachment_index, content);
+  put_record(out, Op::attachment_index,
+             encoded(entry.offset, entry.length, entry.log_time, entry.create_time, entry.data_size,
+                     entry.name, entry.media_type));
 }
 
 void put_metadata_index(Bytes& out, const IndexEntry& entry) {
-  Bytes content;
-  put(content, entry.offset);
-  put(content, entry.length);
-  put(content, std::string_view(entry.name));
-  put_record(out, Op::metadata_index, content);
+  put_record(out, Op::metadata_index, encoded(entry.offset, entry.length, entry.name));
 }
 
 void put_statistics(Bytes& out, const Summary& summary) {
   const Statistics& numbers = summary.statistics;
-  Bytes content;
-  put(content, numbers.messages);
-  put(content, static_cast<std::uint16_t>(summary.schemas.size()));
-  put(content, static_cast<std::uint32_t>(summary.channels.size()));
-  put(content, static_cast<std::uint32_t>(summary.attachments.size()));
-  put(content, static_cast<std::uint32_t>(summary.metadata.size()));
-  put(content, static_cast<std::uint32_t>(summary.chunks.size()));
-  put(content, numbers.start);
-  put(content, numbers.end);
-  put(content, static_cast<std::uint32_t>(numbers.by_channel.size() * 10));
-  for (const auto& [channel, count] : numbers.by_channel) {
-    put(content, channel);
-    put(content, count);
-  }
+  Bytes content = encoded(numbers.messages, static_cast<std::uint16_t>(summary.schemas.size()));
+  for (const std::size_t count :
+       {summary.channels.size(), summary.attachments.size(), summary.metadata.size(), summary.chunks.size()})
+    put(content, static_cast<std::uint32_t>(count));
+  put(content, numbers.start, numbers.end, numbers.by_channel);
   put_record(out, Op::statistics, content);
 }
 
@@ -69,13 +43,8 @@ void put_places(Bytes& out, std::uint64_t offset, const Places& places, ChunkInd
   const std::size_t begin = out.size();
   for (const auto& [channel, list] : places) {
     index.message_index_offsets[channel] = offset + out.size();
-    Bytes content;
-    put(content, channel);
-    put(content, static_cast<std::uint32_t>(list.size() * 16));
-    for (const auto& [time, place] : list) {
-      put(content, time);
-      put(content, place);
-    }
+    Bytes content = encoded(channel, static_cast<std::uint32_t>(list.size() * 16));
+    for (const auto& [time, place] : list) put(content, time, place);
     put_record(out, Op::message_index, content);
   }
   index.message_index_length = out.size() - begin;
@@ -93,58 +62,31 @@ Places places_in(std::span<const std::byte> content) {
 }
 
 std::optional<ChunkIndex> read_chunk_index(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  ChunkIndex index;
-  index.start = cursor.number<std::uint64_t>();
-  index.end = cursor.number<std::uint64_t>();
-  index.offset = cursor.number<std::uint64_t>();
-  index.length = cursor.number<std::uint64_t>();
-  Cursor offsets(cursor.take(cursor.number<std::uint32_t>()));
-  while (offsets.is_good() && !offsets.left().empty()) {
-    const auto channel = offsets.number<std::uint16_t>();
-    index.message_index_offsets[channel] = offsets.number<std::uint64_t>();
-  }
-  index.message_index_length = cursor.number<std::uint64_t>();
-  index.compression = cursor.text();
-  index.compressed_size = cursor.number<std::uint64_t>();
-  index.uncompressed_size = cursor.number<std::uint64_t>();
-  return cursor.is_good() && offsets.is_good() ? std::optional(std::move(index)) : std::nullopt;
+  return read_members(content, &ChunkIndex::start, &ChunkIndex::end, &ChunkIndex::offset, &ChunkIndex::length,
+                      &ChunkIndex::message_index_offsets, &ChunkIndex::message_index_length,
+                      &ChunkIndex::compression, &ChunkIndex::compressed_size, &ChunkIndex::uncompressed_size);
 }
 
 std::optional<IndexEntry> read_attachment_index(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  IndexEntry entry;
-  for (std::uint64_t* const number :
-       {&entry.offset, &entry.length, &entry.log_time, &entry.create_time, &entry.data_size})
-    *number = cursor.number<std::uint64_t>();
-  entry.name = cursor.text();
-  entry.media_type = cursor.text();
-  return cursor.is_good() ? std::optional(std::move(entry)) : std::nullopt;
+  return read_members(content, &IndexEntry::offset, &IndexEntry::length, &IndexEntry::log_time,
+                      &IndexEntry::create_time, &IndexEntry::data_size, &IndexEntry::name,
+                      &IndexEntry::media_type);
 }
 
 std::optional<IndexEntry> read_metadata_index(std::span<const std::byte> content) {
-  Cursor cursor(content);
-  IndexEntry entry;
-  entry.offset = cursor.number<std::uint64_t>();
-  entry.length = cursor.number<std::uint64_t>();
-  entry.name = cursor.text();
-  return cursor.is_good() ? std::optional(std::move(entry)) : std::nullopt;
+  return read_members(content, &IndexEntry::offset, &IndexEntry::length, &IndexEntry::name);
 }
 
 std::optional<Statistics> read_statistics(std::span<const std::byte> content) {
   Cursor cursor(content);
   Statistics numbers;
-  numbers.messages = cursor.number<std::uint64_t>();
+  cursor.get(numbers.messages);
   (void)cursor.take(2 + 4 + 4 + 4);  // how many schemas, channels, attachments and metadata there are
   numbers.chunks = cursor.number<std::uint32_t>();
-  numbers.start = cursor.number<std::uint64_t>();
-  numbers.end = cursor.number<std::uint64_t>();
-  Cursor counts(cursor.take(cursor.number<std::uint32_t>()));
-  while (counts.is_good() && !counts.left().empty()) {
-    const auto channel = counts.number<std::uint16_t>();
-    numbers.by_channel[channel] = counts.number<std::uint64_t>();
-  }
-  return cursor.is_good() && counts.is_good() ? std::optional(std::move(numbers)) : std::nullopt;
+  cursor.get(numbers.start);
+  cursor.get(numbers.end);
+  cursor.get(numbers.by_channel);
+  return cursor.is_good() ? std::optional(std::move(numbers)) : std::nullopt;
 }
 
 template <class T>
@@ -176,13 +118,10 @@ Bytes Summary::encode(std::uint64_t offset) const {
   Bytes offsets;
   std::size_t begin = out.size();
   const auto end_group = [&](Op op) {
-    if (out.size() > begin) {
-      Bytes content;
-      put(content, static_cast<std::uint8_t>(op));
-      put(content, offset + begin);
-      put(content, static_cast<std::uint64_t>(out.size() - begin));
-      put_record(offsets, Op::summary_offset, content);
-    }
+    if (out.size() > begin)
+      put_record(offsets, Op::summary_offset,
+                 encoded(static_cast<std::uint8_t>(op), offset + begin,
+                         static_cast<std::uint64_t>(out.size() - begin)));
     begin = out.size();
   };
   for (const auto& [id, schema] : schemas) recording::put_record(out, schema);
@@ -199,10 +138,8 @@ Bytes Summary::encode(std::uint64_t offset) const {
   end_group(Op::metadata_index);
   const std::size_t offsets_at = out.size();
   put(out, offsets);
-  put(out, static_cast<std::uint8_t>(Op::footer));
-  put(out, static_cast<std::uint64_t>(kFooterBytes));
-  put(out, offset + summary);
-  put(out, offset + offsets_at);
+  put(out, static_cast<std::uint8_t>(Op::footer), static_cast<std::uint64_t>(kFooterBytes));
+  put(out, offset + summary, offset + offsets_at);
   put(out, crc_of(std::span(out).subspan(summary)));
   put_magic(out);
   return out;
@@ -237,17 +174,10 @@ Result<ChunkIndex> ChunkBuilder::close(Bytes& out, std::uint64_t offset) {
   const Bytes& frame = *compressed;
   ChunkIndex index{start_,       end_,           offset + out.size(), 0, {}, 0, std::string(kZstd),
                    frame.size(), content_.size()};
-  Bytes head;
-  put(head, start_);
-  put(head, end_);
-  put(head, static_cast<std::uint64_t>(content_.size()));
-  put(head, crc_of(content_));
-  put(head, kZstd);
-  put(head, static_cast<std::uint64_t>(frame.size()));
-  put(out, static_cast<std::uint8_t>(Op::chunk));
-  put(out, static_cast<std::uint64_t>(head.size() + frame.size()));
-  put(out, head);
-  put(out, frame);
+  const Bytes head = encoded(start_, end_, static_cast<std::uint64_t>(content_.size()), crc_of(content_),
+                             kZstd, static_cast<std::uint64_t>(frame.size()));
+  put(out, static_cast<std::uint8_t>(Op::chunk), static_cast<std::uint64_t>(head.size() + frame.size()));
+  put(out, head, frame);
   index.length = kRecordHead + head.size() + frame.size();
   put_places(out, offset, places_, index);
   content_.clear();
