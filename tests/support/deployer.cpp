@@ -30,6 +30,12 @@ std::vector<Arrival> Run::arrivals() const {
   return arrivals;
 }
 
+Words Run::goals() const {
+  Words names;
+  for (const Arrival& arrival : arrivals()) names.push_back(arrival.name);
+  return names;
+}
+
 std::vector<std::string> Run::failures() const { return lines_with("failed "); }
 
 std::vector<std::string> Run::contacts() const { return lines_with("contact "); }
@@ -51,6 +57,17 @@ std::optional<std::string> Run::trace_hash() const {
 }
 
 bool Run::says(std::string_view text) const { return err.find(text) != std::string::npos; }
+
+Words Run::said(std::string_view text) const {
+  Words found = split_lines(err);
+  std::erase_if(found, [&](const std::string& line) { return line.find(text) == std::string::npos; });
+  return found;
+}
+
+std::string Run::line_with(std::string_view text) const {
+  const Words found = said(text);
+  return found.empty() ? std::string() : found.front();
+}
 
 Words operator+(Words a, const Words& b) {
   a.insert(a.end(), b.begin(), b.end());

@@ -56,12 +56,15 @@ struct Run {
   std::string err;
 
   [[nodiscard]] int exit_code() const { return ending.exit_code; }
-  [[nodiscard]] std::vector<std::string> lines() const;         ///< Lines of stdout.
-  [[nodiscard]] std::vector<Arrival> arrivals() const;          ///< In order.
-  [[nodiscard]] std::vector<std::string> failures() const;      ///< Whole lines "failed NAME reason".
-  [[nodiscard]] std::vector<std::string> contacts() const;      ///< Whole lines.
-  [[nodiscard]] std::optional<std::string> trace_hash() const;  ///< If it is the last line.
-  [[nodiscard]] bool says(std::string_view text) const;         ///< Whether stderr contains it.
+  [[nodiscard]] std::vector<std::string> lines() const;              ///< Lines of stdout.
+  [[nodiscard]] std::vector<Arrival> arrivals() const;               ///< In order.
+  [[nodiscard]] Words goals() const;                                 ///< Names of the arrivals.
+  [[nodiscard]] std::vector<std::string> failures() const;           ///< Whole lines "failed NAME reason".
+  [[nodiscard]] std::vector<std::string> contacts() const;           ///< Whole lines.
+  [[nodiscard]] std::optional<std::string> trace_hash() const;       ///< If it is the last line.
+  [[nodiscard]] bool says(std::string_view text) const;              ///< Whether stderr contains it.
+  [[nodiscard]] Words said(std::string_view text) const;             ///< Lines of stderr that contain it.
+  [[nodiscard]] std::string line_with(std::string_view text) const;  ///< The first of these; empty: none.
 
  private:
   [[nodiscard]] std::vector<std::string> lines_with(std::string_view beginning) const;

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <thread>
 
 #include "deployer.hpp"
@@ -106,8 +105,8 @@ std::pair<double, double> place_of_scout() {
 
 // Returns whether the log tells of something that happened while no deployer ran.
 bool says_of_between(const Run& run, const std::string& text) {
-  return std::ranges::any_of(split_lines(run.err), [&](const std::string& line) {
-    return line.find(text) != std::string::npos && line.find("while no deployer ran") != std::string::npos;
+  return std::ranges::any_of(run.said(text), [](const std::string& line) {
+    return line.find("while no deployer ran") != std::string::npos;
   });
 }
 

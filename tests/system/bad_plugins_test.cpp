@@ -2,8 +2,6 @@
 // A plugin that throws fails alone, with its text. One that never waits is named.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-
 #include "deployer.hpp"
 #include "temp_folder.hpp"
 
@@ -32,12 +30,6 @@ Run misbehave(const std::string& where, const std::string& what) {
   return run_deployer(misbehaving(where, what, virtual_clock()));
 }
 
-std::string line_with(const std::string& text, const Run& run) {
-  for (const std::string& line : split_lines(run.err))
-    if (line.find(text) != std::string::npos) return line;
-  return {};
-}
-
 Run alone(const std::string& type) {
   return run_deployer(Words{system_graph("one_component.xml"), "--set", "type=" + type} +
                       with_test_plugins() + virtual_clock());
@@ -54,7 +46,7 @@ void check_fails_alone(const std::string& where, const std::string& hook, const 
     INFO(run.err);
     CHECK(run.ended);
     CHECK(run.exit_code() == 0);
-    const std::string said = line_with(thrown.text, run);
+    const std::string said = run.line_with(thrown.text);
     CHECK(said.find("bad: ") != std::string::npos);
     CHECK(said.find(hook) != std::string::npos);
     CHECK(run.says("counter: counted 30 laps"));
@@ -98,7 +90,7 @@ TEST_CASE("a component whose destructor throws is named, and the run ends as if 
     CAPTURE(thrown.what);
     INFO(run.err);
     CHECK(run.exit_code() == 0);
-    CHECK(line_with(thrown.text, run).find("bad: its destructor") != std::string::npos);
+    CHECK(run.line_with(thrown.text).find("bad: its destructor") != std::string::npos);
     CHECK(run.says("counter: counted 30 laps"));
     CHECK(run.trace_hash());
   }
@@ -112,7 +104,7 @@ TEST_CASE("a component that sends to a failed component, or queries it, gets the
   CHECK(asked.says("threw while it answered"));
   const Run sent = misbehave("send", "int");
   INFO(sent.err);
-  CHECK(line_with("poker: sent: ", sent).find("ok") != std::string::npos);
+  CHECK(sent.line_with("poker: sent: ").find("ok") != std::string::npos);
   CHECK(sent.says("bad.goal takes nothing, because it has failed"));
 }
 
@@ -123,7 +115,7 @@ TEST_CASE("a component that throws in configure() is an error of the graph at it
     CAPTURE(thrown.what);
     INFO(run.err);
     CHECK(run.exit_code() == kRefusedByComponent);
-    CHECK(line_with(thrown.text, run).find("bad") != std::string::npos);
+    CHECK(run.line_with(thrown.text).find("bad") != std::string::npos);
     CHECK(run.says("configure()"));
     if (!kThreadSanitizer)
       CHECK(run.says("misbehaving.xml:10:3: error G062: component \"bad\": configure() threw"));
@@ -141,7 +133,7 @@ TEST_CASE(
     INFO(run.err);
     CHECK(run.exit_code() == 2);
     CHECK(run.out.empty());
-    const std::string said = line_with(text, run);
+    const std::string said = run.line_with(text);
     CHECK(said.find("one_component.xml:8:") != std::string::npos);
     CHECK(said.find(type) != std::string::npos);
   }
@@ -180,11 +172,8 @@ TEST_CASE(
                                with_test_plugins() + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 3);
-  const auto lines = split_lines(run.err);
-  CHECK(std::ranges::count_if(lines, [](const std::string& line) {
-          return line.find("the moon is in the wrong phase") != std::string::npos;
-        }) == 1);
-  CHECK(line_with("the moon is in the wrong phase", run).find("late") != std::string::npos);
+  CHECK(run.said("the moon is in the wrong phase").size() == 1);
+  CHECK(run.line_with("the moon is in the wrong phase").find("late") != std::string::npos);
   CHECK_FALSE(run.says("counted"));
 }
 
@@ -231,7 +220,7 @@ TEST_CASE(
   CHECK(run.out.empty());
   for (const char* used : {"uses usleep, which waits for the machine's clock; use sleep() or lap_every()",
                            "uses rand, which draws random numbers that the run's seed does not decide"}) {
-    const std::string said = line_with(used, run);
+    const std::string said = run.line_with(used);
     CHECK(said.find("one_component.xml:8:") != std::string::npos);
     CHECK(said.find("\"guest\": test.WallClock cannot run in virtual time: test_wall_clock.so") !=
           std::string::npos);
@@ -257,7 +246,7 @@ TEST_CASE(
   const Run run = alone("test.StaticThrower");
   INFO(run.err);
   CHECK(run.exit_code() == 2);
-  const std::string said = line_with("the static initialisation smokes", run);
+  const std::string said = run.line_with("the static initialisation smokes");
   CHECK(said.find("one_component.xml:8:") != std::string::npos);
   CHECK(said.find("test_static_thrower.so") != std::string::npos);
 }

@@ -129,9 +129,8 @@ Run drive(const Failure& failure, const Words& arguments) {
 // Returns the time of the last line of the log that holds a text [s].
 std::optional<double> last_time(const Run& run, const std::string& text) {
   std::optional<double> time;
-  for (const std::string& line : split_lines(run.err))
-    if (line.starts_with("[") && line.find(text) != std::string::npos)
-      time = std::strtod(line.c_str() + 1, nullptr);
+  for (const std::string& line : run.said(text))
+    if (line.starts_with("[")) time = std::strtod(line.c_str() + 1, nullptr);
   return time;
 }
 

@@ -22,12 +22,6 @@ Run fetch(const Words& more) {
                       more);
 }
 
-Words names(const Run& run) {
-  Words names;
-  for (const Arrival& arrival : run.arrivals()) names.push_back(arrival.name);
-  return names;
-}
-
 const Words kFetched{"near_shelf", "shelf", "near_table", "table"};
 
 // Returns how far from a place the can stands at last [m]; nothing if it was not put down.
@@ -55,7 +49,7 @@ TEST_CASE("the can stands on the table's place afterwards", "[system][gripper]")
     CAPTURE(realism, seed);
     INFO(run.err);
     CHECK(run.exit_code() == 0);
-    CHECK(names(run) == kFetched);
+    CHECK(run.goals() == kFetched);
     CHECK(run.contacts().empty());
     CHECK(run.says("has taken 'can'"));
     CHECK(apart_from(kTableX, kTableY, run).value_or(9.9) < 0.1);
@@ -67,7 +61,7 @@ TEST_CASE("where there is no can, the goal is not reached, with the reason", "[s
   const Run run = fetch({"--set", "world=" + store_without(folder, "<item [^>]*/>")});
   INFO(run.err);
   CHECK(run.exit_code() == 1);
-  CHECK(names(run) == Words{"near_shelf", "near_table"});
+  CHECK(run.goals() == Words{"near_shelf", "near_table"});
   CHECK(run.says("goal \"shelf\" was not reached; undone: nothing came between the paddles"));
   CHECK(run.says("there is nothing between the paddles to be put down"));
 }
@@ -97,7 +91,7 @@ TEST_CASE("with the real driver and the emulated controller it does the same",
       Seconds(120));
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == kFetched);
+  CHECK(run.goals() == kFetched);
   CHECK(run.contacts().empty());
   CHECK(apart_from(4.9, 1.5, run).value_or(9.9) < 0.1);
 }

@@ -30,11 +30,9 @@ Run two_voices(const std::string& mode, const std::string& sync, const std::stri
 
 // Returns when the sink first reported something [s]; negative if never.
 double told_at(const Run& run, const std::string& what) {
-  for (const std::string& line : split_lines(run.err)) {
-    const auto time = line.find("t=");
-    if (time != std::string::npos && line.find(what) != std::string::npos)
+  for (const std::string& line : run.said(what))
+    if (const auto time = line.find("t="); time != std::string::npos)
       return std::strtod(line.c_str() + time + 2, nullptr);
-  }
   return -1.0;
 }
 

@@ -5,8 +5,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-
 #include "deployer.hpp"
 
 using namespace orca::test;
@@ -36,17 +34,7 @@ std::vector<Run> act_with(const std::vector<Words>& clocks, const std::string& w
 
 const std::vector<Words> kClocks{virtual_clock(), kSteady, kHosted};
 
-std::string line_with(const std::string& text, const Run& run) {
-  for (const std::string& line : split_lines(run.err))
-    if (line.find(text) != std::string::npos) return line;
-  return {};
-}
-
-std::size_t alarms(const Run& run) {
-  const auto lines = split_lines(run.err);
-  return static_cast<std::size_t>(std::ranges::count_if(
-      lines, [](const std::string& line) { return line.find(": alarm ") != std::string::npos; }));
-}
+std::size_t alarms(const Run& run) { return run.said(": alarm ").size(); }
 
 void check_names_culprit(const std::string& line) {
   CHECK_THAT(line, Contains("bad: ") && Contains("work()"));
@@ -80,7 +68,7 @@ TEST_CASE(
       CAPTURE(c.deed, clock);
       INFO(run.err);
       REQUIRE(run.ended);
-      const std::string line = line_with("ended the process with the signal", run);
+      const std::string line = run.line_with("ended the process with the signal");
       CHECK_THAT(line, Contains(c.text));
       check_names_culprit(line);
       if (!kSanitized) CHECK(run.ending.signal == c.signal);
@@ -92,7 +80,7 @@ TEST_CASE(
 TEST_CASE("the culprit is named even after it has waited and others have run", "[system][plugins]") {
   const Run run = act("after_wait", "segfault");
   INFO(run.err);
-  check_names_culprit(line_with("ended the process with the signal", run));
+  check_names_culprit(run.line_with("ended the process with the signal"));
 }
 
 TEST_CASE("an exception where nothing may be thrown ends the process, with its text and the culprit's name",
@@ -100,7 +88,7 @@ TEST_CASE("an exception where nothing may be thrown ends the process, with its t
   const Run run = act("work", "noexcept");
   INFO(run.err);
   REQUIRE(run.ended);
-  const std::string line = line_with("the brakes are gone", run);
+  const std::string line = run.line_with("the brakes are gone");
   CHECK_THAT(line, Contains("where nothing can catch it"));
   check_names_culprit(line);
   if (!kSanitized) CHECK(run.ending.signal == SIGABRT);
@@ -113,8 +101,8 @@ TEST_CASE("a component that changes what std::terminate() does cannot turn a cra
                                with_test_plugins() + virtual_clock());
   INFO(run.err);
   REQUIRE(run.ended);
-  CHECK_THAT(line_with("alarm TERMINATE_HANDLER", run), Contains("bad: ") && Contains("start() has "));
-  check_names_culprit(line_with("the brakes are gone", run));
+  CHECK_THAT(run.line_with("alarm TERMINATE_HANDLER"), Contains("bad: ") && Contains("start() has "));
+  check_names_culprit(run.line_with("the brakes are gone"));
   CHECK(run.exit_code() != 0);
 }
 
@@ -129,7 +117,7 @@ TEST_CASE("an exception without a text is reported by its type", "[system][plugi
   for (const Run& run : act_with(kClocks, "work", "mute")) {
     INFO(run.err);
     CHECK(run.exit_code() == 0);
-    CHECK_THAT(line_with("bad: ", run), Contains("work() threw (anonymous namespace)::Mute"));
+    CHECK_THAT(run.line_with("bad: "), Contains("work() threw (anonymous namespace)::Mute"));
   }
 }
 
@@ -154,7 +142,7 @@ TEST_CASE("a configure() that hangs ends the start with 3, and component and hoo
     REQUIRE(run.ended);
     CHECK(run.exit_code() == 3);
     CHECK_FALSE(run.says("counted"));
-    CHECK_THAT(line_with("configure()", run), Contains("bad"));
+    CHECK_THAT(run.line_with("configure()"), Contains("bad"));
   }
 }
 
@@ -166,7 +154,7 @@ TEST_CASE("exit() in a component ends the process with status 1 and the culprit'
     INFO(run.err);
     REQUIRE(run.ended);
     CHECK(run.exit_code() == 1);
-    check_names_culprit(line_with("called " + deed + "(", run));
+    check_names_culprit(run.line_with("called " + deed + "("));
   }
 }
 
@@ -177,7 +165,7 @@ TEST_CASE(
   INFO(run.err);
   REQUIRE(run.ended);
   CHECK(run.exit_code() == 1);
-  CHECK_THAT(line_with("has closed descriptors that are not its own", run),
+  CHECK_THAT(run.line_with("has closed descriptors that are not its own"),
              Contains("bad: ") && Contains("configure()"));
 }
 
@@ -188,11 +176,8 @@ TEST_CASE("the copy that a component makes by fork() is ended, the component is 
   REQUIRE(run.ended);
   CHECK(run.exit_code() == 0);
   CHECK(run.says("counter: counted 30 laps"));
-  CHECK_THAT(line_with("alarm FORK", run), Contains("bad: ") && Contains("configure() has called fork()"));
-  const auto lines = split_lines(run.err);
-  CHECK(std::ranges::count_if(lines, [](const std::string& line) {
-          return line.find("counted 30 laps") != std::string::npos;
-        }) == 1);
+  CHECK_THAT(run.line_with("alarm FORK"), Contains("bad: ") && Contains("configure() has called fork()"));
+  CHECK(run.said("counted 30 laps").size() == 1);
 }
 
 TEST_CASE("what belongs to the whole process is restored, and one alarm names component and hook",
@@ -219,7 +204,7 @@ TEST_CASE("what belongs to the whole process is restored, and one alarm names co
       CHECK(alarms(run) == 1);
       std::string expected = "bad: " + c.alarm;
       expected.replace(expected.find('@'), 1, where + "()");
-      CHECK_THAT(line_with("alarm", run), Contains(expected));
+      CHECK_THAT(run.line_with("alarm"), Contains(expected));
     }
   }
 }
@@ -234,7 +219,7 @@ TEST_CASE(
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK(alarms(run) == 1);
-  CHECK_THAT(line_with("alarm DESCRIPTORS", run),
+  CHECK_THAT(run.line_with("alarm DESCRIPTORS"),
              Contains("bad: ") && Contains("work() has opened 32 descriptors and not closed them"));
 }
 
@@ -242,7 +227,7 @@ TEST_CASE("a component that opens descriptors in start() and leaves them open in
           "[system][plugins]") {
   const Run run = act("start", "leak");
   INFO(run.err);
-  CHECK_THAT(line_with("alarm DESCRIPTORS", run),
+  CHECK_THAT(run.line_with("alarm DESCRIPTORS"),
              Contains("bad: ") &&
                  Contains("stop() has left open what start() or itself has opened: descriptor ") &&
                  Contains("(/dev/null)"));
@@ -254,7 +239,7 @@ TEST_CASE("a component that takes all descriptors is named", "[system][plugins]"
   const Run run = act("start", "leak_all");
   INFO(run.err);
   REQUIRE(run.ended);
-  CHECK_THAT(line_with("without a free descriptor", run), Contains("bad: ") && Contains("start()"));
+  CHECK_THAT(run.line_with("without a free descriptor"), Contains("bad: ") && Contains("start()"));
 }
 #endif
 
@@ -275,7 +260,7 @@ TEST_CASE(
     INFO(run.err);
     CHECK(run.exit_code() == 0);
     CHECK(alarms(run) == 1);
-    CHECK_THAT(line_with("alarm RESOURCE_LIMIT", run),
+    CHECK_THAT(run.line_with("alarm RESOURCE_LIMIT"),
                Contains("bad: alarm RESOURCE_LIMIT: " + where + "() has changed the limit of the CPU time"));
   }
 }
@@ -285,7 +270,7 @@ TEST_CASE("a thread that a component leaves behind keeps its plugin in memory, a
   const Run run = act("start", "thread");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK_THAT(line_with("alarm PLUGIN_PINNED", run), Contains("test_hooligan.so"));
+  CHECK_THAT(run.line_with("alarm PLUGIN_PINNED"), Contains("test_hooligan.so"));
 }
 
 TEST_CASE(
@@ -295,7 +280,7 @@ TEST_CASE(
   INFO(run.err);
   REQUIRE(run.ended);
   CHECK(run.exit_code() == 1);
-  CHECK_THAT(line_with("bad: ", run), Contains("has slept in the system for more than 2 s"));
+  CHECK_THAT(run.line_with("bad: "), Contains("has slept in the system for more than 2 s"));
   CHECK(run.ending.wall < Seconds(8) * kSlowdown);
 }
 
@@ -305,6 +290,6 @@ TEST_CASE("a component that sleeps in its own thread is named, and costs the oth
     INFO(run.err);
     REQUIRE(run.ended);
     CHECK(run.says("counter: counted 30 laps"));
-    CHECK_THAT(line_with("alarm STALLED", run), Contains("bad: "));
+    CHECK_THAT(run.line_with("alarm STALLED"), Contains("bad: "));
   }
 }

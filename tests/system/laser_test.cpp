@@ -48,9 +48,8 @@ std::vector<double> times(const Run& run) {
 
 // Returns the time of the first line of the log that holds a text [s].
 double first_time(const Run& run, const std::string& text) {
-  for (const std::string& line : split_lines(run.err))
-    if (line.starts_with("[") && line.find(text) != std::string::npos)
-      return std::strtod(line.c_str() + 1, nullptr);
+  for (const std::string& line : run.said(text))
+    if (line.starts_with("[")) return std::strtod(line.c_str() + 1, nullptr);
   return -1.0;
 }
 

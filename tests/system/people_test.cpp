@@ -24,11 +24,9 @@ Run drive(int seed, const Words& arguments = {}) {
 double fastest_touch(const Run& run) {
   const std::string before = "the robot moves at ";
   double fastest = 0.0;
-  for (const std::string& line : split_lines(run.err)) {
-    const std::size_t at = line.find(before);
-    if (line.find(" touches ") == std::string::npos || at == std::string::npos) continue;
-    fastest = std::max(fastest, std::strtod(line.c_str() + at + before.size(), nullptr));
-  }
+  for (const std::string& line : run.said(" touches "))
+    if (const std::size_t at = line.find(before); at != std::string::npos)
+      fastest = std::max(fastest, std::strtod(line.c_str() + at + before.size(), nullptr));
   return fastest;
 }
 

@@ -10,7 +10,6 @@
 #include <regex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -77,12 +76,6 @@ Run drive_and_kill_command(const std::string& restore) {
   return finish(program, Seconds(90));
 }
 
-std::vector<std::string> names_of(const std::vector<Arrival>& arrivals) {
-  std::vector<std::string> names;
-  for (const Arrival& arrival : arrivals) names.push_back(arrival.name);
-  return names;
-}
-
 // The shipped graph of a robot with an emulated base, localized as the real one is.
 std::string emulated_by_odometry(const TempFolder& folder, const std::string& name) {
   std::string graph = read_text(source_file("graphs/" + name + ".xml"));
@@ -146,7 +139,7 @@ TEST_CASE("with restore=last a Command that is killed goes on with the goal that
   const Run run = drive_and_kill_command("last");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "door"});
+  CHECK(run.goals() == Words{"near", "door"});
   CHECK(run.says("goes on from the state orca.Command/3"));
 }
 
@@ -154,7 +147,7 @@ TEST_CASE("without restore a Command that is killed begins its list again", "[sy
   const Run run = drive_and_kill_command("none");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names_of(run.arrivals()) == std::vector<std::string>{"near", "near", "door"});
+  CHECK(run.goals() == Words{"near", "near", "door"});
   CHECK_FALSE(run.says("goes on from the state"));
 }
 

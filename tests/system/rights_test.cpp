@@ -26,18 +26,12 @@ Run run_task(const std::string& steps, const Words& more = {}) {
                  more);
 }
 
-Words names(const Run& run) {
-  Words names;
-  for (const Arrival& arrival : run.arrivals()) names.push_back(arrival.name);
-  return names;
-}
-
 }  // namespace
 
 TEST_CASE("a robot leads a slow visitor slowly, and comes back at its own speed", "[system][rights]") {
   constexpr double kWalks = 0.3;  // [m/s]
   const auto legs = [](const Run& run) {
-    REQUIRE(names(run) == Words{"office_2", "start"});
+    REQUIRE(run.goals() == Words{"office_2", "start"});
     return std::pair{run.arrivals()[0].t, run.arrivals()[1].t - run.arrivals()[0].t};
   };
   const std::string guide = source_file("graphs/tasks/guide.xml");
@@ -69,7 +63,7 @@ TEST_CASE("a robot that roams drives to rooms sooner because its task suspends w
         run_deployer(Words{source_file("graphs/pioneer_roam.xml"), "--set", "task=" + task} + virtual_clock(),
                      Seconds(120));
     INFO(run.err);
-    CHECK(names(run) == Words{"kitchen", "library", "office_2", "start"});
+    CHECK(run.goals() == Words{"kitchen", "library", "office_2", "start"});
     CHECK(run.contacts().empty());
     return run;
   };

@@ -10,15 +10,7 @@
 
 using namespace orca::test;
 
-namespace {
-
-Words names(const Run& run) {
-  Words names;
-  for (const Arrival& arrival : run.arrivals()) names.push_back(arrival.name);
-  return names;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a Scout does a task by its sonars alone, and reports the room in which something has changed",
           "[system][tasks]") {
@@ -33,7 +25,7 @@ TEST_CASE("a Scout does a task by its sonars alone, and reports the room in whic
           virtual_clock(),
       Seconds(60));
   INFO(run.err);
-  CHECK(names(run) == Words{"kitchen", "library", "meeting", "workshop", "office_2", "office_1"});
+  CHECK(run.goals() == Words{"kitchen", "library", "meeting", "workshop", "office_2", "office_1"});
   CHECK(run.says("kitchen: something has changed"));
   for (const std::string room : {"library", "meeting", "workshop", "office_2", "office_1"})
     CHECK_FALSE(run.says(room + ": something has changed"));
@@ -54,7 +46,7 @@ TEST_CASE("a Scout that was carried off stands and asks where it is, and goes on
   const Run run = robot.to_the_end();
   INFO(run.err);
   CHECK(run.says("I have lost my way, and stand."));
-  CHECK(names(run) == Words{"kitchen", "library"});
+  CHECK(run.goals() == Words{"kitchen", "library"});
   CHECK(run.contacts().empty());
 }
 
@@ -68,6 +60,6 @@ TEST_CASE("a Scout docks by the pose that its sonars give, and drives on", "[sys
       virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"before_dock", "dock", "meeting"});
+  CHECK(run.goals() == Words{"before_dock", "dock", "meeting"});
   CHECK(run.contacts().empty());
 }

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <string>
-#include <thread>
 
 #include "deployer.hpp"
 #include "operated.hpp"
@@ -46,19 +45,13 @@ Words with_task(const std::string& task) {
   return {source_file("graphs/pioneer_tasks.xml"), "--set", "task=" + source_file("graphs/tasks/" + task)};
 }
 
-Words names(const Run& run) {
-  Words names;
-  for (const Arrival& arrival : run.arrivals()) names.push_back(arrival.name);
-  return names;
-}
-
 }  // namespace
 
 TEST_CASE("a robot takes visitors on a tour", "[system][tasks]") {
   const Run run = Office{}.run();
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"kitchen", "library", "office_2", "start"});
+  CHECK(run.goals() == Words{"kitchen", "library", "office_2", "start"});
   CHECK(run.contacts().empty());
   CHECK(run.says("This is the library."));
 }
@@ -67,7 +60,7 @@ TEST_CASE("a room whose door is shut is left out, and said so", "[system][tasks]
   const Run run = Office{.events = shut(3.6, 7.0)}.run();
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"library", "office_2", "start"});
+  CHECK(run.goals() == Words{"library", "office_2", "start"});
   CHECK(run.says("The kitchen cannot be reached today."));
   CHECK(run.contacts().empty());
 }
@@ -86,7 +79,7 @@ TEST_CASE("a room with another door is reached by that", "[system][tasks]") {
   const Run run = Office{.events = shut(9.0, 5.0)}.run_task(R"(<Drive to="office_2" within="120 s"/>)");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"office_2"});
+  CHECK(run.goals() == Words{"office_2"});
   CHECK(run.contacts().empty());
   CHECK(run.says("\"office_2_door\" is shut"));
   CHECK(run.says("another way to \"office_2\": by workshop_door, office_workshop_door (mission 1)"));
@@ -100,7 +93,7 @@ TEST_CASE("a robot waits at the only door of a room, and drives on when somebody
   const Run run = office.run_task(R"(<Drive to="kitchen" within="120 s"/>)");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  REQUIRE(names(run) == Words{"kitchen"});
+  REQUIRE(run.goals() == Words{"kitchen"});
   CHECK(run.arrivals().back().t > 25.0);
   CHECK(run.arrivals().back().t < 45.0);
   CHECK(run.contacts().empty());
@@ -117,7 +110,7 @@ TEST_CASE("a robot passes a door that is 10 cm wider than it is, from three dire
         Seconds(60));
     INFO(place << run.err);
     CHECK(run.exit_code() == 0);
-    CHECK(names(run) == Words{"goal"});
+    CHECK(run.goals() == Words{"goal"});
     CHECK(run.contacts().empty());
   }
 }
@@ -136,7 +129,7 @@ TEST_CASE("a leg that is blocked though its door is open is given up for another
   const Run run = office.run_task(R"(<Drive to="office_2" within="240 s"/>)");
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"office_2"});
+  CHECK(run.goals() == Words{"office_2"});
   CHECK(run.says("another way to \"office_2\" after it was blocked"));
   CHECK(run.contacts().empty());
 }
@@ -156,7 +149,7 @@ TEST_CASE("a robot that is carried off looks around and goes on; if it may not w
   const Run run = office.run_task(drives);
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"kitchen", "library"});
+  CHECK(run.goals() == Words{"kitchen", "library"});
 
   const Words impatient{"--set", "pilot.lost_wait=0 s"};
   const Run waits = office.run_task("<Try>" + drives + R"(<Catch reason="lost" then="resume" times="3">
@@ -164,7 +157,7 @@ TEST_CASE("a robot that is carried off looks around and goes on; if it may not w
                                     impatient);
   INFO(waits.err);
   CHECK(waits.exit_code() == 0);
-  CHECK(names(waits) == Words{"kitchen", "library"});
+  CHECK(waits.goals() == Words{"kitchen", "library"});
 
   const Run without = office.run_task(drives, impatient);
   INFO(without.err);
@@ -180,7 +173,7 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml")};
   const Run run = office.run(patrol + Words{"--until", "260 s"});
   INFO(run.err);
-  const Words reached = names(run);
+  const Words reached = run.goals();
   REQUIRE(reached.size() > 3);
   CHECK(reached[0] == "kitchen");
   CHECK(reached[1] == "before_dock");
@@ -193,7 +186,7 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const Run alone = office.run(patrol + Words{"--set", "dock.docks=nowhere", "--until", "120 s"});
   INFO(alone.err);
   CHECK(alone.exit_code() == 0);
-  CHECK(names(alone) == Words{"kitchen"});
+  CHECK(alone.goals() == Words{"kitchen"});
   CHECK_FALSE(alone.says("I go on."));
   CHECK(alone.contacts().empty());
 
@@ -234,7 +227,7 @@ TEST_CASE("a robot that patrols reports the room in which something has changed,
     <box name="crate_2" x="5.3" y="9.2" length="0.6" width="0.9" height="1 m" comes="1 s"/>)";
   const Run changed = Office{.events = crates}.run(patrol);
   INFO(changed.err);
-  CHECK(names(changed) == Words{"kitchen", "library"});
+  CHECK(changed.goals() == Words{"kitchen", "library"});
   CHECK(changed.says("kitchen: something has changed"));
   CHECK_FALSE(changed.says("library: something has changed"));
   CHECK_FALSE(Office{}.run(patrol).says("something has changed"));
@@ -259,7 +252,7 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
   const Run run = robot.to_the_end();
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"kitchen", "library", "start"});
+  CHECK(run.goals() == Words{"kitchen", "library", "start"});
   CHECK(run.arrivals().back().t > 130.0);
   CHECK(run.says("skipped: Drive to=office_2"));
 }
@@ -279,7 +272,7 @@ TEST_CASE("a robot delivers a letter when people say that it is there and taken"
   INFO(run.err);
   CHECK(run.exit_code() == 0);
   CHECK_FALSE(run.says("refused: "));  // nor does anybody ask for a route before the world is known
-  CHECK(names(run) == Words{"office_2", "kitchen", "start"});
+  CHECK(run.goals() == Words{"office_2", "kitchen", "start"});
   CHECK(run.says("The letter is delivered."));
 }
 
@@ -306,7 +299,7 @@ TEST_CASE("an operator sends a robot here and there, and sees how far it is and 
   robot.order({"go", "--cancel"});
   CHECK_THAT(robot.order({"go"}).out, Contains("command: no goal"));
   REQUIRE(run_orcactl({"stop"}).exit_code() == 0);
-  CHECK(names(finish(robot.program, Seconds(20))) == Words{"library", "point_1"});
+  CHECK(finish(robot.program, Seconds(20)).goals() == Words{"library", "point_1"});
 }
 
 TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes back and says so",
@@ -314,7 +307,7 @@ TEST_CASE("a letter that nobody hands over is not delivered, and the robot comes
   const Run run = Office{}.run({"--set", "task=" + source_file("graphs/tasks/deliver.xml")});
   INFO(run.err);
   CHECK(run.exit_code() == 1);
-  CHECK(names(run) == Words{"office_2", "start"});
+  CHECK(run.goals() == Words{"office_2", "start"});
   CHECK(run.says("Nobody answers. I ask again in a minute."));
   CHECK(run.says("no answer: \"Please put the letter on me. Is it there?\""));
 }
@@ -323,8 +316,8 @@ TEST_CASE("a robot looks for a can at three places, and brings it to the table",
   const Run run = run_deployer(Words{source_file("graphs/pioneer_fetch_task.xml")} + virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 0);
-  CHECK(names(run) == Words{"near_kitchen_can", "near_library_can", "library_can", "near_meeting_table",
-                            "meeting_table", "start"});
+  CHECK(run.goals() == Words{"near_kitchen_can", "near_library_can", "library_can", "near_meeting_table",
+                             "meeting_table", "start"});
   CHECK(run.says("Pioneer has taken 'can'"));
   CHECK(run.says("Pioneer has put down 'can' at (13."));
   CHECK(run.contacts().empty());
@@ -336,7 +329,7 @@ TEST_CASE("a robot that finds no can anywhere comes back and says so", "[system]
                                virtual_clock());
   INFO(run.err);
   CHECK(run.exit_code() == 1);
-  CHECK(names(run) == Words{"near_kitchen_can", "near_library_can", "near_office_2_can", "start"});
+  CHECK(run.goals() == Words{"near_kitchen_can", "near_library_can", "near_office_2_can", "start"});
   CHECK(run.says("I have not brought the can. I come back."));
   CHECK(
       run.says("task: work() failed: undone: nothing came between the paddles where the thing should stand "
@@ -404,7 +397,7 @@ TEST_CASE("a task whose pilot has failed stands, asks for help, and has failed i
   const Run run = Office{}.run({"--fail", "pilot=throw@25s"});
   INFO(run.err);
   CHECK(run.exit_code() == 1);
-  CHECK(names(run) == Words{"kitchen"});
+  CHECK(run.goals() == Words{"kitchen"});
   CHECK(run.says("alarm QUESTION: My pilot has failed, and I stand."));
   CHECK(run.says("task: work() failed: no answer: \"My pilot has failed"));
 }
