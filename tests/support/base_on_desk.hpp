@@ -26,6 +26,13 @@ struct BaseOn : Desk<BadLine<Firmware>, PlainBody> {
   auto look(Look at) {
     return this->with([&](Line& line, PlainBody&) { return at(line.device()); });
   }
+  /// Returns what a function of its firmware does.
+  template <class Result>
+  auto ask(Result (Firmware::*what)() const) {
+    return look([what](Firmware& firmware) { return (firmware.*what)(); });
+  }
+  bool has_power() { return ask(&Firmware::has_power); }
+  int watchdog_stops() { return ask(&Firmware::watchdog_stops); }
   /// The same for its line and its body.
   template <class Look>
   auto line(Look at) {

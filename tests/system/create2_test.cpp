@@ -35,11 +35,11 @@ Run run(const Words& more = {}, const std::function<void()>& script = {}) {
 
 template <class AnyCreate>
 Create2Mode mode(AnyCreate& create) {
-  return create.look([](Create2Firmware& firmware) { return firmware.mode(); });
+  return create.ask(&Create2Firmware::mode);
 }
 template <class AnyCreate>
 std::vector<int> commands(AnyCreate& create) {
-  return create.look([](Create2Firmware& firmware) { return firmware.commands(); });
+  return create.ask(&Create2Firmware::commands);
 }
 
 // Checks that it stands in passive mode until an operator lets it go.
@@ -163,7 +163,7 @@ TEST_CASE("a Create 2 stops at a cliff, and is not driven on over it", "[system]
     create.body([](PlainBody& body) { body.drop(2); });
     create.check_stays();
     CHECK(mode(create) == Create2Mode::passive);
-    CHECK(create.look([](Create2Firmware& firmware) { return firmware.safety_stops(); }) == 1);
+    CHECK(create.ask(&Create2Firmware::safety_stops) == 1);
   });
 }
 

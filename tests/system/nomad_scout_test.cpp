@@ -31,17 +31,7 @@ Run run(const Words& more = {}, const std::function<void()>& script = {}) {
   return run_virtual(on_line("nomad_scout.xml", "memory:scout", more), script);
 }
 
-template <class AnyScout>
-bool has_power(AnyScout& scout) {
-  return scout.look([](NomadScoutFirmware& firmware) { return firmware.has_power(); });
-}
-template <class AnyScout>
-int watchdog_stops(AnyScout& scout) {
-  return scout.look([](NomadScoutFirmware& firmware) { return firmware.watchdog_stops(); });
-}
-Duration watchdog(Scout& scout) {
-  return scout.look([](NomadScoutFirmware& firmware) { return firmware.watchdog(); });
-}
+Duration watchdog(Scout& scout) { return scout.ask(&NomadScoutFirmware::watchdog); }
 
 }  // namespace
 
@@ -49,8 +39,8 @@ TEST_CASE("a Scout's motors are off before it drives, and it is stopped at the e
   Scout scout("scout");
   scout.check_at_goal(run());
   CHECK(watchdog(scout) == 1s);
-  CHECK_FALSE(scout.look([](NomadScoutFirmware& firmware) { return firmware.fires_sonars(); }));
-  const std::vector<int> all = scout.look([](NomadScoutFirmware& firmware) { return firmware.commands(); });
+  CHECK_FALSE(scout.ask(&NomadScoutFirmware::fires_sonars));
+  const std::vector<int> all = scout.ask(&NomadScoutFirmware::commands);
   const auto first = [&](int type) { return std::ranges::find(all, type) - all.begin(); };
   CHECK(first(kLimp) < first(kDrive));
   CHECK(first(kStop) > first(kDrive));  // which would give them power
@@ -95,14 +85,14 @@ TEST_CASE(
     scout.set_off();
     scout.unplug();
     REQUIRE(bench().until([&] { return scout.stands(); }, 1100ms));  // its own watchdog
-    CHECK(watchdog_stops(scout) == 1);
+    CHECK(scout.watchdog_stops() == 1);
     CHECK(bench().until_log("the other end of the line is closed"));
     const double there = scout.pose().x;
     scout.plug_in();
     REQUIRE(bench().until_log("it works again"));
     bench().sleep(500ms);
     CHECK(scout.pose().x == there);
-    CHECK_FALSE(has_power(scout));
+    CHECK_FALSE(scout.has_power());
     scout.check_waits_for_operator();
   });
   CHECK(ended.exit_code() == 0);
@@ -127,7 +117,7 @@ TEST_CASE(
     bench().sleep(500ms);
     CHECK(scout.stands());
     CHECK(scout.pose().x - there < 0.05);
-    CHECK_FALSE(has_power(scout));
+    CHECK_FALSE(scout.has_power());
     CHECK(watchdog(scout) == 1s);
   });
 }
@@ -145,8 +135,7 @@ TEST_CASE("a Scout's sonars reach who avoids obstacles", "[system][hardware]") {
   Scout scout("scout");
   scout.body([](PlainBody& body) { body.surround(0.2); });
   (void)run(far_goal(), [&] {
-    REQUIRE(bench().until(
-        [&] { return scout.look([](NomadScoutFirmware& firmware) { return firmware.fires_sonars(); }); }));
+    REQUIRE(bench().until([&] { return scout.ask(&NomadScoutFirmware::fires_sonars); }));
     bench().sleep(3s);
     CHECK(std::abs(scout.pose().x) < 0.1);
     scout.body([](PlainBody& body) { body.surround({}); });
@@ -175,5 +164,5 @@ TEST_CASE("kill -9 of the whole system: a Scout's watchdog stops the wheels", "[
   const std::string device = folder.file("scout");
   ScoutInRealTime scout(device);
   (void)kill_while_it_drives(scout, on_line("nomad_scout.xml", device), [&] { return scout.stands(); });
-  CHECK(watchdog_stops(scout) == 1);
+  CHECK(scout.watchdog_stops() == 1);
 }

@@ -47,23 +47,15 @@ std::string without_avoid(const std::string& graph) {
 }
 
 template <class AnyPioneer>
-bool has_power(AnyPioneer& pioneer) {
-  return pioneer.look([](P2osFirmware& firmware) { return firmware.has_power(); });
-}
-template <class AnyPioneer>
 bool is_open(AnyPioneer& pioneer) {
-  return pioneer.look([](P2osFirmware& firmware) { return firmware.is_open(); });
-}
-template <class AnyPioneer>
-int watchdog_stops(AnyPioneer& pioneer) {
-  return pioneer.look([](P2osFirmware& firmware) { return firmware.watchdog_stops(); });
+  return pioneer.ask(&P2osFirmware::is_open);
 }
 
 // Checks that the robot stands without power until an operator lets it go.
 void check_waits(Pioneer& pioneer) {
   bench().sleep(500ms);
   CHECK(pioneer.stands());
-  CHECK_FALSE(has_power(pioneer));
+  CHECK_FALSE(pioneer.has_power());
   pioneer.check_waits_for_operator();
 }
 
@@ -166,7 +158,7 @@ TEST_CASE("a Pioneer's controller is asked for its settings: a short watchdog is
   (void)run(far_goal(), [&] {
     pioneer.set_off();
     bench().sleep(2s);
-    CHECK(watchdog_stops(pioneer) == 0);
+    CHECK(pioneer.watchdog_stops() == 0);
   });
 }
 
@@ -190,7 +182,7 @@ TEST_CASE(
     pioneer.set_off();
     pioneer.unplug();
     REQUIRE(bench().until([&] { return pioneer.stands(); }));  // its own watchdog
-    CHECK(watchdog_stops(pioneer) == 1);
+    CHECK(pioneer.watchdog_stops() == 1);
     CHECK(bench().until_log("the other end of the line is closed"));
     pioneer.plug_in();
     REQUIRE(bench().until_log("it works again"));
@@ -213,7 +205,7 @@ TEST_CASE("a controller that is switched off and on in mid-motion is found again
     REQUIRE(bench().until_log("is it still connected and switched on?"));
     REQUIRE(bench().until_log("it works again"));
     CHECK(pioneer.stands());
-    CHECK_FALSE(has_power(pioneer));
+    CHECK_FALSE(pioneer.has_power());
   });
 }
 
@@ -264,7 +256,7 @@ TEST_CASE("a Pioneer drives to its goals over a serial line, and its motors are 
   const Run ended = run_deployer(on_line("p2os.xml", device), Seconds(60));
   pioneer.check_at_goal(ended);
   CHECK(ended.says("connected to \"Orca_Emu\" (Pioneer p2dx) at 38400 baud"));
-  CHECK_FALSE(has_power(pioneer));
+  CHECK_FALSE(pioneer.has_power());
   CHECK_FALSE(is_open(pioneer));
 }
 
@@ -274,7 +266,7 @@ TEST_CASE("kill -9 of the whole system: the controller's watchdog stops the whee
   const std::string device = folder.file("pioneer");
   PioneerInRealTime pioneer(device);
   (void)kill_while_it_drives(pioneer, on_line("p2os.xml", device), [&] { return pioneer.stands(); });
-  CHECK(watchdog_stops(pioneer) == 1);
+  CHECK(pioneer.watchdog_stops() == 1);
   CHECK(is_open(pioneer));
   // It still sends, at that rate.
   const Run again = run_deployer(on_line("p2os.xml", device, {"--set", "goals=here: 0 0"}), Seconds(60));

@@ -46,15 +46,10 @@ std::function<void(std::vector<std::uint8_t>&)> in_pieces() {
 }
 
 template <class AnyServer>
-bool has_power(AnyServer& server) {
-  return server.look([](PlayerFirmware& firmware) { return firmware.has_power(); });
-}
-
-template <class AnyServer>
 void check_reaches_goals(AnyServer& server, const Run& run) {
   server.check_at_goal(run);
   CHECK(run.says("connected to a Player server \"3.1.1-dev\" with a base of its driver \"p2os\""));
-  CHECK_FALSE(has_power(server));
+  CHECK_FALSE(server.has_power());
 }
 
 // Runs a system that cannot begin, and returns what it says.
@@ -239,7 +234,7 @@ TEST_CASE("a connection that is cut while the base drives comes back, and the ba
   INFO(program.err());
   REQUIRE(back);
   for (int i = 0; i < 50; ++i, std::this_thread::sleep_for(10ms)) REQUIRE(server.stands());
-  CHECK_FALSE(has_power(server));
+  CHECK_FALSE(server.has_power());
   const Run counted = run_orcactl({"query", "base.DeviceStatisticsQuery", "<Ask/>"});
   CHECK_THAT(counted.out, Contains("connections=\"2\""));
   CHECK(run_orcactl({"estop", "--release"}).exit_code() == 0);

@@ -35,19 +35,11 @@ Run run(const Words& more = {}, const std::function<void()>& script = {}) {
 }
 
 template <class AnyNomad>
-bool has_power(AnyNomad& nomad) {
-  return nomad.look([](Xr4000Firmware& robot) { return robot.has_power(); });
-}
-template <class AnyNomad>
 int limp_stops(AnyNomad& nomad) {
-  return nomad.look([](Xr4000Firmware& robot) { return robot.limp_stops(); });
+  return nomad.ask(&Xr4000Firmware::limp_stops);
 }
-Duration timeout(Nomad& nomad) {
-  return nomad.look([](Xr4000Firmware& robot) { return robot.timeout(); });
-}
-std::vector<int> requests(Nomad& nomad) {
-  return nomad.look([](Xr4000Firmware& robot) { return robot.requests(); });
-}
+Duration timeout(Nomad& nomad) { return nomad.ask(&Xr4000Firmware::timeout); }
+std::vector<int> requests(Nomad& nomad) { return nomad.ask(&Xr4000Firmware::requests); }
 void set_status(Nomad& nomad, std::uint8_t bits) {
   nomad.look([&](Xr4000Firmware& robot) { robot.set_status(bits); });
 }
@@ -141,7 +133,7 @@ TEST_CASE(
     nomad.plug_in();
     REQUIRE(bench().until_log("it works again"));
     check_goes_on_standing(nomad);
-    CHECK_FALSE(has_power(nomad));
+    CHECK_FALSE(nomad.has_power());
     check_goes_on_when_let_go(nomad);
   });
   CHECK(ended.exit_code() == 0);
@@ -162,7 +154,7 @@ TEST_CASE(
     set_status(nomad, 0);
     bench().sleep(100ms);
     check_goes_on_standing(nomad);
-    CHECK_FALSE(has_power(nomad));
+    CHECK_FALSE(nomad.has_power());
     check_goes_on_when_let_go(nomad);
   });
 }
@@ -211,7 +203,7 @@ TEST_CASE(
                                   : "is it still connected and switched on?"));
     REQUIRE(bench().until_log("it works again"));
     nomad.check_stays();
-    CHECK(bench().until([&] { return !has_power(nomad); }));
+    CHECK(bench().until([&] { return !nomad.has_power(); }));
     CHECK(timeout(nomad) == 500ms);
   });
 }
@@ -233,7 +225,7 @@ TEST_CASE("an XR4000 that moves when it is found is braked before it is told to 
     nomad.fall_silent(false);
     REQUIRE(bench().until_log("connected to the agent of an XR4000"));
     CHECK(bench().until([&] { return nomad.stands(); }));
-    CHECK(bench().until([&] { return !has_power(nomad); }));  // by its time-out, which it has now
+    CHECK(bench().until([&] { return !nomad.has_power(); }));  // by its time-out, which it has now
   });
 }
 
@@ -288,7 +280,7 @@ TEST_CASE("an XR4000 drives to its goals over a serial line", "[system][hardware
   const std::string device = folder.file("nomad");
   NomadInRealTime nomad(device);
   nomad.check_at_goal(run_deployer(on_line("xr4000.xml", device), Seconds(60)));
-  CHECK(eventually([&] { return !has_power(nomad); }));
+  CHECK(eventually([&] { return !nomad.has_power(); }));
 }
 
 TEST_CASE("kill -9 of the whole system: an XR4000's axes go limp", "[system][hardware]") {
