@@ -16,9 +16,9 @@ using emulators::test::kStop;
 using emulators::test::kSync0;
 using emulators::test::kSync1;
 using emulators::test::kSync2;
+using emulators::test::OpenPioneer;
 using emulators::test::PioneerLine;
 using hw::test::Bytes;
-using hw::test::hex;
 using hw::test::text_of;
 
 namespace {
@@ -59,8 +59,7 @@ TEST_CASE("the emulated Pioneer is opened with and without an argument, behind w
 }
 
 TEST_CASE("the information of an emulated Pioneer, byte for byte", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.body.pose = {0.84, -0.084, std::numbers::pi / 2};
   line.body.pressed = 0x0203;  // two in front, one behind
   line.body.stalled = true;
@@ -71,8 +70,7 @@ TEST_CASE("the information of an emulated Pioneer, byte for byte", "[emulators][
 
 TEST_CASE("a Pioneer that knows whether it is charged appends its voltage and the state of the charger",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   const std::size_t plain = line.information().size();
   line.body.charged = true;
   const Bytes charged = line.information();
@@ -85,8 +83,7 @@ TEST_CASE("a Pioneer that knows whether it is charged appends its voltage and th
 }
 
 TEST_CASE("sonars are told eight at a time when they are switched on", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.body.ranges = {{0, 1.0}, {9, 0.5}};
   line.say("FA FB 06 1C 3B 01 00 1D 3B");
   Bytes first = line.information();
@@ -121,8 +118,7 @@ TEST_CASE("VEL, RVEL and VEL2 drive the emulated Pioneer, and only with power", 
 
 TEST_CASE("the watchdog of an emulated Pioneer bites after two seconds, and PULSE feeds it",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say(kAhead);
   line.pass_alive(5s);
   CHECK(line.body.told.forward == Approx(0.2));
@@ -133,8 +129,7 @@ TEST_CASE("the watchdog of an emulated Pioneer bites after two seconds, and PULS
 
 TEST_CASE("SETO makes the emulated Pioneer count from where it is, also with half an argument",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.body.pose = {2.0, 1.0, 1.0};
   line.say(GENERATE(as<std::string>{}, "FA FB 03 07 00 07", "FA FB 04 07 3B 07 3B"));
   const Bytes told = line.information();
@@ -142,8 +137,7 @@ TEST_CASE("SETO makes the emulated Pioneer count from where it is, also with hal
 }
 
 TEST_CASE("MOVE drives the emulated Pioneer its way, and it stands then", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 08 1B 2C 01 34 1C");  // MOVE -300
   CHECK(line.firmware.is_open());
   (void)line.pass(200ms);
@@ -155,8 +149,7 @@ TEST_CASE("MOVE drives the emulated Pioneer its way, and it stands then", "[emul
 
 TEST_CASE("HEAD turns the emulated Pioneer to a heading, DHEAD by an angle, the shorter way",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 0C 3B 5A 00 66 3B");  // HEAD 90
   line.pass_alive(5s);
   CHECK(std::abs(line.body.pose.yaw - 90 * kDegree) < 0.02);
@@ -169,8 +162,7 @@ TEST_CASE("HEAD turns the emulated Pioneer to a heading, DHEAD by an angle, the 
 // A maker's library sends one command for each axis.
 TEST_CASE("translation and rotation of the emulated Pioneer are two axes, and a command changes only its own",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   SECTION("a turn rate of 0 does not end a distance, sent before or behind it") {
     const bool before = GENERATE(true, false);
     if (before) line.say("FA FB 06 15 3B 00 00 15 3B");  // RVEL 0
@@ -213,8 +205,7 @@ TEST_CASE("translation and rotation of the emulated Pioneer are two axes, and a 
 }
 
 TEST_CASE("CONFIG is answered with what the emulated Pioneer is", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 12 3B 01 00 13 3B");
   const std::string sent = text_of(line.pass(400ms));
   // Class, subclass and serial number; then 500 deg/s and 2200 mm/s.
@@ -227,8 +218,7 @@ TEST_CASE("CONFIG is answered with what the emulated Pioneer is", "[emulators][p
 }
 
 TEST_CASE("bumpers of the emulated Pioneer raise a stall when BUMPSTALL says so", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.body.pressed = 0x0001;
   const Bytes before = line.information();
   CHECK((before[15] & 1) == 0);
@@ -242,8 +232,7 @@ TEST_CASE("bumpers of the emulated Pioneer raise a stall when BUMPSTALL says so"
 
 TEST_CASE("HOSTBAUD changes the rate of the emulated Pioneer, and a reset takes it back",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 32 3B 02 00 34 3B");  // 38400
   line.say(kAhead);                        // at the old rate
   CHECK(line.body.told == Twist2{});
@@ -257,8 +246,7 @@ TEST_CASE("HOSTBAUD changes the rate of the emulated Pioneer, and a reset takes 
 
 TEST_CASE("CLOSE sets the configured rate of the emulated Pioneer again, so that it is found a second time",
           "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 32 3B 02 00 34 3B");  // HOSTBAUD 38400
   line.say(kSync2, 38400);                 // CLOSE
   CHECK_FALSE(line.firmware.is_open());
@@ -268,8 +256,7 @@ TEST_CASE("CLOSE sets the configured rate of the emulated Pioneer again, so that
 }
 
 TEST_CASE("the red button of the emulated Pioneer takes the power, and is told", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say(kAhead);
   line.firmware.press_button(true);
   CHECK(line.body.told == Twist2{});
@@ -280,8 +267,7 @@ TEST_CASE("the red button of the emulated Pioneer takes the power, and is told",
 }
 
 TEST_CASE("a packet with a wrong checksum, or cut short by another one, is not obeyed", "[emulators][p2os]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 0B 3B C8 00 D3 3C");
   line.say("FA FB 00");
   line.say("FA FA FB 06 04");

@@ -17,6 +17,7 @@ using emulators::test::kStop;
 using emulators::test::kSync0;
 using emulators::test::kSync1;
 using emulators::test::kSync2;
+using emulators::test::OpenPioneer;
 using emulators::test::PioneerLine;
 using hw::test::Bytes;
 using hw::test::text_of;
@@ -45,6 +46,11 @@ struct GripperLine : PioneerLine {
   }
 };
 
+/// The same, when the host has opened it.
+struct OpenGripper : GripperLine {
+  OpenGripper() { open(); }
+};
+
 /// Returns the gripper's state and the inputs in an information packet without sonars.
 std::string ports_of(const Bytes& information) {
   return text_of(std::span(information).subspan(24, 1)) + ' ' +
@@ -53,8 +59,7 @@ std::string ports_of(const Bytes& information) {
 
 /// Returns them of a robot whose gripper looks so.
 std::string ports_at(const std::optional<GripperLook>& look) {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.body.look = look;
   return ports_of(line.information());
 }
@@ -62,8 +67,7 @@ std::string ports_at(const std::optional<GripperLook>& look) {
 }  // namespace
 
 TEST_CASE("GRIPPER moves paddles and lift of the emulated Pioneer", "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   CHECK(line.told().empty());
   CHECK(line.told_by(kOpenPaddles) == Moves{GripperMove::open});
   CHECK(line.told_by(kClosePaddles) == Moves{GripperMove::close});
@@ -75,8 +79,7 @@ TEST_CASE("GRIPPER moves paddles and lift of the emulated Pioneer", "[emulators]
 
 TEST_CASE("the emulated Pioneer stores, deploys and halts paddles and lift together",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   CHECK(line.told_by("FA FB 06 21 3B 07 00 28 3B") == Moves{GripperMove::close, GripperMove::up});
   CHECK(line.told_by("FA FB 06 21 3B 08 00 29 3B") == Moves{GripperMove::open, GripperMove::down});
   CHECK(line.told_by("FA FB 06 21 3B 0F 00 30 3B") == kHalt);
@@ -84,8 +87,7 @@ TEST_CASE("the emulated Pioneer stores, deploys and halts paddles and lift toget
 
 TEST_CASE("a gripper's commands that it does not know, and the pressure, move nothing",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   CHECK(line.told_by("FA FB 06 21 3B 00 00 21 3B").empty());  // GRIPPER 0
   CHECK(line.told_by("FA FB 06 21 3B 09 00 2A 3B").empty());  // GRIPPER 9
   CHECK(line.told_by("FA FB 06 21 1B 01 00 22 1B").empty());  // GRIPPER -1
@@ -108,8 +110,7 @@ TEST_CASE("no gripper's command does anything while the connection is not open",
 }
 
 TEST_CASE("a carry moves the lift up or down for a time in steps of 20 ms", "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   CHECK(line.told_by(kCarry).empty());
   CHECK(line.told_by(kUpOneSecond) == Moves{GripperMove::up});
   (void)line.pass(999ms);
@@ -126,8 +127,7 @@ TEST_CASE("a carry moves the lift up or down for a time in steps of 20 ms", "[em
 
 TEST_CASE("a carry lasts 255 steps at most, and one of 0 steps does not begin",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.say(kCarry);
   CHECK(line.told_by("FA FB 06 24 3B 00 00 24 3B").empty());  // GRIPPERVAL 0
   line.say(kCarry);
@@ -139,8 +139,7 @@ TEST_CASE("a carry lasts 255 steps at most, and one of 0 steps does not begin",
 }
 
 TEST_CASE("the time of a carry that does not follow at once is not used", "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.say(kCarry);
   line.say(kSync0);  // PULSE
   CHECK(line.told_by(kUpOneSecond).empty());
@@ -156,8 +155,7 @@ TEST_CASE("the time of a carry that does not follow at once is not used", "[emul
 
 TEST_CASE("another command to the lift ends a carry, one to the paddles does not",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.say(kCarry);
   line.say(kUpOneSecond);
   line.say(kClosePaddles);
@@ -185,8 +183,7 @@ TEST_CASE("CLOSE, a reset, the watchdog and the red button stop a gripper", "[em
       {"the button", [](GripperLine& line) { line.firmware.press_button(true); }},
   }));
   INFO(end.name);
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.say(kClosePaddles);
   line.say(kCarry);
   line.say("FA FB 06 24 3B C8 00 EC 3B");  // GRIPPERVAL 200: 4 s
@@ -199,8 +196,7 @@ TEST_CASE("CLOSE, a reset, the watchdog and the red button stop a gripper", "[em
 
 TEST_CASE("a gripper moves again when the red button is released, and not before",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.firmware.press_button(true);
   (void)line.told();
   CHECK(line.told_by(kOpenPaddles).empty());
@@ -212,8 +208,7 @@ TEST_CASE("a gripper moves again when the red button is released, and not before
 }
 
 TEST_CASE("neither the motors' power nor the wheels matter to a gripper", "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   line.say(kAhead);
   CHECK(line.told_by(kOpenPaddles) == Moves{GripperMove::open});
   CHECK(line.body.told.forward == Approx(0.2));
@@ -226,8 +221,7 @@ TEST_CASE("neither the motors' power nor the wheels matter to a gripper", "[emul
 
 TEST_CASE("the information of an emulated Pioneer with a gripper, byte for byte",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   // At rest, 12.7 V, motors on; paddles open, lift down; both switches at these ends are 0, those on the paddles 1.
   CHECK(text_of(line.information()) ==
         "FA FB 1B 32 00 00 00 00 00 00 00 00 00 00 7F 00 00 00 00 01 00 00 00 00 21 00 30 00 33 D0");
@@ -261,8 +255,7 @@ TEST_CASE("CONFIG tells kind 1 of a gripper, and 0 of none", "[emulators][p2os][
 
 TEST_CASE("GRIPPERPACREQUEST gets one gripper packet, or one with each information packet, or no more",
           "[emulators][p2os][gripper]") {
-  GripperLine line;
-  line.open();
+  OpenGripper line;
   const std::string packet = "FA FB 06 E0 01 30 00 10 01";  // kind 1; the switches of an open gripper below
   const auto packets_in = [&](Duration time) {
     const std::string text = text_of(line.pass(time));
@@ -282,8 +275,7 @@ TEST_CASE("GRIPPERPACREQUEST gets one gripper packet, or one with each informati
 
 TEST_CASE("a gripper's packet says that there is none, and the next host must ask anew",
           "[emulators][p2os][gripper]") {
-  PioneerLine line;
-  line.open();
+  OpenPioneer line;
   line.say("FA FB 06 25 3B 02 00 27 3B");
   CHECK_THAT(text_of(line.pass(400ms)), Catch::Contains("FA FB 06 E0 00 00 00 E0 00"));
   line.say(kSync2);  // CLOSE

@@ -46,4 +46,9 @@ struct PioneerLine : RobotLine<P2osFirmware, P2osSettings, 9600> {
   }
 };
 
+/// The same, when the host has opened it.
+struct OpenPioneer : PioneerLine {
+  OpenPioneer() { open(); }
+};
+
 }  // namespace orca::emulators::test

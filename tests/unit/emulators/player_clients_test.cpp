@@ -10,8 +10,7 @@ using namespace orca;
 using namespace orca::test;
 
 TEST_CASE("clients of one Player server have their own subscriptions and ways to get data", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const auto other = desk.other_client();
   (void)desk.open("00000004");
   (void)desk.open_at(*other, "00000005");
@@ -24,8 +23,7 @@ TEST_CASE("clients of one Player server have their own subscriptions and ways to
 }
 
 TEST_CASE("each client of a Player server gets each scan once", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const auto other = desk.other_client();
   (void)desk.open("00000006");
   (void)desk.open_at(*other, "00000006");
@@ -41,8 +39,7 @@ TEST_CASE("each client of a Player server gets each scan once", "[emulators]") {
 
 TEST_CASE("of several clients of a Player server the last command counts, until the last one closes the base",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const auto other = desk.other_client();
   (void)desk.open("00000004");
   (void)desk.open_at(*other, "00000004");
@@ -59,8 +56,7 @@ TEST_CASE("of several clients of a Player server the last command counts, until 
 }
 
 TEST_CASE("a client of a Player server that opens or closes a device twice counts once", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const auto other = desk.other_client();
   (void)desk.open("00000004");
   (void)desk.open("00000004");

@@ -13,10 +13,10 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "hex_bytes.hpp"
 #include "orca/emulators/player_firmware.hpp"
+#include "robot_line.hpp"
 
 namespace orca::test {
 
@@ -52,24 +52,6 @@ inline std::string in_words(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// A body that keeps what its wheels were told.
-class WheeledBody final : public emulators::Body {
- public:
-  void drive(const Twist2& velocity) override { told = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose; }
-  [[nodiscard]] Twist2 velocity() const override { return told; }
-  [[nodiscard]] std::optional<double> sonar(int number) const override {
-    return number == 1 ? std::optional(0.5) : std::nullopt;
-  }
-  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
-  [[nodiscard]] bool is_stalled() const override { return stalled; }
-
-  Twist2 told;
-  Pose2 pose;
-  std::uint16_t pressed = 0;
-  bool stalled = false;
-};
-
 /// A mirror that has shown three beams.
 class StillMirror final : public emulators::Mirror {
  public:
@@ -91,6 +73,7 @@ inline PlayerSettings with_two_sonars() {
 struct PlayerDesk {
   explicit PlayerDesk(PlayerSettings settings = with_two_sonars())
       : server(body, std::move(settings), &mirror) {
+    body.ranges = {{1, 0.5}};
     (void)server.advance(now);
   }
   /// Connects, and returns what the server sends by itself.
@@ -136,7 +119,7 @@ struct PlayerDesk {
     return other;
   }
 
-  WheeledBody body;
+  emulators::test::ScriptedBody body;
   StillMirror mirror;
   TimePoint now{100s};
   PlayerFirmware server;
@@ -159,5 +142,12 @@ inline constexpr const char* kMotorsOn = "00000004 00000000 00000003 00000002";
 inline constexpr const char* kVelocity = "00000004 00000000 00000002 00000001";
 // 0.2 m/s, 0.1 rad/s, motors on.
 inline constexpr const char* kAheadLeft = "3FC999999999999A 0000000000000000 3FB999999999999A 00000001";
+
+/// The same, when the client has connected.
+struct ConnectedDesk : PlayerDesk {
+  explicit ConnectedDesk(PlayerSettings settings = with_two_sonars()) : PlayerDesk(std::move(settings)) {
+    (void)connect();
+  }
+};
 
 }  // namespace orca::test

@@ -34,8 +34,7 @@ TEST_CASE("a Player server that hears from a client of which the line said nothi
 
 TEST_CASE("a Player server lists its devices, and repeats the address, subtype and sequence of a request",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const Parts list(desk.say("00000001 00000000 00000003 00000001"));
   CHECK(list.head == "0100007F 00001A09 00000001 00000000 00000004 00000001");
   CHECK(list.tail == "0000002A 00000058");
@@ -47,8 +46,7 @@ TEST_CASE("a Player server lists its devices, and repeats the address, subtype a
 }
 
 TEST_CASE("a Player server names the drivers of its devices", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const std::string ask = "00000001 00000000 00000003 00000002";
   CHECK(Parts(desk.say(ask, "00000000 00000000 00000006 00000000 00000000 00000000")).payload ==
         "0100007F 00001A09 00000006 00000000 0000000B 0000000B 7369636B 6C6D7332 30300000");
@@ -62,8 +60,7 @@ TEST_CASE("a Player server opens devices, refuses those that do not start, and k
   PlayerSettings settings = with_two_sonars();
   settings.refused = {5};
   settings.missing = {14};
-  PlayerDesk desk(settings);
-  (void)desk.connect();
+  ConnectedDesk desk(settings);
   CHECK(desk.open("00000004") ==
         "0100007F 00001A09 00000004 00000000 00000001 00000005 00000005 70326F73 00000000");
   CHECK(desk.server.is_subscribed(4));
@@ -81,8 +78,7 @@ TEST_CASE("a Player server opens devices, refuses those that do not start, and k
 
 TEST_CASE("an emulated Player base turns its wheels when its motors have power, and says where it is",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   CHECK(desk.say(kVelocity, kAheadLeft).empty());
   CHECK(desk.body.told == Twist2{});
@@ -105,8 +101,7 @@ TEST_CASE("an emulated Player base turns its wheels when its motors have power, 
 }
 
 TEST_CASE("an emulated Player base drives on without commands, until its client has gone", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   (void)desk.say(kMotorsOn, "00000001");
   (void)desk.say(kVelocity, kAheadLeft);
@@ -119,8 +114,7 @@ TEST_CASE("an emulated Player base drives on without commands, until its client 
 }
 
 TEST_CASE("an emulated Player base takes the pose that it is told, and tells its size", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   const Parts set(
       desk.say("00000004 00000000 00000003 00000005", "3FF0000000000000 4000000000000000 0000000000000000"));
@@ -134,8 +128,7 @@ TEST_CASE("an emulated Player base takes the pose that it is told, and tells its
 }
 
 TEST_CASE("emulated Player sonars tell ranges and places", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000005");
   const Parts ranges(desk.pass(100ms));
   CHECK(ranges.head == "0100007F 00001A09 00000005 00000000 00000001 00000001");
@@ -149,8 +142,7 @@ TEST_CASE("emulated Player sonars tell ranges and places", "[emulators]") {
 
 TEST_CASE("an emulated Player laser sends each scan once, and what comes back from nowhere has its range",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000006");
   CHECK(desk.pass(100ms).empty());  // its mirror does not turn yet
   desk.mirror.stamp = TimePoint(1s);
@@ -171,8 +163,7 @@ TEST_CASE("an emulated server like Stage shows sonars and laser as rangers, of 8
           "[emulators]") {
   PlayerSettings settings = with_two_sonars();
   settings.shows_rangers = true;
-  PlayerDesk desk(settings);
-  (void)desk.connect();
+  ConnectedDesk desk(settings);
   const Parts list(desk.say("00000001 00000000 00000003 00000001"));
   CHECK(list.payload ==
         "00000005 00000005 "
@@ -215,21 +206,18 @@ TEST_CASE("an emulated server like Stage shows sonars and laser as rangers, of 8
 }
 
 TEST_CASE("emulated Player bumpers lie in front first, and a battery tells its voltage", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("0000000E");
   desk.body.pressed = 0x0201;  // the first in front, the second behind
   CHECK(Parts(desk.pass(100ms)).payload == "0000000A 0000000A 01000000 00000100 00000000");
-  PlayerDesk other;
-  (void)other.connect();
+  ConnectedDesk other;
   (void)other.open("00000002");
   CHECK(Parts(other.pass(100ms)).payload == "00000001 414B3333 00000000 00000000 00000000 00000000");
 }
 
 TEST_CASE("in pull mode the newest data wait until they are asked for, and a synch ends them",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000005");
   CHECK(Parts(desk.say("00000001 00000000 00000003 00000005", "00000002")).head ==
         "0100007F 00001A09 00000001 00000000 00000004 00000005");
@@ -244,8 +232,7 @@ TEST_CASE("in pull mode the newest data wait until they are asked for, and a syn
 
 // Clients of Player complain of a round that ends without data.
 TEST_CASE("a round of pull mode ends with data, for which it waits", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000005");
   (void)desk.say("00000001 00000000 00000003 00000005", "00000002");
   const std::string ask = "00000001 00000000 00000003 00000004";
@@ -256,8 +243,7 @@ TEST_CASE("a round of pull mode ends with data, for which it waits", "[emulators
 }
 
 TEST_CASE("a Player server says which messages a device knows", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   const std::string ask = "00000004 00000000 00000003 000000FF";
   CHECK(Parts(desk.say(ask, "00000002 00000001")).head.ends_with("00000004 000000FF"));
@@ -265,8 +251,7 @@ TEST_CASE("a Player server says which messages a device knows", "[emulators]") {
 }
 
 TEST_CASE("a Player server refuses requests that it does not know, without a word more", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   for (const std::string request :
        {"00000004 00000000 00000003 00000063", "00000001 00000000 00000003 00000063",
@@ -279,8 +264,7 @@ TEST_CASE("a Player server refuses requests that it does not know, without a wor
 }
 
 TEST_CASE("a Player server drops what no open device knows, and hears the rest", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   CHECK(desk.say(kMotorsOn, "00000001").empty());  // not open
   (void)desk.open("00000004");
   (void)desk.say(kMotorsOn, "00000001");
@@ -294,8 +278,7 @@ TEST_CASE("a Player server drops what no open device knows, and hears the rest",
 }
 
 TEST_CASE("messages to a Player server may come byte by byte", "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   const Bytes message = from_words(
       "00000000 00000000 00000001 00000000 00000003 00000005 0000000000000000 00000007 00000004 00000001");
   for (std::size_t i = 0; i + 1 < message.size(); ++i) {
@@ -308,8 +291,7 @@ TEST_CASE("messages to a Player server may come byte by byte", "[emulators]") {
 
 TEST_CASE("a Player server that is started anew greets its client again and has stopped the base",
           "[emulators]") {
-  PlayerDesk desk;
-  (void)desk.connect();
+  ConnectedDesk desk;
   (void)desk.open("00000004");
   (void)desk.say(kMotorsOn, "00000001");
   (void)desk.say(kVelocity, kAheadLeft);

@@ -2,11 +2,8 @@
 // The bytes are those of docs/hardware/xr4000.md, written out by hand.
 #include <catch2/catch.hpp>
 
-#include <map>
-
-#include "hex_bytes.hpp"
 #include "orca/emulators/xr4000_firmware.hpp"
-#include "orca/geometry/arc.hpp"
+#include "robot_line.hpp"
 
 using namespace orca;
 using namespace std::chrono_literals;
@@ -41,49 +38,10 @@ constexpr const char* kAxesTaken = "58 52 01 00 83 00 BF BC";
 constexpr const char* kAxesNotReady = "58 52 01 00 83 F6 66 33";  // -10
 constexpr const char* kInvalidAxes = "58 52 01 00 83 FD 0D 82";   // -3
 
-class ScriptedXrBody final : public emulators::Body {
- public:
-  void drive(const Twist2& velocity) override { told = velocity; }
-  [[nodiscard]] Pose2 odometry() const override { return pose; }
-  [[nodiscard]] Twist2 velocity() const override { return measured.value_or(told); }
-  [[nodiscard]] std::optional<double> sonar(int number) const override {
-    const auto found = ranges.find(number);
-    return found == ranges.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-  [[nodiscard]] std::uint16_t bumpers() const override { return pressed; }
-
-  Twist2 told;
-  std::optional<Twist2> measured;
-  Pose2 pose;
-  std::map<int, double> ranges;
-  std::uint16_t pressed = 0;
-};
-
 /// An XR4000 and its host, which hears everything that it sends.
-struct XrLine {
-  explicit XrLine(const Xr4000Settings& settings = {}) : firmware(body, settings) {
-    (void)firmware.advance(now);
-  }
-  void say(const std::string& frame, std::uint32_t baud = 115200) { firmware.take(hex(frame), baud, now); }
-  /// Lets time pass in steps of 1 ms, in which the body moves, and returns what was sent.
-  Bytes pass(Duration time) {
-    Bytes sent;
-    for (const TimePoint end = now + time; now < end;) {
-      now += 1ms;
-      body.pose = along_arc(body.pose, body.told * 0.001);
-      const Bytes part = firmware.advance(now);
-      sent.insert(sent.end(), part.begin(), part.end());
-    }
-    return sent;
-  }
-  std::string answer(const std::string& frame) {
-    say(frame);
-    return text_of(pass(20ms));
-  }
-
-  ScriptedXrBody body;
-  Xr4000Firmware firmware;
-  TimePoint now{10s};
+struct XrLine : emulators::test::RobotLine<Xr4000Firmware, Xr4000Settings, 115200> {
+  using RobotLine::RobotLine;
+  std::string answer(const std::string& frame) { return RobotLine::answer(frame, 20ms); }
 };
 
 }  // namespace

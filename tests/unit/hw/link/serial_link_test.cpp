@@ -39,43 +39,48 @@ termios2 settings_of(int terminal) {
   return settings;
 }
 
+// The device's side of a port, open, and a by-id folder.
+struct Terminal {
+  Terminal() { must_open(device); }
+  // Returns the options for a serial link to it.
+  [[nodiscard]] hw::link::SerialOptions options(std::uint32_t baud = 9600) const {
+    return serial_at(folder, device.device(), baud);
+  }
+  const TempFolder folder;
+  PtyLink device;
+};
+
 }  // namespace
 
 TEST_CASE("a serial line has any rate, also one that no list of the system's has", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
+  Terminal terminal;
   for (const std::uint32_t baud : {9600U, 38400U, 500'000U, 123'456U}) {
-    SerialLink link(serial_at(folder, device.device(), baud));
+    SerialLink link(terminal.options(baud));
     must_open(link);
-    REQUIRE(device.line().has_value());
-    CHECK(device.line()->baud == baud);
+    REQUIRE(terminal.device.line().has_value());
+    CHECK(terminal.device.line()->baud == baud);
     CHECK(link.byte_time() == Approx(10.0 / baud));
-    CHECK(device.byte_time() == Approx(10.0 / baud));
+    CHECK(terminal.device.byte_time() == Approx(10.0 / baud));
   }
 }
 
 TEST_CASE("the rate can be changed while the line is open, and is kept for the next time",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link(serial_at(folder, device.device(), 9600));
+  Terminal terminal;
+  SerialLink link(terminal.options(9600));
   must_open(link);
   REQUIRE(link.set_line({500'000}).ok());
-  CHECK(device.line()->baud == 500'000);
+  CHECK(terminal.device.line()->baud == 500'000);
   must_write(link, bytes_of("still works"));
-  CHECK(text_of(read_bytes(device, 11)) == "still works");
+  CHECK(text_of(read_bytes(terminal.device, 11)) == "still works");
   link.close();
   must_open(link);
-  CHECK(device.line()->baud == 500'000);
+  CHECK(terminal.device.line()->baud == 500'000);
 }
 
 TEST_CASE("a rate that no port has is refused, and the old one stays", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link(serial_at(folder, device.device(), 9600));
+  Terminal terminal;
+  SerialLink link(terminal.options(9600));
   must_open(link);
   for (const std::uint32_t baud : {0U, 49U, 4'000'001U}) {
     const Status set = link.set_line({baud});
@@ -83,8 +88,8 @@ TEST_CASE("a rate that no port has is refused, and the old one stays", "[hw][lin
     CHECK(set.error().code == Code::invalid_argument);
     CHECK_THAT(set.error().text(), Contains(std::to_string(baud) + " baud") && Contains("50 to 4000000"));
   }
-  CHECK(device.line()->baud == 9600);
-  SerialLink never(serial_at(folder, device.device(), 0));
+  CHECK(terminal.device.line()->baud == 9600);
+  SerialLink never(terminal.options(0));
   link.close();
   CHECK(error_of_opening(never).code == Code::invalid_argument);
 }
@@ -92,38 +97,32 @@ TEST_CASE("a rate that no port has is refused, and the old one stays", "[hw][lin
 TEST_CASE("a parity bit makes a byte longer", "[hw][link][serial]") {
   CHECK(Line{9600, Parity::none}.byte_time() == Approx(1.0416667e-3));
   CHECK(Line{9600, Parity::even}.byte_time() == Approx(1.1458333e-3));
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link({device.device(), {9600, Parity::even}, folder.file("serial")});
+  Terminal terminal;
+  SerialLink link({terminal.device.device(), {9600, Parity::even}, terminal.folder.file("serial")});
   must_open(link);  // Linux keeps no parity for pseudo terminals, and that is no error
   CHECK(link.byte_time() == Approx(11.0 / 9600));
 }
 
 TEST_CASE("an XOFF from the device does not stop what goes to it", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  make_interactive(device.descriptor());
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  make_interactive(terminal.device.descriptor());
+  SerialLink link(terminal.options());
   must_open(link);
-  must_write(device, {0x13});
+  must_write(terminal.device, {0x13});
   CHECK(read_bytes(link, 1) == Bytes{0x13});
   must_write(link, bytes_of("goes on"));
-  CHECK(text_of(read_bytes(device, 7)) == "goes on");
+  CHECK(text_of(read_bytes(terminal.device, 7)) == "goes on");
 }
 
 TEST_CASE("the port is as it was when the link has closed it", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  make_interactive(device.descriptor());
-  const termios2 before = settings_of(device.descriptor());
-  SerialLink link(serial_at(folder, device.device(), 500'000));
+  Terminal terminal;
+  make_interactive(terminal.device.descriptor());
+  const termios2 before = settings_of(terminal.device.descriptor());
+  SerialLink link(terminal.options(500'000));
   must_open(link);
-  CHECK((settings_of(device.descriptor()).c_lflag & (ECHO | ICANON)) == 0U);
+  CHECK((settings_of(terminal.device.descriptor()).c_lflag & (ECHO | ICANON)) == 0U);
   link.close();
-  const termios2 after = settings_of(device.descriptor());
+  const termios2 after = settings_of(terminal.device.descriptor());
   CHECK(after.c_lflag == before.c_lflag);
   CHECK(after.c_iflag == before.c_iflag);
   CHECK(after.c_oflag == before.c_oflag);
@@ -133,27 +132,23 @@ TEST_CASE("the port is as it was when the link has closed it", "[hw][link][seria
 
 TEST_CASE("a port has one link at a time, and a program is told if the other one is its own",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink first(serial_at(folder, device.device()));
+  Terminal terminal;
+  SerialLink first(terminal.options());
   must_open(first);
-  SerialLink second(serial_at(folder, device.device(), 500'000));
+  SerialLink second(terminal.options(500'000));
   const Error refused = error_of_opening(second);
   CHECK(refused.code == Code::unavailable);
   CHECK_THAT(refused.message, Contains("in use by this program itself, for another device"));
-  CHECK(device.line()->baud == 9600);  // the second attempt changed nothing
+  CHECK(terminal.device.line()->baud == 9600);  // the second attempt changed nothing
   must_write(first, bytes_of("mine"));
-  CHECK(text_of(read_bytes(device, 4)) == "mine");
+  CHECK(text_of(read_bytes(terminal.device, 4)) == "mine");
   first.close();
   must_open(second);
 }
 
 TEST_CASE("a port that another program has locked is refused with that program's number",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
+  Terminal terminal;
   int ready[2] = {-1, -1};
   int done[2] = {-1, -1};
   REQUIRE(pipe(ready) == 0);
@@ -162,14 +157,14 @@ TEST_CASE("a port that another program has locked is refused with that program's
   if (child == 0) {
     char byte = 0;
     close(done[1]);
-    const int terminal = ::open(device.device().c_str(), O_RDWR | O_NOCTTY);
-    const bool locked = flock(terminal, LOCK_EX | LOCK_NB) == 0 && write(ready[1], "r", 1) == 1;
+    const int number = ::open(terminal.device.device().c_str(), O_RDWR | O_NOCTTY);
+    const bool locked = flock(number, LOCK_EX | LOCK_NB) == 0 && write(ready[1], "r", 1) == 1;
     _exit(locked && read(done[0], &byte, 1) == 0 ? 0 : 1);  // until the test closes the pipe, or dies
   }
   close(done[0]);
   char byte = 0;
   REQUIRE(read(ready[0], &byte, 1) == 1);
-  SerialLink link(serial_at(folder, device.device()));
+  SerialLink link(terminal.options());
   const Error refused = error_of_opening(link);
   CHECK(refused.code == Code::unavailable);
   CHECK_THAT(refused.message, Contains("(process " + std::to_string(child) + ")"));
@@ -185,12 +180,10 @@ TEST_CASE("a port that another program has locked is refused with that program's
 
 TEST_CASE("other programs cannot open the port while a link has it, unless they are root's",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  SerialLink link(terminal.options());
   must_open(link);
-  const Descriptor other = open_plainly(device.device());
+  const Descriptor other = open_plainly(terminal.device.device());
   int exclusive = -1;
   if (!other) {
     CHECK(errno == EBUSY);
@@ -201,7 +194,7 @@ TEST_CASE("other programs cannot open the port while a link has it, unless they 
     CHECK(flock(other.number(), LOCK_EX | LOCK_NB) != 0);
   }
   link.close();
-  const Descriptor later = open_plainly(device.device());
+  const Descriptor later = open_plainly(terminal.device.device());
   REQUIRE(later);
   CHECK(ioctl(later.number(), TIOCGEXCL, &exclusive) == 0);
   CHECK(exclusive == 0);
@@ -209,10 +202,8 @@ TEST_CASE("other programs cannot open the port while a link has it, unless they 
 
 TEST_CASE("closing waits for the last words at the line's rate, but not for a device that is stuck",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link(serial_at(folder, device.device(), 9600));
+  Terminal terminal;
+  SerialLink link(terminal.options(9600));
   const auto time_to_close = [&] {
     const auto begin = std::chrono::steady_clock::now();
     link.close();
@@ -235,14 +226,12 @@ TEST_CASE("closing waits for the last words at the line's rate, but not for a de
 
 TEST_CASE("a line that is held back is told after half a second, and what waited does not go out later",
           "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  const Descriptor port = open_plainly(device.device());
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  const Descriptor port = open_plainly(terminal.device.device());
+  SerialLink link(terminal.options());
   must_open(link);
   must_write(link, bytes_of("before "));
-  CHECK(text_of(read_bytes(device, 7)) == "before ");
+  CHECK(text_of(read_bytes(terminal.device, 7)) == "before ");
   REQUIRE(ioctl(port.number(), TCXONC, TCOOFF) == 0);
   must_write(link, bytes_of("late"));
   CHECK(read_some(link).empty());
@@ -259,15 +248,13 @@ TEST_CASE("a line that is held back is told after half a second, and what waited
   REQUIRE(ioctl(port.number(), TCXONC, TCOON) == 0);
   must_open(link);
   must_write(link, bytes_of("after"));
-  CHECK(text_of(read_bytes(device, 5)) == "after");
+  CHECK(text_of(read_bytes(terminal.device, 5)) == "after");
 }
 
 TEST_CASE("a line that is slow, but takes what it gets, is not told as held back", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  const Descriptor port = open_plainly(device.device());
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  const Descriptor port = open_plainly(terminal.device.device());
+  SerialLink link(terminal.options());
   must_open(link);
   const TimePoint end = steady_now() + 1500ms;
   while (steady_now() < end) {  // now and then some bytes go, and never all
@@ -277,7 +264,7 @@ TEST_CASE("a line that is slow, but takes what it gets, is not told as held back
     std::this_thread::sleep_for(200ms);
     REQUIRE(ioctl(port.number(), TCXONC, TCOON) == 0);
     REQUIRE(link.flush().ok());
-    (void)read_some(device);
+    (void)read_some(terminal.device);
   }
   CHECK(link.pending() == 0);
 }
@@ -347,10 +334,8 @@ TEST_CASE("who names a socket by its path means what is plugged in there now", "
 }
 
 TEST_CASE("a copy of the process does not keep a port that was closed", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  SerialLink link(terminal.options());
   must_open(link);
   int done[2] = {-1, -1};
   REQUIRE(pipe(done) == 0);
@@ -370,12 +355,10 @@ TEST_CASE("a copy of the process does not keep a port that was closed", "[hw][li
 }
 
 TEST_CASE("what a device sent before the link was opened is not read", "[hw][link][serial]") {
-  const TempFolder folder;
-  PtyLink device;
-  must_open(device);
-  must_write(device, bytes_of("boot message"));
-  SerialLink link(serial_at(folder, device.device()));
+  Terminal terminal;
+  must_write(terminal.device, bytes_of("boot message"));
+  SerialLink link(terminal.options());
   must_open(link);
-  must_write(device, bytes_of("reply"));
+  must_write(terminal.device, bytes_of("reply"));
   CHECK(text_of(read_bytes(link, 5)) == "reply");
 }

@@ -96,6 +96,11 @@ struct Talk {
   Line line;
 };
 
+// One whose peer has joined.
+struct JoinedTalk : Talk {
+  explicit JoinedTalk(Duration liveliness = 10s) : Talk(liveliness) { join(); }
+};
+
 bool is_parcel_1(const Talk::Written& one) { return one.sequence == 1; }
 bool is_anything(const Talk::Written& /*one*/) { return true; }
 
@@ -125,14 +130,12 @@ TEST_CASE("a line without a peer greets at each tick for two seconds, and at eac
 }
 
 TEST_CASE("a line with nothing to say gives a sign of life at each second tick", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   CHECK(talk.ticks_with(10, is_anything) == Ticks{2, 4, 6, 8, 10});
 }
 
 TEST_CASE("what has arrived is confirmed at the next tick", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   talk.hear(1);
   const auto confirms = [](const Talk::Written& one) { return one.received == 1; };
   CHECK(talk.ticks_with(1, confirms) == Ticks{1});
@@ -143,8 +146,7 @@ TEST_CASE(
     "a parcel that is not confirmed is repeated after three ticks, then ever more rarely, twice a second at "
     "last",
     "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   REQUIRE(talk.send(100) == Sent::yes);
   const auto lives = [&] { talk.hear(); };
   CHECK(talk.ticks_with(100, is_parcel_1, lives) == Ticks{4, 10, 22, 46, 71, 96});
@@ -155,24 +157,21 @@ TEST_CASE(
 }
 
 TEST_CASE("a parcel that was confirmed is not repeated", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   REQUIRE(talk.send(100) == Sent::yes);
   talk.hear(0, 1);
   CHECK(talk.ticks_with(20, is_parcel_1).empty());
 }
 
 TEST_CASE("a receipt for more than was sent means nothing", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   REQUIRE(talk.send(100) == Sent::yes);
   talk.hear(0, 2);
   CHECK(talk.ticks_with(4, is_parcel_1) == Ticks{4});
 }
 
 TEST_CASE("a line repeats as many parcels at once as are begun within a mebibyte", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   for (int i = 0; i < 12; ++i) REQUIRE(talk.send(kMebi / 4) == Sent::yes);
   REQUIRE(talk.ticks_with(4, is_parcel_1) == Ticks{4});
   std::vector<std::uint64_t> repeated;
@@ -182,8 +181,7 @@ TEST_CASE("a line repeats as many parcels at once as are begun within a mebibyte
 }
 
 TEST_CASE("what may be lost is refused while more than 4 MiB are not confirmed", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   for (int i = 0; i < 5; ++i) CHECK(talk.send(kMebi, Loss::allowed) == Sent::yes);
   CHECK(talk.send(kMebi, Loss::allowed) == Sent::no_room);
   CHECK(talk.send(kMebi) == Sent::yes);
@@ -200,8 +198,7 @@ TEST_CASE("a parcel has 32 MiB at most", "[patterns][dds]") {
 
 TEST_CASE("a peer that lives but confirms nothing is lost as soon as more than 64 MiB wait for it",
           "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   REQUIRE(talk.send(32 * kMebi) == Sent::yes);
   REQUIRE(talk.send(32 * kMebi) == Sent::yes);
   talk.line.tick();
@@ -213,8 +210,7 @@ TEST_CASE("a peer that lives but confirms nothing is lost as soon as more than 6
 }
 
 TEST_CASE("256 parcels behind a missing one are kept, and more have to be repeated", "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   for (std::uint64_t sequence = 2; sequence <= 300; ++sequence) talk.hear(sequence);
   CHECK(talk.counter.frames == 0);
   talk.hear(1);
@@ -225,8 +221,7 @@ TEST_CASE("256 parcels behind a missing one are kept, and more have to be repeat
 
 TEST_CASE("a peer is lost in the first tick after its liveliness time, and the reason says how long that is",
           "[patterns][dds]") {
-  Talk talk(300ms);
-  talk.join();
+  JoinedTalk talk(300ms);
   for (int tick = 1; tick <= 15; ++tick) talk.line.tick();
   CHECK(talk.line.is_joined());
   talk.line.tick();
@@ -236,8 +231,7 @@ TEST_CASE("a peer is lost in the first tick after its liveliness time, and the r
 
 TEST_CASE("a line that has lost its peer takes part under another number, and greets it quickly again",
           "[patterns][dds]") {
-  Talk talk;
-  talk.join();
+  JoinedTalk talk;
   const std::uint64_t before = talk.own;
   talk.line.lose(fail(Code::unavailable, "it is said to be gone"));
   CHECK(talk.counter.why_lost == "it is said to be gone");

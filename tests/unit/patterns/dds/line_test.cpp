@@ -119,6 +119,11 @@ class Pair {
   std::unique_ptr<Line> far;
 };
 
+// A pair whose near side has a listener for the edge.
+struct ListeningPair : Pair {
+  ListeningPair() { near.add(kEdge, near_listener); }
+};
+
 std::vector<std::uint64_t> up_to(std::uint64_t last) {
   std::vector<std::uint64_t> numbers;
   for (std::uint64_t i = 1; i <= last; ++i) numbers.push_back(i);
@@ -128,8 +133,7 @@ std::vector<std::uint64_t> up_to(std::uint64_t last) {
 }  // namespace
 
 TEST_CASE("a parcel that was sent before the peer was there arrives", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   REQUIRE(pair.near.send(numbered(1), pair.near_listener.session) == Sent::yes);
   pair.drop_all();
   CHECK_FALSE(pair.near.is_joined());
@@ -156,8 +160,7 @@ TEST_CASE("what comes before the end that it is for is there waits for it, in or
 }
 
 TEST_CASE("what comes for an end that has gone is for nobody, also not for the next one", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.far->remove(kEdge);
   REQUIRE(pair.near.send(numbered(1), pair.near_listener.session) == Sent::yes);
@@ -220,8 +223,7 @@ TEST_CASE("each parcel arrives once and in order, whatever the network does", "[
 }
 
 TEST_CASE("a peer that was started again is another one", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   const std::uint64_t session = pair.near_listener.session;
   pair.tick(3);
   pair.loss = 1.0;
@@ -238,8 +240,7 @@ TEST_CASE("a peer that was started again is another one", "[patterns][dds]") {
 }
 
 TEST_CASE("what a process has said before it was replaced means nothing afterwards", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.far->send_now(numbered(1));
   const std::deque<std::vector<std::byte>> late = pair.to_near();
@@ -259,8 +260,7 @@ TEST_CASE("a stranger who has read along is not believed, whatever of the peer's
   const std::uint64_t ahead = GENERATE(1U, 2U, 100U);
   const bool is_new = GENERATE(false, true);  // it says that it is a process that was started again
   CAPTURE(ahead, is_new);
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.far->send_now(numbered(1));
   std::span<const std::byte> heard = pair.to_near().front();
@@ -281,8 +281,7 @@ TEST_CASE("a stranger who has read along is not believed, whatever of the peer's
 }
 
 TEST_CASE("a silent peer is lost after the liveliness time, and found again", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.loss = 1.0;
   pair.tick(13);  // there may have been silence of up to two ticks before
@@ -297,8 +296,7 @@ TEST_CASE("a silent peer is lost after the liveliness time, and found again", "[
 }
 
 TEST_CASE("a line that was cut joins again if the peer lives", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.near.lose(fail(Code::unavailable, "it is said to be gone"));
   CHECK_FALSE(pair.near.is_peer(pair.far_origin()));
@@ -308,8 +306,7 @@ TEST_CASE("a line that was cut joins again if the peer lives", "[patterns][dds]"
 }
 
 TEST_CASE("an end that is removed tells the other one", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   pair.near.remove(kEdge);
   pair.carry();
@@ -317,8 +314,7 @@ TEST_CASE("an end that is removed tells the other one", "[patterns][dds]") {
 }
 
 TEST_CASE("a peer that does not confirm anything is sent no more than fits", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   const std::uint64_t session = pair.near_listener.session;
   pair.loss = 1.0;
   std::vector<std::byte> large = numbered(1);
@@ -351,8 +347,7 @@ TEST_CASE("messages that come in one sample are taken one by one, up to one that
 }
 
 TEST_CASE("whatever arrives that is no message is discarded", "[patterns][dds]") {
-  Pair pair;
-  pair.near.add(kEdge, pair.near_listener);
+  ListeningPair pair;
   pair.tick(3);
   std::mt19937 random(5);
   const std::vector<std::byte> good = encode({kFarId, 1, 2, 3, 4, numbered(5)});

@@ -121,16 +121,20 @@ Result<std::unique_ptr<Participant>> open(const std::string& process, const std:
 
 TopicOptions topic() { return {kTopic, "orca::dds::Message", 16}; }
 
+template <class T>
+T must(Result<T> made) {
+  if (!made) throw std::runtime_error(made.error().text());
+  return std::move(made).value();
+}
+
 // A reader of the topic that knows what it has heard, and from which participants.
 class Listener {
  public:
   explicit Listener(Participant& participant) {
-    auto made = participant.make_reader(topic(), [this](const Sample& sample) {
+    reader_ = must(participant.make_reader(topic(), [this](const Sample& sample) {
       const std::lock_guard lock(mutex_);
       from_.push_back(sample.origin);
-    });
-    if (!made) throw std::runtime_error(made.error().text());
-    reader_ = std::move(made).value();
+    }));
   }
   [[nodiscard]] std::size_t count() const {
     const std::lock_guard lock(mutex_);
@@ -145,6 +149,19 @@ class Listener {
   mutable std::mutex mutex_;
   std::vector<Origin> from_;
   std::unique_ptr<TopicReader> reader_;
+};
+
+// A process that hears what is written to the topic, and one that writes it.
+struct Reading {
+  explicit Reading(const std::string& keys) : process(must(open("reader", keys))), heard(*process) {}
+  std::unique_ptr<Participant> process;
+  Listener heard;
+};
+struct Writing {
+  explicit Writing(const std::string& keys)
+      : process(must(open("writer", keys))), out(must(process->make_writer(topic()))) {}
+  std::unique_ptr<Participant> process;
+  std::shared_ptr<TopicWriter> out;
 };
 
 // Writes until the listener has heard something new. Returns whether it has, within the time.
@@ -164,38 +181,28 @@ bool is_heard(TopicWriter& writer, const Listener& listener, std::chrono::millis
 TEST_CASE("processes with keys of one authority hear each other, and know each other's names",
           "[patterns][dds][security]") {
   const Keys keys;
-  auto reader = open("reader", keys.machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
-  auto writer = open("writer", keys.machine());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
-  REQUIRE(is_heard(**out, listener, 10s));
-  CHECK((*reader)->may_speak_for(listener.last(), "writer"));
-  CHECK_FALSE((*reader)->may_speak_for(listener.last(), "reader"));
+  const Reading reader(keys.machine());
+  const Writing writer(keys.machine());
+  REQUIRE(is_heard(*writer.out, reader.heard, 10s));
+  CHECK(reader.process->may_speak_for(reader.heard.last(), "writer"));
+  CHECK_FALSE(reader.process->may_speak_for(reader.heard.last(), "reader"));
 }
 
 TEST_CASE("a plain participant neither hears nor is heard, and the log says so",
           "[patterns][dds][security]") {
   const Keys keys;
   const HeardLog log;
-  auto reader = open("reader", keys.machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
-  auto writer = open("writer", keys.machine());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
+  const Reading reader(keys.machine());
+  const Writing writer(keys.machine());
   auto stranger = open("stranger", "");
   REQUIRE(stranger);
   const Listener eavesdropper(**stranger);
-  CHECK(is_heard(**out, listener, 10s));
+  CHECK(is_heard(*writer.out, reader.heard, 10s));
   CHECK(eavesdropper.count() == 0);
   auto forged = (*stranger)->make_writer(topic());
   REQUIRE(forged);
   std::this_thread::sleep_for(100ms);
-  CHECK_FALSE(is_heard(**forged, listener, 1s));
+  CHECK_FALSE(is_heard(**forged, reader.heard, 1s));
   CHECK(log.says("what 127.0.0.1 says over DDS is dropped: it has no certificate of this system"));
 }
 
@@ -203,14 +210,9 @@ TEST_CASE("a process of another system is not heard", "[patterns][dds][security]
   const Keys keys;
   const Keys others;
   const HeardLog log;
-  auto reader = open("reader", keys.machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
-  auto writer = open("writer", others.machine());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
-  CHECK_FALSE(is_heard(**out, listener, 1s));
+  const Reading reader(keys.machine());
+  const Writing writer(others.machine());
+  CHECK_FALSE(is_heard(*writer.out, reader.heard, 1s));
   CHECK(log.says("it has no certificate of this system"));
 }
 
@@ -221,15 +223,10 @@ TEST_CASE("who claims the very name of a process with the certificate of another
   do keys.emplace();
   while (keys->first() != "writer");
   const HeardLog log;
-  auto reader = open("reader", keys->machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
+  const Reading reader(keys->machine());
   keys->forge("writer");
-  auto writer = open("writer", keys->forged());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
-  CHECK_FALSE(is_heard(**out, listener, 2s));
+  const Writing writer(keys->forged());
+  CHECK_FALSE(is_heard(*writer.out, reader.heard, 2s));
   CHECK(log.says("it cannot prove to be process writer"));
 }
 
@@ -303,50 +300,37 @@ TEST_CASE("a revoked process is not heard any more, a second after its neighbour
           "[patterns][dds][security]") {
   const Keys keys;
   const HeardLog log;
-  auto reader = open("reader", keys.machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
+  const Reading reader(keys.machine());
   const Keys::Copy stolen(keys);  // its owner does not know of the new list
-  auto writer = open("writer", stolen.machine());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
-  REQUIRE(is_heard(**out, listener, 10s));
+  const Writing writer(stolen.machine());
+  REQUIRE(is_heard(*writer.out, reader.heard, 10s));
   REQUIRE(keys::revoke_keys(keys.system(), "writer", {kWriter}, for_a(1h)));
   std::this_thread::sleep_for(1100ms);
-  (*reader)->look_after_keys();
-  CHECK_FALSE(is_heard(**out, listener, 500ms));
+  reader.process->look_after_keys();
+  CHECK_FALSE(is_heard(*writer.out, reader.heard, 500ms));
   CHECK(log.says("says over DDS is dropped: the certificate of process writer was revoked"));
-  auto successor = open("writer", keys.machine());
-  REQUIRE(successor);
-  auto its = (*successor)->make_writer(topic());
-  REQUIRE(its);
-  CHECK(is_heard(**its, listener, 10s));
+  const Writing successor(keys.machine());
+  CHECK(is_heard(*successor.out, reader.heard, 10s));
 }
 
 TEST_CASE("a process whose certificate expires while it runs is cut off", "[patterns][dds][security]") {
   const Keys keys;
   REQUIRE(keys::renew_keys(keys.system(), {kWriter}, for_a(2s)).ok());
   const HeardLog log;
-  auto reader = open("reader", keys.machine());
-  REQUIRE(reader);
-  const Listener listener(**reader);
-  auto writer = open("writer", keys.machine());
-  REQUIRE(writer);
-  auto out = (*writer)->make_writer(topic());
-  REQUIRE(out);
-  REQUIRE(is_heard(**out, listener, 10s));
+  const Reading reader(keys.machine());
+  const Writing writer(keys.machine());
+  REQUIRE(is_heard(*writer.out, reader.heard, 10s));
   CHECK(log.says("the certificate of this process expires in 0 days"));
   SECTION("by itself") {
     std::this_thread::sleep_for(4s);
-    (*writer)->look_after_keys();
-    CHECK_FALSE(is_heard(**out, listener, 300ms));
+    writer.process->look_after_keys();
+    CHECK_FALSE(is_heard(*writer.out, reader.heard, 300ms));
     CHECK(log.says("this process is cut off from DDS: its certificate has expired"));
   }
   SECTION("by its neighbours, if it does not do so itself") {
     std::this_thread::sleep_for(4s);
-    (*reader)->look_after_keys();
-    CHECK_FALSE(is_heard(**out, listener, 300ms));
+    reader.process->look_after_keys();
+    CHECK_FALSE(is_heard(*writer.out, reader.heard, 300ms));
     CHECK(log.says("the certificate of process writer has expired"));
   }
 }
