@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,12 +11,12 @@
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
-#include "orca/idl/hardware.hpp"
 #include "orca/idl/machines.hpp"
 #include "orca/idl/moving.hpp"
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/pose_history.hpp"
+#include "orca/planning/asked_robot.hpp"
 
 namespace {
 
@@ -58,18 +57,12 @@ class Teammates final : public orca::Component {
     forget_places();
     mates_.clear();
     sources_.clear();
-    if (!robot_.connected()) return orca::ok();
-    const orca::Result<orca::QueryId> sent = robot_.query_request(robot_.loan());
-    if (!sent)
-      return orca::fail(sent.error().code, "cannot ask the base about the robot: " + sent.error().message);
-    question_ = *sent;
-    return orca::ok();
+    return robot_.ask();
   }
 
   void stop() override {
     others_.unsubscribe_all();
-    if (question_) robot_.query_forget(*question_);
-    question_.reset();
+    robot_.leave();
   }
 
   orca::Outcome work() override {
@@ -86,10 +79,8 @@ class Teammates final : public orca::Component {
   }
 
   void learn_robot() {
-    const auto answer = question_ ? robot_.query_receive(*question_) : std::nullopt;
-    if (!answer) return;
-    question_.reset();
-    if (*answer) own_radius_ = std::max((**answer)->radius(), (**answer)->bumper_radius());
+    // A base that does not describe the robot leaves its radius to the parameter.
+    if (robot_.learn().ok() && robot_.body()) own_radius_ = robot_.body()->radius;
   }
 
   void hear_others() {
@@ -176,8 +167,7 @@ class Teammates final : public orca::Component {
       "seen",
       {.text = "Who else moves near the robot, by its own sensors; goes on to MovingThingsPush.",
        .optional = true}};
-  orca::QueryProxy<orca::idl::Ask, orca::idl::Robot> robot_{
-      *this, "robot", {.text = "Base that is asked how large the robot is.", .optional = true}};
+  orca::planning::AskedRobot robot_{*this, "Base that is asked how large the robot is."};
   orca::PushServer<Teammate> mate_{
       *this, "TeammatePush", {.text = "What this robot says of itself, at most twenty times a second."}};
   orca::PushServer<MovingThings> moving_{*this,
@@ -215,7 +205,6 @@ class Teammates final : public orca::Component {
   std::optional<orca::team::Mates::Here> here_;  // nothing: the robot does not know where it is
   orca::ObjectPtr<orca::idl::RobotPose> told_;
   std::optional<orca::TimePoint> told_at_;
-  std::optional<orca::QueryId> question_;  // to the base, as long as it has not answered
   std::optional<double> own_radius_;
   bool is_name_taken_ = false;  // and that is reported
 };
