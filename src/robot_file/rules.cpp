@@ -186,13 +186,9 @@ constexpr std::array kRobotElements{&kRobotRule,        &kOrcaRule,       &kDriv
 constexpr xml::FileRules kRobotFile{"a robot",
                                     kRobotElements,
                                     {.unknown_element = codes::kUnknownElement,
-                                     .misplaced_element = codes::kUnknownElement,
                                      .unknown_attribute = codes::kUnknownAttribute,
                                      .missing_attribute = codes::kMissing,
                                      .stray_text = codes::kStrayText,
-                                     .bad_value = codes::kBadValue,
-                                     .wrong_unit = codes::kBadValue,
-                                     .out_of_range = codes::kBadValue,
-                                     .unknown_choice = codes::kBadValue}};
+                                     .bad_value = codes::kBadValue}};
 
 }  // namespace orca::robot_file

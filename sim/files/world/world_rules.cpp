@@ -169,13 +169,9 @@ constexpr std::array kWorldElements{&kWorldRule,    &kWallRule,    &kRoomRule,  
 constexpr xml::FileRules kWorldFile{"a world",
                                     kWorldElements,
                                     {.unknown_element = world_codes::kUnknownElement,
-                                     .misplaced_element = world_codes::kUnknownElement,
                                      .unknown_attribute = world_codes::kUnknownAttribute,
                                      .missing_attribute = world_codes::kMissing,
                                      .stray_text = world_codes::kStrayText,
-                                     .bad_value = world_codes::kBadValue,
-                                     .wrong_unit = world_codes::kBadValue,
-                                     .out_of_range = world_codes::kBadValue,
-                                     .unknown_choice = world_codes::kBadValue}};
+                                     .bad_value = world_codes::kBadValue}};
 
 }  // namespace orca::sim::detail

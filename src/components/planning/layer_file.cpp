@@ -45,8 +45,7 @@ constexpr ElementRule kLane{.name = "lane", .attributes = kLaneHas};
 constexpr std::array<const ElementRule*, 3> kZones{&kKeepOut, &kSlow, &kLane};
 constexpr ElementRule kLayer{.name = "layer", .attributes = kLayerHas, .children = kZones};
 constexpr std::array<const ElementRule*, 4> kElements{&kLayer, &kKeepOut, &kSlow, &kLane};
-constexpr xml::FileRules kFile{
-    "a layer", kElements, {"L002", "L002", "L003", "L004", "L006", "L005", "L005", "L005", "L005"}};
+constexpr xml::FileRules kFile{"a layer", kElements, {"L002", "L002", "L003", "L004", "L006", "L005"}};
 
 // Returns the rectangle between two corners, or along a line of some width.
 std::optional<nav::FloorZone> zone_of(const xml::Attributes& element, Kind kind) {

@@ -115,10 +115,7 @@ const xml::FileRules kTaskFile{"a task",
                                 .unknown_attribute = codes::kUnknownAttribute,
                                 .missing_attribute = codes::kMissing,
                                 .stray_text = codes::kStrayText,
-                                .bad_value = codes::kBadValue,
-                                .wrong_unit = codes::kBadValue,
-                                .out_of_range = codes::kBadValue,
-                                .unknown_choice = codes::kBadValue}};
+                                .bad_value = codes::kBadValue}};
 
 Kind kind_of(std::string_view element) {
   return std::ranges::find(kKinds, element, &NamedKind::element)->kind;

@@ -196,13 +196,9 @@ constexpr std::array kElements{&kExperimentRule, &kSetRule,    &kGoalRule,      
 constexpr xml::FileRules kExperimentFile{"an experiment",
                                          kElements,
                                          {.unknown_element = codes::kUnknownElement,
-                                          .misplaced_element = codes::kUnknownElement,
                                           .unknown_attribute = codes::kUnknownAttribute,
                                           .missing_attribute = codes::kMissing,
                                           .stray_text = codes::kStrayText,
-                                          .bad_value = codes::kBadValue,
-                                          .wrong_unit = codes::kBadValue,
-                                          .out_of_range = codes::kBadValue,
-                                          .unknown_choice = codes::kBadValue}};
+                                          .bad_value = codes::kBadValue}};
 
 }  // namespace orca::batch

@@ -59,14 +59,14 @@ struct ElementRule {
 /// The codes that a kind of file gives to violations of its rules.
 struct RuleCodes {
   const char* unknown_element;
-  const char* misplaced_element;
+  const char* misplaced_element = unknown_element;
   const char* unknown_attribute;
   const char* missing_attribute;
   const char* stray_text;
   const char* bad_value;
-  const char* wrong_unit;
-  const char* out_of_range;
-  const char* unknown_choice;
+  const char* wrong_unit = bad_value;
+  const char* out_of_range = bad_value;
+  const char* unknown_choice = bad_value;
 };
 
 /// The rules of one kind of file.
