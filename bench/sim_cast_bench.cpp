@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Time of the rays of a laser fan in the scene of 200 turned boxes, compared with Bullet's own rays against
 // one triangle mesh. A thousand divided by the nanoseconds per ray is millions of rays per second.
-#include <memory>
 #include <vector>
 
 #include "bare_bullet.hpp"

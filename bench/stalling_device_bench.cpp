@@ -13,7 +13,6 @@
 #include "comparison.hpp"
 #include "on_executive.hpp"
 #include "orca/base/descriptor.hpp"
-#include "orca/base/steady_clock.hpp"
 #include "orca/base/strand.hpp"
 #include "orca/hardware.hpp"
 #include "orca/hw/link/pty_link.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 
-import { byId, el, figure, notify, setText, svg } from "./dom.js";
+import { byId, figure, notify, setText, svg } from "./dom.js";
 import { componentOf } from "./system_model.js";
 import { along, curve, detour, drawnName, frameOf, misfit, planOf, portPlace, ROW } from "./system_layout.js";
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/emulators/player_firmware.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "player_robot.hpp"

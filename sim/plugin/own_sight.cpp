@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "own_sight.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "orca/base/text.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "world_surroundings.hpp"
 
-#include <cmath>
-
 #include "orca/idl/time.hpp"
 #include "world_objects.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/base/distant_log.hpp"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 

@@ -3,8 +3,6 @@
 
 #include <sys/stat.h>
 
-#include <optional>
-
 #include "crypto.hpp"
 #include "key_files.hpp"
 #include "orca/base/files/key_folder.hpp"

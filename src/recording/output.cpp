@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "orca/base/descriptor.hpp"
-#include "orca/base/text.hpp"
 
 namespace orca::recording {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/recording/reader.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>

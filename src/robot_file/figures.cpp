@@ -2,7 +2,6 @@
 #include "orca/robot_file/figures.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "orca/base/portable_math.hpp"
 #include "orca/base/text.hpp"

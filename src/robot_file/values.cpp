@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/robot_file/values.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "orca/base/text.hpp"

@@ -2,7 +2,6 @@
 #include "orca/tracking/free_floor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "orca/navigation/lattice.hpp"
 

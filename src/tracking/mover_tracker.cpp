@@ -2,7 +2,6 @@
 #include "orca/tracking/mover_tracker.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace orca::tracking {

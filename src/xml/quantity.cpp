@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -169,16 +168,6 @@ std::vector<std::string> split_quantities(std::string_view text) {
   std::vector<std::string> quantities;
   for (const std::string_view piece : pieces) quantities.push_back(std::string(piece) + unit);
   return quantities;
-}
-
-Result<std::vector<double>> parse_quantities(std::string_view text, std::string_view si) {
-  std::vector<double> values;
-  for (const std::string& piece : split_quantities(text)) {
-    const Result<double> value = parse_quantity(piece, si);
-    if (!value) return value.error();
-    values.push_back(*value);
-  }
-  return values;
 }
 
 Result<Measured> parse_measured(std::string_view text) {

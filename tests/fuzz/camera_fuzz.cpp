@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of cameras: whatever bytes come, in whatever size, they are refused or become a whole picture, and a picture that is
 // whole still is after them. The first bytes choose the format and the size.
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "channel/packets.hpp"
 #include "orca/supervisor/control.hpp"

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "orca/recording/reader.hpp"

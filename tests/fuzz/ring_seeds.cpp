@@ -2,7 +2,6 @@
 // Writes seeds for ring_fuzz into a folder: for each pattern and side, what an honest peer writes into the segment.
 #include <fstream>
 #include <iostream>
-#include <optional>
 #include <string>
 
 #include "all_ports.hpp"

@@ -2,7 +2,6 @@
 // RPLIDAR: a stream gives the same events however it is cut, and every point is within its range. Turns of the points
 // have all their beams. The first byte chooses the pieces, and where in the stream a new answer is expected.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include "bags.hpp"
@@ -16,7 +15,6 @@
 
 using namespace orca::test;
 using Catch::Contains;
-using Catch::StartsWith;
 
 namespace {
 

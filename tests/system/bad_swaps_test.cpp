@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A swap cannot lose the robot: whatever the new version does, the robot drives or stands, and its process lives.
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <regex>

@@ -2,7 +2,6 @@
 // Cameras in a system: the real driver where no camera is, and the same driver with a camera that plays pictures.
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <numbers>
 
 #include "deployer.hpp"

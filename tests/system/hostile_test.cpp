@@ -15,7 +15,6 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
-#include <set>
 
 #include "hosted_system.hpp"
 #include "orca/supervisor/channel.hpp"

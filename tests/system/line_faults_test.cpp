@@ -16,7 +16,6 @@
 #include "deployer.hpp"
 #include "device_on_desk.hpp"
 #include "orca/base/descriptor.hpp"
-#include "orca/base/steady_clock.hpp"
 #include "orca/emulators/create2_firmware.hpp"
 #include "orca/emulators/nomad_scout_firmware.hpp"
 #include "orca/emulators/p2os_firmware.hpp"

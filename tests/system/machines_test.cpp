@@ -12,7 +12,6 @@
 #include "process_table.hpp"
 
 using namespace orca::test;
-using Catch::Contains;
 
 namespace {
 

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"

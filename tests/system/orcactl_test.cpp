@@ -5,12 +5,10 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
-#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <thread>
 
 #include "deployer.hpp"

@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "deployer.hpp"
 #include "device_on_desk.hpp"

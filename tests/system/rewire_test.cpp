@@ -4,7 +4,6 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <memory>
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"

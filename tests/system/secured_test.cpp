@@ -12,8 +12,6 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
-#include <functional>
-#include <sstream>
 #include <thread>
 
 #include "dds/backend/participant.hpp"
@@ -38,7 +36,6 @@ namespace {
 const std::string kGraph = "scout_goto_processes";
 const Words kScout{source_file("graphs/scout_goto_processes.xml"), "--set", "link=dds", "--set",
                    "security=on"};
-const std::string kInbox = "orca-lines/scout_goto_processes/*/base";
 const Words kFlow =
     Words{system_graph("flow.xml"), "--set", "link=dds", "--set", "security=on"} + with_test_plugins();
 

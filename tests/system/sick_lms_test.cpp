@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <string>
-#include <thread>
 
 #include "deployer.hpp"
 #include "device_on_desk.hpp"

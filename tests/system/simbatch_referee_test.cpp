@@ -2,7 +2,6 @@
 // The referee of a batch from outside: what a component claims of its goals is not what the run is worth.
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <map>
 #include <sstream>
 #include <string>

@@ -2,7 +2,6 @@
 // The tuner: it finds what is known to be best, in worlds of its own, and says with which budget.
 #include <catch2/catch.hpp>
 
-#include <filesystem>
 #include <string>
 
 #include "batches.hpp"

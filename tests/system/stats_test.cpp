@@ -2,7 +2,7 @@
 // What a user sees of connections that do not keep up: a line in the log, and the numbers of --stats.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "deployer.hpp"

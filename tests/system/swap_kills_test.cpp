@@ -15,7 +15,6 @@
 #include "temp_folder.hpp"
 
 using namespace orca::test;
-using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {

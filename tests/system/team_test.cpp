@@ -11,7 +11,6 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "orca/base/input_file.hpp"
 #include "orca/robot_file/values.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/sim/robot_file.hpp"
 
-#include <algorithm>
-
 #include "mounts.hpp"
 #include "orca/sim/world.hpp"
 #include "orca/xml/attributes.hpp"

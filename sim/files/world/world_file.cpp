@@ -2,7 +2,6 @@
 #include "orca/sim/world_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 

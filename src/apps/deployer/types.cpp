@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <optional>
 #include <sstream>
 #include <vector>
 

@@ -13,7 +13,6 @@
 #include <iterator>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 #include "answers.hpp"
 

@@ -2,8 +2,6 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "ports.hpp"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "access.hpp"

@@ -2,7 +2,6 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "wish.hpp"
 
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,6 @@
 #include "orca/base/system/pace.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "orca/base/steady_clock.hpp"

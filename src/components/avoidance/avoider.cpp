@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/arc.hpp"

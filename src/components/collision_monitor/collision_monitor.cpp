@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,7 +31,6 @@ using orca::Pose2;
 using orca::Status;
 using orca::TimePoint;
 using orca::Twist2;
-using orca::Vec2;
 using orca::gate::Verdict;
 using orca::idl::LaserRangeReadings;
 using orca::idl::MotionCommand;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/goals/legs.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace orca::go {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "orca/base/portable_math.hpp"
 #include "orca/geometry/angle.hpp"
 
 namespace orca::nd {

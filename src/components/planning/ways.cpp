@@ -7,7 +7,6 @@
 #include <functional>
 #include <queue>
 #include <tuple>
-#include <utility>
 
 #include "orca/geometry/pose2.hpp"
 #include "orca/navigation/distance_transform.hpp"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <utility>
 
 #include "orca/component.hpp"
 #include "orca/hw/description.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <string>
-#include <utility>
 
 #include "orca/component.hpp"
 #include "orca/hw/description.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "lookout.hpp"
-#include "orca/base/text.hpp"
 #include "orca/component.hpp"
 #include "orca/goals/mission_proxy.hpp"
 #include "orca/idl/sensing.hpp"

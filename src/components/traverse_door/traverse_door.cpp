@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <optional>

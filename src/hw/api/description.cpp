@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/description.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "orca/base/text.hpp"

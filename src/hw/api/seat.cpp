@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/hw/seat.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace orca::hw {

@@ -2,7 +2,6 @@
 #include "orca/hw/server.hpp"
 
 #include <atomic>
-#include <cstdio>
 #include <optional>
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include <csetjmp>
 #include <cstdio>  // jpeglib.h needs it before
-#include <string>
 
 #include <jerror.h>
 #include <jpeglib.h>

@@ -2,7 +2,6 @@
 #include "orca/hw/rplidar/turns.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>

@@ -2,8 +2,6 @@
 // Twins of what robots are told, where they are and go, and of what people read.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numbers>
 #include <utility>
 
 #include "convert.hpp"

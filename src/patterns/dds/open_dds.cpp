@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include <utility>
 
 #include "orca/base/files/own_library.hpp"
 #include "orca/patterns/dds/dds_backend.hpp"

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "orca/base/text.hpp"
 #include "orca/geometry/arc.hpp"

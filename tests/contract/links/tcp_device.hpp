@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/hw/link/byte_link.hpp"

@@ -3,7 +3,6 @@
 //
 // Prints a line for each: start x y heading, goal x y, and "clear" if a disc of the required clearance can
 // move straight from one to the other, else "blocked".
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>

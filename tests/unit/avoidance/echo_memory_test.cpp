@@ -2,7 +2,6 @@
 #include "orca/avoidance/echo_memory.hpp"
 
 #include <catch2/catch.hpp>
-#include <numbers>
 #include <utility>
 
 using namespace orca::avoid;
@@ -10,7 +9,6 @@ using orca::Pose2;
 
 namespace {
 
-constexpr double kQuarter = std::numbers::pi / 2;
 constexpr EchoMemory::Limits kMemoryLimits{4.0, 0.25, 0.15, 0.8};
 constexpr Pose2 kStill{};
 

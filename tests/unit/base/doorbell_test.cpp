@@ -9,7 +9,6 @@
 #include <catch2/catch.hpp>
 
 #include <thread>
-#include <vector>
 
 #include "executive_kinds.hpp"
 #include "orca/base/strand.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // FCL as a second opinion on where robots can stand: the simulator refuses a start at which two bodies share a point, and a driver reads
 // the same body from the robot's file.
-#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <vector>

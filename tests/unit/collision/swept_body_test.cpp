@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "orca/base/random.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <vector>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/arc.hpp"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <deque>
 #include <optional>
-#include <vector>
 
 #include "orca/base/random.hpp"
 #include "orca/geometry/arc.hpp"

@@ -11,7 +11,6 @@
 #include "orca/geometry/angle.hpp"
 
 using namespace orca::vfh;
-using orca::Vec2;
 using std::numbers::pi;
 
 namespace {

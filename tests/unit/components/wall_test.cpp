@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "orca/geometry/pose2.hpp"
 
 using namespace orca;
 using namespace orca::wall;
-using std::numbers::pi;
 
 namespace {
 

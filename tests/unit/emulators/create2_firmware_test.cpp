@@ -2,7 +2,6 @@
 // The bytes are those of the interface's specification, written out by hand.
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <numbers>
 
 #include "orca/emulators/create2_firmware.hpp"
@@ -14,7 +13,6 @@ using emulators::Create2Firmware;
 using emulators::Create2Mode;
 using emulators::Create2Settings;
 using hw::test::Bytes;
-using hw::test::hex;
 using hw::test::text_of;
 
 namespace {

@@ -2,7 +2,6 @@
 // The bytes are those of the protocol's description, written out by hand.
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <numbers>
 
 #include "orca/emulators/nomad_scout_firmware.hpp"

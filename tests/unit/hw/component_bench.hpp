@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
-
 #include "diary.hpp"
 #include "orca/component/component.hpp"
 #include "peer.hpp"

@@ -10,7 +10,6 @@ using namespace orca;
 using namespace orca::test;
 using Catch::Contains;
 using hw::HardwareState;
-using Trouble = std::map<std::string, std::function<Status()>>;
 
 namespace {
 

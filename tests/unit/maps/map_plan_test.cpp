@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Floor plans: pictures without a YAML file.
 #include <algorithm>
-#include <iostream>
 
 #include "map_files.hpp"
 #include "public_data.hpp"

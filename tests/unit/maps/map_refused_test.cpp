@@ -2,7 +2,6 @@
 // Map files that are wrong, and what people are told to do.
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 
 #include "map_files.hpp"

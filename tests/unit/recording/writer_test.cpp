@@ -2,7 +2,6 @@
 #include "orca/recording/writer.hpp"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "memory_output.hpp"
 #include "scan.hpp"

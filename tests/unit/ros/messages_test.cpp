@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The messages of ROS 2 as bytes: as other programs write them, and whatever they hold.
 #include <catch2/catch.hpp>
-#include <cstring>
 #include <random>
 #include <set>
 #include <string>

@@ -2,7 +2,6 @@
 // A Dock among who gives goals, who drives, and a localizer that may not know where the robot is.
 #include <catch2/catch.hpp>
 
-#include <numbers>
 #include <string>
 
 #include "orca/geometry/objects/covariance.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Localizer with made-up readings: wrong ones, clocks that jump, maps that come in parts.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
@@ -18,7 +17,6 @@
 using namespace orca;
 using namespace orca::testing;
 using namespace std::chrono_literals;
-using Catch::Contains;
 
 namespace {
 

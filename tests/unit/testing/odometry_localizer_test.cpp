@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
-#include <cmath>
 #include <numbers>
 
 #include "orca/geometry/objects/covariance.hpp"

@@ -15,7 +15,6 @@
 using namespace orca;
 using namespace orca::test;
 using Catch::Contains;
-using Catch::EndsWith;
 using Catch::StartsWith;
 
 namespace {

@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>

@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <utility>
 
 #include "orca/base/descriptor.hpp"
 #include "orca/base/text.hpp"

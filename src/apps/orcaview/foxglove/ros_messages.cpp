@@ -2,7 +2,6 @@
 // Additional permission: LICENSES/Orca-plugin-exception.txt
 #include "foxglove/ros_messages.hpp"
 
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "create2_senses.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scout_senses.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <string>
-
-#include "orca/geometry/angle.hpp"
 
 namespace orca::hw::nomad_scout {
 namespace {

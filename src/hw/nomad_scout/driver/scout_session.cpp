@@ -4,13 +4,14 @@
 #include <cmath>
 #include <string>
 
+#include "orca/hw/nomad_scout/command.hpp"
+
 namespace orca::hw::nomad_scout {
 namespace {
 
 constexpr Duration kAnswerTime = 250ms;      // beside what the bytes take
 constexpr double kExchange = 62.0;           // [bytes] of a command and of the state
 constexpr std::size_t kLongestCommand = 17;  // [bytes] of the payloads that we send; each state has more
-constexpr int kTries = 3;                    // at each rate
 constexpr int kRefusals = 5;                 // NAKs one after the other until we give up
 
 Duration line_time(double bytes, const link::ByteLink& link) {

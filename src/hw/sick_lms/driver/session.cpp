@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <utility>
 
 #include "orca/base/text.hpp"
 #include "orca/hw/sick_lms/scan.hpp"

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "xr4000_senses.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <string>
-
-#include "orca/geometry/angle.hpp"
 
 namespace orca::hw::xr4000 {
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "orca/batch/statistics/holm.hpp"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/batch/batch.hpp"
 
-#include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "crew.hpp"
 #include "orca/batch/difference.hpp"

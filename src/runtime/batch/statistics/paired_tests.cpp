@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/batch/statistics/paired_tests.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "checking/checks.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "orca/xml/attributes.hpp"

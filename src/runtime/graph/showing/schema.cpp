@@ -2,9 +2,7 @@
 #include "orca/xml/schema.hpp"
 
 #include <map>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "orca/base/text.hpp"

@@ -2,7 +2,6 @@
 #include "reception.hpp"
 
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "orca/base/files/own_library.hpp"

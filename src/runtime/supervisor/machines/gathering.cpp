@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "orca/base/hash.hpp"
-#include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/xml/number.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "machines/neighbours.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "orca/base/files/key_folder.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "machines/system_hold.hpp"
 
-#include <algorithm>
 #include <string>
-#include <utility>
 
 #include "orca/base/log.hpp"
 #include "orca/base/text.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "alarm_relay.hpp"
 
-#include <utility>
-
 #include "orca/idl/object_type.hpp"
 #include "orca/supervisor/vocabulary.hpp"
 

@@ -16,7 +16,6 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/files/own_folder.hpp"

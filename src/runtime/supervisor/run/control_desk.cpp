@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstdint>
 #include <exception>
-#include <memory>
 #include <set>
 #include <utility>
 

@@ -2,8 +2,6 @@
 #include "orca/supervisor/supervised_run.hpp"
 
 #include <algorithm>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One mistake gives one error: its consequences are not reported as well. It hides nothing that has another
 // cause.
-#include <algorithm>
 #include <set>
 
 #include "loading.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "orca/graph/diff.hpp"
 
-#include <algorithm>
-
 #include "loading.hpp"
 #include "orca/graph/print.hpp"
 

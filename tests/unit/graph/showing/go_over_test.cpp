@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The graph of a run after it went over to another one: in which order it has its components, and where.
-#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "orca/graph/diff.hpp"

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <iterator>
 #include <map>
-#include <set>
 
 #include "approval.hpp"
 #include "fake_catalogue.hpp"

@@ -3,8 +3,6 @@
 // this test writes them to tests/data/drawings, from where rsvg-convert or a browser shows them without their letters.
 #include <catch2/catch.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdint>
-#include <stdexcept>
 #include <thread>
 
 #include "orca/component.hpp"

@@ -2,7 +2,6 @@
 // Each kind of alarm that a plugin which misbehaves can cause reaches the listener, with component and hook.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "orca/host/last_words.hpp"

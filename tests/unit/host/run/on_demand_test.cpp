@@ -7,7 +7,6 @@ using namespace orca;
 using namespace orca::host;
 using namespace orca::test;
 using Words = std::vector<std::string>;
-using Catch::Contains;
 
 namespace {
 

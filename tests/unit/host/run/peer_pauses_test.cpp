@@ -2,7 +2,6 @@
 // For whom components are suspended.
 #include <catch2/catch.hpp>
 
-#include <map>
 #include <string>
 
 #include "orca/host/peer_call.hpp"

@@ -6,7 +6,6 @@
 
 using namespace orca;
 using namespace orca::test;
-using Catch::Contains;
 using hw::link::PtyLink;
 using hw::link::SerialLink;
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <limits>
-
 #include "orca/hw/player/session.hpp"
 #include "player_bytes.hpp"
 

@@ -3,8 +3,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <string>
-
 #include "hex_bytes.hpp"
 #include "orca/hw/framing/checksums.hpp"
 #include "orca/hw/sick_lms/reply.hpp"

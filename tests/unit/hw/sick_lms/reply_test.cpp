@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 
-#include <string>
-
 #include "hex_bytes.hpp"
 #include "laser_bytes.hpp"
 #include "orca/hw/sick_lms/reply.hpp"

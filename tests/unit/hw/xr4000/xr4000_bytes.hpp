@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 
 #include "hex_bytes.hpp"
 #include "orca/hw/xr4000/frame.hpp"

@@ -9,7 +9,6 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 
-#include <memory>
 #include <string>
 
 #include "dds_links.hpp"

@@ -12,7 +12,6 @@
 using namespace orca;
 using namespace orca::dds;
 using namespace orca::test;
-using Catch::Contains;
 using frames::Caller;
 using frames::Frame;
 using frames::FrameKind;

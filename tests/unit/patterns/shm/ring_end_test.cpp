@@ -12,7 +12,6 @@
 using namespace orca;
 using namespace orca::shm;
 using namespace orca::test;
-using Catch::Contains;
 using frames::Frame;
 using frames::FrameKind;
 using frames::FrameReader;

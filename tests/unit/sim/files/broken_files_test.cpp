@@ -3,7 +3,6 @@
 // tests/data/worlds/broken and tests/data/robots/broken is read, and the messages must equal its .expected.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <chrono>
 
 #include "approval.hpp"

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
-#include <functional>
 
 #include "orca/sim/robot_file.hpp"
 #include "temp_folder.hpp"

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 #include "motion/encounter.hpp"
 #include "orca/base/random.hpp"
@@ -13,7 +12,6 @@
 
 using namespace orca::sim;
 using namespace orca::sim::detail;
-using orca::Pose2;
 using orca::RandomStream;
 using orca::Vec2;
 

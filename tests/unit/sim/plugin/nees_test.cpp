@@ -6,7 +6,6 @@
 #include <catch2/catch.hpp>
 
 #include <array>
-#include <map>
 
 #include "objects.hpp"
 #include "orca/geometry/angle.hpp"

@@ -3,8 +3,6 @@
 // search, and what stands far away does not make the search near by longer.
 #include <catch2/catch.hpp>
 
-#include <numeric>
-
 #include "angles.hpp"
 #include "orca/base/random.hpp"
 #include "rays/grid.hpp"
@@ -16,7 +14,6 @@ using detail::CellLists;
 using detail::Elements;
 using detail::Grid;
 using orca::direction;
-using orca::Pose2;
 using orca::RandomStream;
 using orca::Vec2;
 using orca::sim::test::kPi;

@@ -9,7 +9,6 @@
 using namespace orca::sim;
 using namespace orca::sim::test;
 using orca::direction;
-using orca::Pose2;
 using orca::Vec2;
 
 namespace {

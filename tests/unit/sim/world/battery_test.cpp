@@ -11,7 +11,6 @@
 using namespace orca;
 using namespace orca::sim;
 using namespace orca::sim::test;
-using std::chrono::hours;
 using std::chrono::seconds;
 
 namespace {

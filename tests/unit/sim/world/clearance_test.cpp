@@ -11,7 +11,6 @@
 
 using namespace orca::sim;
 using namespace orca::sim::test;
-using orca::Pose2;
 using orca::Vec2;
 
 namespace {

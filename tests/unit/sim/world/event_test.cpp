@@ -12,7 +12,6 @@ using namespace orca;
 using namespace orca::sim;
 using namespace orca::sim::test;
 using Catch::Contains;
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "checking/wiring.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "orca/base/text.hpp"

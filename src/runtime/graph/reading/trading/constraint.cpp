@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "orca/base/text.hpp"
 #include "orca/xml/number.hpp"
 #include "properties.hpp"
 #include "reading/naming.hpp"

@@ -2,7 +2,6 @@
 #include "orca/host/idleness.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include "orca/host/hosted_part.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <optional>
 #include <utility>
 

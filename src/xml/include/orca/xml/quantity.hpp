@@ -30,10 +30,6 @@ namespace orca::xml {
 /// Takes numbers with blanks between them apart. The last word may be a unit for all: "90 45 deg" is "90 deg" and "45 deg".
 [[nodiscard]] std::vector<std::string> split_quantities(std::string_view text);
 
-/// Reads such numbers as values in SI.
-/// @errors  as parse_quantity().
-[[nodiscard]] Result<std::vector<double>> parse_quantities(std::string_view text, std::string_view si);
-
 /// A number in SI and the SI unit of what it measures; empty: a plain number.
 struct Measured {
   double value = 0.0;

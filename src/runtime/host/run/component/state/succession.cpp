@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "succession.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <utility>
 
