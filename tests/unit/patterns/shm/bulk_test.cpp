@@ -57,6 +57,11 @@ bool is_borrowed(const ObjectPtr<Image>& image) {
 constexpr QueuePolicy kDeep{.depth = 100};
 constexpr QueuePolicy kBlock{.depth = 4, .overflow = QueuePolicy::Overflow::block, .block_limit = 10s};
 
+const MemoryFile& provided_pool() {
+  provide_to_itself();
+  return own_pool();
+}
+
 MemoryFile fresh_rings() { return RingSegment::create("test").value(); }
 
 // Lets a camera in this process push to a viewer in another one, which runs `view`.
@@ -65,7 +70,6 @@ struct ToOther {
 
   ToOther(Executive& executive, const QueuePolicy& policy, View view)
       : policy_(policy), view_(std::move(view)), camera(executive) {
-    provide_to_itself();
     camera.strand().set_doorbell(page_->parent);
     end = &make_shm_end(port<PushServerEndpoint>(camera, "out"), map(file_), {"viewer.in", &page_->child},
                         policy_);
@@ -91,7 +95,7 @@ struct ToOther {
 
  private:
   void run(Executive& executive) {
-    note_peer("camera", own_pool());
+    note_peer("camera", pool_);
     Viewer viewer(executive);
     viewer.strand().set_doorbell(page_->child);
     make_shm_end(port<PushClientEndpoint>(viewer, "in"), map(file_), {"camera.out", &page_->parent}, policy_,
@@ -102,6 +106,7 @@ struct ToOther {
 
   const QueuePolicy policy_;
   const View view_;
+  const MemoryFile& pool_ = provided_pool();  // before the other process, which reads it, is forked
   SharedPage page_;
   MemoryFile file_ = fresh_rings();
 
