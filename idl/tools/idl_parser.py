@@ -24,6 +24,17 @@ TOKEN = re.compile(
     r"|(?P<directive>\#[^\n]*)|(?P<word>[A-Za-z_]\w*)|(?P<number>\d+)|(?P<sign>[{}<>;:,\[\]=()@/*.\"'-])"
 )
 RESERVED = ("orca", "std", "eprosima")  # namespaces that generated code uses
+# Words that mean something else in C++ or in the headers of the standard library.
+KEYWORDS = frozenset(
+    """alignas alignof and and_eq asm auto bitand bitor bool break case catch char class co_await co_return co_yield compl concept const
+    const_cast consteval constexpr constinit continue decltype default delete do double dynamic_cast else enum explicit export extern
+    false float for friend goto if inline int long mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected
+    public register reinterpret_cast requires return short signed sizeof static static_assert static_cast struct switch template this
+    thread_local throw true try typedef typeid typename union unsigned using virtual void volatile wchar_t while xor xor_eq
+    assert errno linux major makedev minor stderr stdin stdout unix""".split()
+)
+MACROS = re.compile(r"BUFSIZ|EDOM|EOF|ERANGE|HUGE_VAL|INFINITY|NAN|NULL|RAND_MAX|SIG(ABRT|FPE|HUP|ILL|INT|KILL|SEGV|TERM)")
+MOST_ELEMENTS = 100_000  # of an array, which is part of each object
 TRAVELS = "@travels"  # in the comment before a plain struct
 BULK = "@bulk"  # the comment before a sequence of octets or numbers
 BULK_ELEMENTS = [p for name, p in PRIMITIVES.items() if name not in ("boolean", "string")]
@@ -102,6 +113,8 @@ class Parser:
             raise self.error(f"found '{token.text}', expected the name of {what}", token)
         if not re.fullmatch(pattern, token.text):
             raise self.error(f"'{token.text}': the name of {what} is written {style}", token)
+        if token.text in KEYWORDS or MACROS.fullmatch(token.text):
+            raise self.error(f"'{token.text}' cannot be the name of {what}: it means something else in C++", token)
         return token
 
     def comment_before(self) -> str:
@@ -276,6 +289,8 @@ class Parser:
         token = self.next()
         if token.kind != "number" or int(token.text) == 0:
             raise self.error(f"found '{token.text}', expected the number of elements, at least 1", token)
+        if int(token.text) > MOST_ELEMENTS:
+            raise self.error(f"an array has at most {MOST_ELEMENTS:,} elements, because each object holds all of them: write sequence<T>", token)
         if sequence:
             raise self.error("an array of sequences is not supported: put the sequence into a struct", token)
         self.expect("]")

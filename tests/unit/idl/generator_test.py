@@ -88,6 +88,13 @@ class Refusals(unittest.TestCase):
         self.refuses(STRUCT.replace("Spot", "spot"), "written in PascalCase")
         self.refuses(ENUM.replace("RED", "Red"), "written in CAPITALS")
 
+    def test_names_that_cpp_does_not_let_anybody_use_are_refused(self):
+        self.refuses(self.field("double class;  ///< [m]"), "test.idl:7: 'class' cannot be the name of a field: it means something else in C++")
+        self.refuses(self.field("long stdout;  ///< text"), "'stdout' cannot be the name of a field")
+        self.refuses(ENUM.replace("RED", "EOF"), "'EOF' cannot be the name of an enumerator")
+        self.refuses(ENUM.replace("BLUE", "SIGTERM"), "'SIGTERM' cannot be the name of an enumerator")
+        self.refuses(STRUCT.replace("Spot", "NULL"), "'NULL' cannot be the name of a struct")
+
     def test_a_name_is_used_once(self):
         self.refuses(STRUCT + STRUCT, "'Spot' is declared already")
         self.refuses(STRUCT + "/// More.\nstruct More : Spot {\n  long x;  ///< again\n};", "has a field 'x' already, of its own or inherited")
@@ -98,6 +105,7 @@ class Refusals(unittest.TestCase):
         self.refuses("/// Text.\nstruct Nothing {\n};", "needs a field of its own")
         self.refuses("/// Text.\nenum Nothing {\n};", "has no enumerators")
         self.refuses(self.field("double x[0];  ///< [m]"), "expected the number of elements, at least 1")
+        self.refuses(self.field("double x[100001];  ///< [m]"), "an array has at most 100,000 elements", "write sequence<T>")
 
     def test_only_a_struct_is_inherited(self):
         self.refuses(ENUM + "/// More.\nstruct More : Kind {\n  long x;  ///< text\n};", "'Kind' is no struct")
