@@ -17,6 +17,7 @@
 #include "inspection/code_identity.hpp"
 #include "inspection/plugin_file.hpp"
 #include "inspection/plugin_threads.hpp"
+#include "inspection/ways_in.hpp"
 #include "loaded_plugins.hpp"
 #include "opening.hpp"
 #include "orca/base/activity.hpp"
@@ -27,6 +28,7 @@
 #include "orca/plugin/code_limit.hpp"
 #include "orca/plugin/describe.hpp"
 #include "orca/plugin/object_library.hpp"
+#include "orca/plugin/standard_streams.hpp"
 #include "orca/plugin/trial.hpp"
 
 namespace orca::plugin {
@@ -62,7 +64,9 @@ void load_and_describe(const std::string& path, const std::function<void(const s
   }
   step("its static destruction");
   const LoadedPlugin extent(path, &manifest);
-  if (!threads_may_run_in(extent.start(), extent.end())) dlclose(handle);  // as unload() does
+  StandardStreams::at_start().restore();
+  if (!threads_may_run_in(extent.start(), extent.end()) && ways_into(extent.start(), extent.end()).empty())
+    dlclose(handle);  // as unload() does
 }
 
 // Loads the libraries beside a plugin whose object types it uses.
@@ -224,6 +228,7 @@ PluginLibrary::PluginLibrary(const Source& source, void* handle)
       handle_(handle),
       manifest_(manifest_of(handle)),
       entry_(std::make_unique<LoadedPlugin>(path_, manifest_)),
+      streams_(std::make_unique<StandardStreams>()),
       build_id_(source.judged.identity.build_id),
       virtual_time_faults_(source.judged.virtual_time_faults),
       may_start_threads_(source.judged.may_start_threads) {}
@@ -242,6 +247,10 @@ std::string PluginLibrary::unload() {
     return "a thread runs in it, and would crash without it, so it stays in memory. A component must have "
            "ended its "
            "threads when it is destroyed";
+  if (const std::vector<std::string> ways = ways_into(entry_->start(), entry_->end()); !ways.empty())
+    return "the process would crash without it, so it stays in memory: it is entered by " +
+           joined(ways, ", ") + ". A component must put back what it has set when it is destroyed";
+  restore_streams();
   entry_.reset();
   {
     const CodeLimit limit;
@@ -251,6 +260,16 @@ std::string PluginLibrary::unload() {
   const bool loaded_elsewhere = plugin_at(manifest_) != nullptr;
   if (loaded_elsewhere || !is_mapped(mapped_name_)) return {};
   return "it is still in memory after it was unloaded, and so are its variables";
+}
+
+// Those that they had when it was loaded may be another plugin's, which has gone since, so those of the start come back.
+void PluginLibrary::restore_streams() const {
+  const std::vector<std::string> changed = streams_->changes();
+  if (changed.empty()) return;
+  StandardStreams::at_start().restore();
+  log::warning(fs::path(path_).filename().string(),
+               "it, or another plugin, has changed " + joined(changed, " and ") +
+                   ", which all share; it is put back, because the code that it leads into is unloaded");
 }
 
 void PluginLibrary::tell_pinned(const std::string& why) const {

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <clocale>
+#include <iterator>
 
 namespace orca::plugin {
 namespace {
@@ -41,6 +43,8 @@ std::vector<std::string> SharedSettings::put_back() const {
     (void)std::setlocale(LC_ALL, locale_.c_str());
     changed.emplace_back("the locale");
   }
+  std::ranges::move(streams_.changes(), std::back_inserter(changed));
+  streams_.restore();
   return changed;
 }
 

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "orca/base/descriptor.hpp"
+#include "orca/plugin/standard_streams.hpp"
 
 namespace orca::plugin {
 
 /// The settings that all code of the process shares and that a library's static initialisation must not change: working
-/// folder, umask and locale, as they were when the object was made.
+/// folder, umask, locale and what the standard streams have, as they were when the object was made.
 ///
 /// Thread contract: one thread, while no other one changes them.
 class SharedSettings {
@@ -25,6 +26,7 @@ class SharedSettings {
   Descriptor folder_;
   mode_t umask_;
   std::string locale_;
+  StandardStreams streams_;
 };
 
 }  // namespace orca::plugin

@@ -103,6 +103,13 @@ TEST_CASE("a plugin with a thread_local variable that has a destructor is refuse
   CHECK_FALSE(is_mapped(path));
 }
 
+TEST_CASE("a plugin with a function that would be called at the end of the process, without it, is refused",
+          "[plugin][bad]") {
+  const std::string path = test_plugin("bad/bad_on_exit");
+  CHECK_THAT(refusal(path).text(), Contains("after it was unloaded") && Contains("on_exit()"));
+  CHECK_FALSE(is_mapped(path));
+}
+
 TEST_CASE(
     "a plugin built for other layouts of the objects is refused with each type and the field that differs",
     "[plugin][bad]") {

@@ -9,7 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <map>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <locale>
 
 #include "orca/base/log.hpp"
 #include "orca/hw/container.hpp"
@@ -179,6 +182,42 @@ TEST_CASE("a plugin whose static initialisation changes folder and umask is told
   CHECK(umask(mask) == 022);
   REQUIRE(said.size() == 1);
   CHECK_THAT(said.front(), Catch::Contains("has changed the working folder and the umask"));
+}
+
+TEST_CASE("standard streams that a plugin gives buffers, a tied stream and a locale of its own are put back",
+          "[plugin][unload]") {
+  auto* const buffer = std::cout.rdbuf();
+  const auto* const tied = std::cin.tie();
+  std::vector<std::string> said;
+  {
+    const log::Listener listener([&](const log::Line& line) { said.emplace_back(line.text); });
+    const auto library = loaded(test_plugin("test_rude_streams"));
+    CHECK(std::cout.rdbuf() == buffer);
+    (void)contract_of(*library->types().front(), library->path());
+    CHECK(std::cerr.getloc() != std::locale());
+    CHECK(std::cin.tie() != tied);
+  }
+  CHECK(std::cerr.getloc() == std::locale());
+  CHECK(std::cin.tie() == tied);
+  CHECK_FALSE(is_mapped(test_plugin("test_rude_streams")));
+  REQUIRE(said.size() == 2);
+  CHECK_THAT(said[0], Catch::Contains("its static initialisation has changed the buffer of std::cout"));
+  CHECK_THAT(said[1], Catch::Contains("the stream tied to std::cin and the locale of std::cerr"));
+}
+
+TEST_CASE("a plugin by whose code or data the process would be entered stays in memory, and is told by what",
+          "[plugin][unload]") {
+  CHECK(holds_in_a_copy([] {
+    std::string why;
+    auto library = loaded(test_plugin("staying/test_entered"));
+    library->on_pinned([&](const std::string& reason) { why = reason; });
+    (void)contract_of(*library->types().front(), library->path());
+    library.reset();
+    for (const char* const way : {"the handler of SIGUSR2", "std::set_new_handler()",
+                                  "the environment variable ORCA_TEST_ENTERED", "the buffer of stdout"})
+      if (why.find(way) == std::string::npos) return false;
+    return raise(SIGUSR2) == 0 && getenv("ORCA_TEST_ENTERED") != nullptr && std::fputs("text", stdout) >= 0;
+  }));
 }
 
 TEST_CASE("an address leads to the plugin that it lies in, as long as that is loaded", "[plugin][unload]") {

@@ -36,6 +36,7 @@ Environment::Environment() : sink_(only_log) {
   of_process_each_turn_.push_back(std::make_unique<LocaleWatch>());
   of_process_each_turn_.push_back(std::make_unique<TerminateWatch>());
   of_thread_.push_back(std::make_unique<SignalMaskWatch>());
+  of_process_.push_back(std::make_unique<StandardStreamWatch>());
   of_process_.push_back(std::make_unique<SignalHandlerWatch>());
   of_process_.push_back(std::make_unique<FolderWatch>());
   of_process_.push_back(std::make_unique<UmaskWatch>());

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "orca/base/text.hpp"
 #include "orca/host/last_words.hpp"
 
 namespace orca::host {
@@ -52,14 +53,27 @@ bool put_back(int resource, const rlimit& before, const rlimit& now) {
 
 }  // namespace
 
-void LocaleWatch::keep() { reference_ = setlocale(LC_ALL, nullptr); }
+void LocaleWatch::keep() {
+  reference_ = setlocale(LC_ALL, nullptr);
+  global_ = std::locale();
+}
 
 std::optional<Finding> LocaleWatch::look() {
   const char* const current = setlocale(LC_ALL, nullptr);
-  if (current == reference_) return std::nullopt;
+  const bool is_same = current == reference_;
+  if (is_same && std::locale() == global_) return std::nullopt;
   const std::string now(current);
+  std::locale::global(global_);
   setlocale(LC_ALL, reference_.c_str());
+  if (is_same) return Finding{idl::LOCALE, "changed std::locale()"};
   return Finding{idl::LOCALE, "changed the locale from \"" + reference_ + "\" to \"" + now + "\""};
+}
+
+std::optional<Finding> StandardStreamWatch::look() {
+  const std::vector<std::string> changed = reference_->changes();
+  if (changed.empty()) return std::nullopt;
+  reference_->restore();
+  return Finding{idl::REDIRECTION, "changed " + joined(changed, " and ")};
 }
 
 void SignalHandlerWatch::keep() {
@@ -134,6 +148,7 @@ std::optional<Finding> LimitWatch::look() {
 std::vector<std::unique_ptr<Watch>> make_process_watches() {
   std::vector<std::unique_ptr<Watch>> all;
   all.push_back(std::make_unique<LocaleWatch>());
+  all.push_back(std::make_unique<StandardStreamWatch>());
   all.push_back(std::make_unique<SignalHandlerWatch>());
   all.push_back(std::make_unique<TerminateWatch>());
   all.push_back(std::make_unique<FolderWatch>());

@@ -6,15 +6,17 @@
 #include <sys/types.h>
 
 #include <exception>
+#include <locale>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "orca/plugin/standard_streams.hpp"
 #include "watch.hpp"
 
 namespace orca::host {
 
-/// A watch over the locale of the process. A look costs some ten nanoseconds.
+/// A watch over the locale of the process, of C and of C++. A look costs some ten nanoseconds.
 class LocaleWatch final : public Watch {
  public:
   void keep() override;
@@ -22,6 +24,17 @@ class LocaleWatch final : public Watch {
 
  private:
   std::string reference_;
+  std::locale global_;
+};
+
+/// A watch over what std::cout and the other standard streams of C++ have: see plugin::StandardStreams.
+class StandardStreamWatch final : public Watch {
+ public:
+  void keep() override { reference_ = std::make_unique<plugin::StandardStreams>(); }
+  std::optional<Finding> look() override;
+
+ private:
+  std::unique_ptr<plugin::StandardStreams> reference_;
 };
 
 /// A watch over the handling of SIGINT, SIGTERM and SIGSEGV.

@@ -51,6 +51,18 @@ Result<std::vector<std::byte>> bytes_of(const std::string& path) {
   return bytes;
 }
 
+// Functions for the end of the process that, other than those of atexit(), are not called and forgotten when their library is
+// unloaded.
+void check_endings(const ElfFile& elf, std::vector<std::string>& faults) {
+  for (const ElfSymbol& symbol : elf.symbols()) {
+    const bool is_quick = symbol.name == "__cxa_at_quick_exit";
+    if (symbol.defined || (symbol.name != "on_exit" && !is_quick)) continue;
+    faults.push_back(std::string("would crash the process when that ends, after it was unloaded: it gives ") +
+                     (is_quick ? "at_quick_exit()" : "on_exit()") +
+                     " a function; use the destructor of the component, or atexit()");
+  }
+}
+
 }  // namespace
 
 Result<PluginFile> PluginFile::read(const std::string& path) {
@@ -139,6 +151,7 @@ void PluginFile::check_recipe(std::vector<std::string>& faults) const {
     faults.push_back(
         "could never be unloaded: it has a thread_local variable with a destructor (__cxa_thread_atexit); "
         "make the variable a member of the component");
+  check_endings(elf_, faults);
 }
 
 std::vector<std::string> PluginFile::notes(std::string_view mark) const {

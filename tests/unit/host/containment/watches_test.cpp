@@ -13,7 +13,10 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <iostream>
+#include <locale>
 #include <memory>
+#include <sstream>
 
 #include "containment/process_watches.hpp"
 #include "containment/thread_watches.hpp"
@@ -71,6 +74,16 @@ TEST_CASE("a watch finds its kind of change, puts it back, and finds nothing mor
                    idl::LOCALE, "given its thread a locale of its own"});
   cases.push_back({watch<LocaleWatch>(), [] { std::setlocale(LC_ALL, "C.UTF-8"); }, idl::LOCALE,
                    R"(changed the locale from "C" to "C.UTF-8")"});
+  cases.push_back({watch<LocaleWatch>(),
+                   [] { std::locale::global(std::locale(std::locale(), new std::numpunct<char>)); },
+                   idl::LOCALE, "changed std::locale()"});
+  static std::stringbuf own;
+  cases.push_back({watch<StandardStreamWatch>(),
+                   [] {
+                     std::cout.rdbuf(&own);
+                     std::cerr.tie(nullptr);
+                   },
+                   idl::REDIRECTION, "changed the buffer of std::cout and the stream tied to std::cerr"});
   cases.push_back({watch<SignalMaskWatch>(), block_usr1, idl::SIGNAL_MASK, "blocked SIGUSR1"});
   cases.push_back({watch<SignalHandlerWatch>(), [] { signal(SIGTERM, SIG_IGN), signal(SIGINT, SIG_IGN); },
                    idl::SIGNAL_HANDLER, "changed what happens at SIGINT, SIGTERM"});

@@ -16,6 +16,7 @@
 namespace orca::plugin {
 
 class LoadedPlugin;
+class StandardStreams;
 
 /// The trial of a plugin in a copy of the process, before it is loaded.
 enum class Trial {
@@ -74,6 +75,7 @@ class PluginLibrary {
   PluginLibrary(const Source& source, void* handle);
   static Result<std::unique_ptr<PluginLibrary>> open(const Source& source);
   std::string unload();
+  void restore_streams() const;
   void tell_pinned(const std::string& why) const;
 
   std::optional<PluginImage> image_;  // its number is the name by which the dynamic linker knows it
@@ -82,6 +84,7 @@ class PluginLibrary {
   void* handle_;
   const Manifest* manifest_;
   std::unique_ptr<LoadedPlugin> entry_;
+  std::unique_ptr<StandardStreams> streams_;  // as they were when it was loaded
   std::string build_id_;
   std::vector<std::string> virtual_time_faults_;
   std::function<void(const std::string&)> on_pinned_;
