@@ -324,6 +324,26 @@ TEST_CASE("an emergency stop outlives the deployer, and is released by the next"
   stop_adopted(third, processes);
 }
 
+TEST_CASE("an emergency stop that a stopped deployer does not confirm says so, and what to do",
+          "[system][adoption]") {
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  const std::string deployer = std::to_string(system.program().pid());
+  system.program().send(SIGSTOP);
+  Subprocess look(orcactl({"ps"}));
+  Subprocess estop(orcactl({"estop"}));
+  CHECK(estop.wait_for_output("NOBODY HAS CONFIRMED THE EMERGENCY STOP", Seconds(4) * kSlowdown));
+  CHECK_THAT(estop.err(), Contains("take the power from the motors") && Contains("kill -CONT " + deployer));
+  CHECK(look.wait_for_output("process " + deployer + ", is stopped", Seconds(4) * kSlowdown));
+  const Run run = finish(estop, Seconds(10));
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(run.err, Contains("has not answered for 5 s"));
+  system.program().send(SIGCONT);
+  system.when("alarm ESTOP", 0);  // the order was not lost
+  CHECK(finish(look, Seconds(5)).exit_code() == 0);
+  stop(system);
+}
+
 TEST_CASE("alarms that nobody has acknowledged outlive the deployer", "[system][adoption]") {
   System first(lasting_flow());
   first.when("flow ", 0, Seconds(10));

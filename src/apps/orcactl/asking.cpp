@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "client.hpp"
+#include "no_answer/orphans.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
-#include "orphans.hpp"
 #include "table.hpp"
 
 namespace orca::orcactl {
@@ -24,6 +24,7 @@ namespace {
 using supervisor::Record;
 
 constexpr Duration kLimit = 30s;        // for a part of an answer: a process that is restarted is back before
+constexpr Duration kEstopLimit = 5s;    // other machines are waited for for 2 s
 constexpr Duration kSwapLimit = 120s;   // more than the limits of all its steps together
 constexpr Duration kApplyLimit = 600s;  // several exchanges, each with its trial and probation
 constexpr std::chrono::seconds kWatchInterval{1};
@@ -98,6 +99,7 @@ Duration limit_of(const apps::Call& call) {
   if (call.has("--follow")) return kForEver;
   constexpr std::array<std::string_view, 4> kApplying{"apply", "connect", "disconnect", "move"};
   if (std::ranges::find(kApplying, call.command->name) != kApplying.end()) return kApplyLimit;
+  if (call.command->name == "estop") return kEstopLimit;
   if (call.command->name != "swap") return kLimit;
   return kSwapLimit + call.duration("--probation").value_or(Duration{0}) +
          call.duration("--tryout").value_or(Duration{0});

@@ -9,11 +9,12 @@
 #include <optional>
 #include <utility>
 
+#include "no_answer/orphans.hpp"
+#include "no_answer/silence.hpp"
 #include "orca/base/files/own_folder.hpp"
 #include "orca/base/text.hpp"
 #include "orca/supervisor/control_socket.hpp"
 #include "orca/xml/names.hpp"
-#include "orphans.hpp"
 
 namespace orca::orcactl {
 namespace {
@@ -61,19 +62,36 @@ std::variant<Descriptor, Failure> connect_to(const apps::Call& call) {
 std::variant<Client, Failure> Client::connect(const apps::Call& call) {
   std::variant<Descriptor, Failure> socket = connect_to(call);
   if (auto* const failure = std::get_if<Failure>(&socket)) return std::move(*failure);
-  return Client(std::get<Descriptor>(std::move(socket)));
+  const std::optional<ucred> deployer = supervisor::peer_of(std::get<Descriptor>(socket));
+  Client client(std::get<Descriptor>(std::move(socket)));
+  client.note_silence_ = [&call, process = deployer ? deployer->pid : 0] {
+    if (const std::string text = silence_text(call, process); !text.empty())
+      std::fprintf(stderr, "orcactl: %s\n", text.c_str());
+  };
+  return client;
+}
+
+Result<supervisor::Message> Client::next_message(Duration limit) {
+  if (!note_silence_ || limit <= kSilence) return channel_->wait_for_message(limit);
+  Result<supervisor::Message> message = channel_->wait_for_message(kSilence);
+  if (message || message.error().code != Code::deadline_exceeded) return message;
+  std::exchange(note_silence_, nullptr)();
+  return channel_->wait_for_message(limit - kSilence);
 }
 
 Status Client::ask(const supervisor::Ask& ask, const Taker& taker, Duration limit) {
   const std::uint64_t request = ++last_request_;
   if (Status sent = channel_->send(supervisor::encode(ask, request), limit); !sent.ok()) return sent;
   for (;;) {
-    Result<supervisor::Message> message = channel_->wait_for_message(limit);
+    Result<supervisor::Message> message = next_message(limit);
     if (!message) {
       if (message.error().code == Code::unavailable)
         return fail(Code::unavailable,
                     "the system has ended, or has closed the connection because it was asked more than 200 "
                     "times in a second, or because its answers were not read");
+      if (message.error().code == Code::deadline_exceeded)
+        return fail(Code::deadline_exceeded,
+                    "the deployer has not answered for " + std::to_string(limit / 1s) + " s");
       return message.error();
     }
     if (message->request != request) continue;  // the rest of an earlier answer

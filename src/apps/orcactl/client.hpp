@@ -32,7 +32,8 @@ class Client {
   /// Takes over a connection.
   explicit Client(Descriptor socket) : channel_(std::make_unique<supervisor::Channel>(std::move(socket))) {}
 
-  /// Connects to the system that a call names; if it names none, to the only one that runs.
+  /// Connects to the system that a call names; if it names none, to the only one that runs. If that does not answer, the user
+  /// hears of it, once: see silence_text().
   [[nodiscard]] static std::variant<Client, Failure> connect(const apps::Call& call);
 
   /// Asks, and passes each part of the answer on until it ends.
@@ -46,8 +47,11 @@ class Client {
   Result<supervisor::LineAnswer> open_line(const std::string& port, const std::vector<std::string>& options);
 
  private:
+  Result<supervisor::Message> next_message(Duration limit);
+
   std::unique_ptr<supervisor::Channel> channel_;
   std::uint64_t last_request_ = 0;
+  std::function<void()> note_silence_;  // empty: that was done
 };
 
 }  // namespace orca::orcactl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Additional permission: LICENSES/Orca-plugin-exception.txt
-#include "orphans.hpp"
+#include "no_answer/orphans.hpp"
 
 #include <poll.h>
 
