@@ -22,7 +22,7 @@ PORTS = {"PushServer", "PushProxy", "PushServerHandle", "SendServer", "SendProxy
          "QueryServerHandle", "Synchronizer", "Param", "SensorHW", "ActuatorHW", "MotionHW"}
 TOOLS = {"Mutex"}
 DEBTS = {
-    ("Avoider", "functions"): 46, ("PushEdge", "functions"): 46, ("GoalFollower", "functions"): 42, ("Component", "functions"): 38,
+    ("Avoider", "functions"): 45, ("PushEdge", "functions"): 46, ("GoalFollower", "functions"): 42, ("Component", "functions"): 38,
     ("World", "functions"): 38,
     ("SupervisedRun", "collaborators"): 20, ("WatchedSystem", "collaborators"): 13, ("Applying", "collaborators"): 8,
     ("ControlDesk", "collaborators"): 13, ("HostedPart", "collaborators"): 11,

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -264,7 +265,7 @@ std::optional<nav::Steer> Avoider::escape(const Situation& situation) {
   if (!remembers() || !moved_at_) return std::nullopt;
   if (!escape_) escape_.emplace(outline_of(described_body()));
   const bool has_somewhere_to_go = situation.goal && situation.goal_distance > situation.goal_reach &&
-                                   !are_motors_held() &&
+                                   !are_motors_held(kept_alarms()) &&
                                    !passes_somebody(moving_.latest(), pose_.position(), now());
   const auto goal = has_somewhere_to_go ? situation.goal : std::nullopt;
   const auto steer = escape_->step({now(), pose_, twist_, goal, memory_.echoes(), floor_});
@@ -285,12 +286,6 @@ void Avoider::feel_ahead() {
                                   : Vec2{body.half_length, aside * body.half_width},
                  kept);
   }
-}
-
-bool Avoider::are_motors_held() const {
-  const std::vector<idl::Alarm> alarms = kept_alarms();
-  return std::ranges::any_of(
-      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
 
 nav::Footprint Avoider::outline_of(const std::optional<Rectangle>& body) const {

@@ -9,6 +9,7 @@
 #include "docking.hpp"
 #include "orca/base/text.hpp"
 #include "orca/component.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -61,6 +62,7 @@ class Dock final : public orca::Component {
     const bool knows = senders_.accepts(*here) && senders_.accepts(*here, orca::check_age(age, kOldest)) &&
                        !orca::is_anywhere(here->covariance());
     if (knows) pose_ = orca::plane_pose(*here), known_at_ = now();
+    delay(held_.since_last(now(), kept_alarms()));
     if (!waiting_.empty() && leave()) return orca::again();
     pass_on();
     if (!docking_) {
@@ -71,6 +73,12 @@ class Dock final : public orca::Component {
       wait_for_pose();
     }
     return orca::again();
+  }
+
+  // The robot does not move while its motors are held, as those of some bases are at their chargers.
+  void delay(orca::Duration time) {
+    if (docking_) docking_->delay(orca::to_seconds(time));
+    if (leaves_since_) *leaves_since_ += time;
   }
 
   // With its nose at a charger a robot may lose for a moment where it is.
@@ -261,6 +269,7 @@ class Dock final : public orca::Component {
 
   std::vector<orca::ObjectPtr<orca::idl::GoalPoint>> waiting_;  // that Goto does not have yet
   orca::SenderWatch senders_{host()};
+  orca::HeldTime held_;
   Pose2 X_WD_;                        // of the charger that the goal is
   std::optional<Docking> docking_;    // from when the robot is before it
   std::optional<orca::Vec2> docked_;  // the contacts in the frame of the robot, since it was charged there

@@ -31,6 +31,11 @@ Step Docking::step(const Pose2& robot, bool charges, double time, const Manner& 
   return {};
 }
 
+void Docking::delay(double time) {
+  if (began_) *began_ += time;
+  held_since_ += time;
+}
+
 // A robot whose middle is at the contacts has found nothing to touch. One whose pose jitters may seem to move although the charger holds it.
 Step Docking::approach(const Pose2& robot, double time, double speed) {
   if (robot.x >= 0.0 || time - *began_ > kSlow) return enter(Stage::look, robot, time);

@@ -38,6 +38,9 @@ class Docking {
   /// @param time [s]  of a clock that only advances.
   [[nodiscard]] Step step(const Pose2& robot, bool charges, double time, const Manner& manner);
 
+  /// Puts off all that waits, because the motors were held [s].
+  void delay(double time);
+
   /// Returns all of it, to be passed on to another version of the component.
   auto state() { return std::tie(stage_, attempt_, began_, from_, held_since_); }
 

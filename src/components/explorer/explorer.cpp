@@ -10,6 +10,7 @@
 
 #include "frontiers.hpp"
 #include "orca/component.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/goals/goal_relay.hpp"
@@ -61,6 +62,7 @@ class Explorer final : public orca::Component {
         log_warning(taken.error().message);
     while (const auto arrived = relay_.next_arrival()) hear(*arrived);
     while (const auto failed = relay_.next_failure()) hear(*failed);
+    patient_until_ += held_.since_last(now(), kept_alarms());
     if (is_over()) relay_.end();
     if (!relay_.goal() || !explores_ || !senders_.accepts(*here)) return orca::again();
     if (!robot_.body() || now() < looked_ + kEvery || known_area() <= 0.0) return orca::again();
@@ -246,6 +248,7 @@ class Explorer final : public orca::Component {
   std::vector<Vec2> left_out_;  // world frame
   orca::TimePoint looked_{};
   orca::SenderWatch senders_{host()};
+  orca::HeldTime held_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/component/held_motors.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
@@ -21,11 +22,6 @@ std::string in_short(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
   return text;
-}
-
-bool are_motors_held(const std::vector<idl::Alarm>& alarms) {
-  return std::ranges::any_of(
-      alarms, [](const idl::Alarm& alarm) { return alarm.kind() == idl::ESTOP && alarm.active(); });
 }
 
 // Returns what is left of the way to the last point [m]. @pre  there is one.
@@ -238,7 +234,7 @@ Result<Loan<idl::Progress>> GoalFollower::on_question(const ObjectPtr<idl::Ask>&
 std::string GoalFollower::why_it_waits() const {
   constexpr double kWaits = 3.0;  // [s] without progress
   if (lost_) return "it is not known where the robot is";
-  if (are_motors_held(kept_alarms())) return "the motors are held; orcactl estop --release lets them go";
+  if (const std::string held = why_motors_are_held(kept_alarms()); !held.empty()) return held;
   if (doubts_) return doubt();
   if (stuck_ < kWaits) return {};
   const std::string holds = what_holds();

@@ -43,6 +43,10 @@ Step Errand::step(const Pose2& pose, const idl::GripperState& gripper, double ti
   return late && step.kind == Step::Kind::goes_on ? failure(this->late()) : step;
 }
 
+void Errand::delay(double time) {
+  if (began_) *began_ += time;
+}
+
 Step Errand::fetch(const Scene& now) {
   const idl::GripperState& gripper = now.gripper;
   switch (stage_) {

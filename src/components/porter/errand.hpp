@@ -58,6 +58,9 @@ class Errand {
   [[nodiscard]] Step step(const Pose2& pose, const idl::GripperState& gripper, double time,
                           const Manner& manner);
 
+  /// Puts off the end of its patience, because the motors were held [s].
+  void delay(double time);
+
   /// Returns all of it, to be passed on to another version of the component.
   auto state() { return std::tie(kind_, place_, stage_, began_, told_, from_); }
 

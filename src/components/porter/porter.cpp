@@ -8,6 +8,7 @@
 
 #include "errand.hpp"
 #include "orca/component.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -100,6 +101,7 @@ class Porter final : public orca::Component {
   }
 
   void do_errand(const orca::Pose2& pose) {
+    errand_->delay(orca::to_seconds(held_.since_last(now(), kept_alarms())));
     const auto gripper = gripper_state_.latest();
     if (!gripper || orca::to_seconds(now() - orca::to_time_point(gripper->stamp())) > *deaf_after_) {
       motion_.push(orca::full_stop());
@@ -214,6 +216,7 @@ class Porter final : public orca::Component {
       {.min = 0.0, .text = "Weight of its wishes, relative to other behaviours; 0: they never count."}};
 
   orca::SenderWatch senders_{host()};
+  orca::HeldTime held_;
   std::optional<Errand> errand_;  // from when the robot is there
   orca::TimePoint heard_{};       // when the gripper has said something, in an errand
 };

@@ -25,6 +25,7 @@ struct Bay {
   int touches = 0;
   double fastest = 0.0;  // [m/s] at which it came to the wall
   double time = 0.0;
+  double motors_held = 0.0;  // [s] for which nothing moves, from 5 s on
 
   [[nodiscard]] bool is_held() const { return robot.x + kFront >= wall; }
   [[nodiscard]] bool charges() const {
@@ -48,9 +49,11 @@ struct Bay {
   Step dock() {
     Docking docking;
     while (time < 600.0) {
+      const bool stands = time >= 5.0 && time < 5.0 + motors_held;
+      if (stands) docking.delay(kLap);
       const Step step = docking.step(robot, charges(), time, kManner);
       if (step.kind != Step::Kind::goes_on) return step;
-      drive(step);
+      drive(stands ? Step{} : step);
     }
     return {};
   }
@@ -90,4 +93,12 @@ TEST_CASE("contacts that nothing stands behind are looked for no farther than th
   Bay bay{.wall = 10.0};
   CHECK(bay.dock().kind == Step::Kind::failed);
   CHECK(bay.touches == 0);
+}
+
+TEST_CASE("a robot whose motors are held for minutes on its way to the contacts goes on afterwards",
+          "[dock]") {
+  Bay bay{.motors_held = 300.0};
+  CHECK(bay.dock().kind == Step::Kind::done);
+  CHECK(bay.touches == 1);
+  CHECK(bay.time < 325.0);
 }

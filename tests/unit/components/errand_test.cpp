@@ -95,6 +95,19 @@ TEST_CASE("what stands at the place is between the lifted paddles afterwards", "
   CHECK_FALSE(floor.thing);
 }
 
+TEST_CASE("a robot whose motors are held for minutes before the thing fetches it afterwards",
+          "[components][errand]") {
+  Floor floor;
+  floor.thing = Vec2{0.7, 0.0};
+  Errand errand{Errand::Kind::fetch, {0.7, 0.0}};
+  while (floor.pose.x < 0.1) REQUIRE(floor.lap(errand).kind == Step::Kind::goes_on);
+  for (const double begin = floor.time; floor.time < begin + 300.0; floor.time += kLap) {
+    errand.delay(kLap);
+    REQUIRE(errand.step(floor.pose, floor.gripper, floor.time, kManner).kind == Step::Kind::goes_on);
+  }
+  CHECK(floor.run(errand).kind == Step::Kind::done);
+}
+
 TEST_CASE("what it holds stands at the place afterwards, and the robot has driven back from it",
           "[components][errand]") {
   Floor floor;

@@ -146,7 +146,6 @@ class Avoider : public Component {
   void advise();
   [[nodiscard]] std::optional<nav::Steer> escape(const Situation& situation);
   void feel_ahead();
-  [[nodiscard]] bool are_motors_held() const;
   [[nodiscard]] Limits limits() const;
   [[nodiscard]] std::string why_deaf();
   /// Returns the goal that the robot drives to now; null if there is none, or if nobody has said so lately.
