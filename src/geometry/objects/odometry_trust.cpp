@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/geometry/usual_figures.hpp"
 
@@ -10,6 +11,12 @@ namespace orca {
 namespace {
 
 constexpr double kTrack = 0.35;  // [m] It matters for slip only.
+constexpr double kExact = 0.01;  // [m] deviation of a position, below which it may count as exact
+
+// Whether the position has no variance. A variance of the orientation alone does not say where the robot is.
+bool lacks_position(const std::array<double, 9>& covariance) {
+  return covariance[0] == 0.0 && covariance[4] == 0.0;
+}
 
 }  // namespace
 
@@ -17,8 +24,11 @@ OdometryTrust::OdometryTrust() : guess_(idl::DIFFERENTIAL, kTrack, kUsualWheelEr
 
 std::array<double, 9> OdometryTrust::covariance_of(const idl::Odometry& odometry) {
   guess_.move_to(plane_pose(odometry));
-  guesses_ = std::ranges::all_of(odometry.covariance(), [](double entry) { return entry == 0.0; });
-  return guesses_ ? guess_.covariance() : odometry.covariance();
+  const std::array<double, 9> guess = guess_.covariance();
+  const bool says_nothing =
+      std::ranges::all_of(odometry.covariance(), [](double entry) { return entry == 0.0; });
+  guesses_ = says_nothing || (lacks_position(odometry.covariance()) && position_deviation(guess) > kExact);
+  return guesses_ ? guess : odometry.covariance();
 }
 
 }  // namespace orca

@@ -58,6 +58,15 @@ TEST_CASE("a pose by odometry starts where the robot does, and faces as it did",
   CHECK(pose->stamp().ns() == 123);
 }
 
+TEST_CASE(
+    "odometry that knows its orientation only, after some metres, does not know where the robot is exactly",
+    "[testing][localizer]") {
+  const double unknown = position_deviation(pose_with({})->covariance());
+  CHECK(unknown > 0.01);
+  CHECK(position_deviation(pose_with({0, 0, 0, 0, 0, 0, 0, 0, 0.01})->covariance()) == unknown);
+  CHECK(position_deviation(pose_with({1e-4, 0, 0, 0, 0, 0, 0, 0, 0.01})->covariance()) == Approx(0.01));
+}
+
 TEST_CASE("whoever sends where the robot is now decides all poses that follow", "[testing][localizer]") {
   Pose2 there{};
   Pose2 later{};

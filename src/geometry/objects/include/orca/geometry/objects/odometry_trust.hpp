@@ -9,7 +9,8 @@
 namespace orca {
 
 /// The trust in the poses of some odometry, for those who drive by them. Odometry with a covariance is taken at its word.
-/// Odometry without one is not exact, but unknown: it counts as wrong as is usual (usual_figures.hpp).
+/// Odometry without one, or without a variance of the position after some metres, is not exact, but unknown: it counts as wrong
+/// as is usual (usual_figures.hpp).
 ///
 /// Thread contract: not synchronised; one strand.
 class OdometryTrust {
