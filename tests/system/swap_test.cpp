@@ -15,6 +15,7 @@
 #include "deployer.hpp"
 #include "hosted_system.hpp"
 #include "slow_run.hpp"
+#include "telling.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
@@ -25,10 +26,6 @@ using orca::supervisor::ControlAnswer;
 using orca::supervisor::RecordAnswer;
 
 namespace {
-
-std::string next_version(const std::string& name) {
-  return std::string(ORCA_BINARY_DIR "/tests/next_plugins/") + name + ".so";
-}
 
 std::string bad_plugin(const std::string& name) {
   return std::string(ORCA_BINARY_DIR "/tests/unit_plugins/bad/") + name + ".so";
@@ -51,56 +48,6 @@ int copies_in_memory(pid_t process) {
         line.find("/memfd:orca:") != std::string::npos && line.find(" r-xp ") != std::string::npos ? 1 : 0;
   return copies;
 }
-
-// A component that counts what another one says a hundred times a second, in this process or in another one.
-std::string graph(const std::string& process) {
-  return "<graph name=\"swap_test\" version=\"1\" plugins=\"" ORCA_BINARY_DIR
-         "/tests/host_plugins\">\n"
-         "  <process name=\"counting\"/><process name=\"talking\"/>\n"
-         "  <component name=\"teller\" type=\"test.Teller\" process=\"counting\"/>\n"
-         "  <component name=\"talker\" type=\"test.Talker\" process=\"" +
-         process +
-         "\"/>\n"
-         "  <connect from=\"talker.out\" to=\"teller.in\" queue=\"1000\"/>\n"
-         "  <connect from=\"talker.poke\" to=\"teller.poke\" queue=\"1000\"/>\n"
-         "  <connect from=\"teller.out\" to=\"talker.back\" queue=\"1000\"/>\n"
-         "</graph>\n";
-}
-
-// A system whose teller can be exchanged, and what its log says of it.
-class Telling {
- public:
-  explicit Telling(const std::string& process)
-      : file_(folder_.write("swap.xml", graph(process))), program_(deployer({file_, "--log", "debug"})) {
-    REQUIRE(program_.wait_for_output("heard 1:10", Seconds(20) * kSlowdown));
-  }
-
-  // Tries the new code with what comes in a third of a second: some thirty objects.
-  Run swap(const std::string& plugin, const Words& more = {}, const std::string& tryout = "300 ms") {
-    return run_orcactl(Words{"swap", "teller", plugin, "--tryout", tryout} + more);
-  }
-  bool hears(const std::string& text) { return program_.wait_for_output(text, Seconds(10) * kSlowdown); }
-  [[nodiscard]] std::string log() const { return program_.err(); }
-  Subprocess& program() { return program_; }
-  [[nodiscard]] const TempFolder& folder() const { return folder_; }
-
-  // Ends the system, and checks that nothing was lost, doubled or out of order in all that time.
-  void end_in_order() {
-    CHECK(run_orcactl({"suspend", "talker"}).exit_code() ==
-          0);  // two processes do not end at the same moment
-    CHECK(run_orcactl({"stop"}).exit_code() == 0);
-    const Run run = finish(program_, Seconds(10));
-    CHECK(run.exit_code() == 0);
-    CHECK_THAT(run.err, !Contains("gap "));
-    CHECK_THAT(run.err, !Contains("poke "));
-    CHECK_THAT(run.err, !Contains("not sent"));
-  }
-
- private:
-  TempFolder folder_;
-  std::string file_;
-  Subprocess program_;
-};
 
 }  // namespace
 
@@ -188,7 +135,7 @@ class Gauged {
   static std::string gauged_graph() {
     // A line of log in start() would be most of the exchange.
     const std::string silent = "><param name=\"tells\" value=\"false\"/>";
-    std::string text = graph("talking");
+    std::string text = telling_graph("talking");
     const std::string teller = "process=\"counting\"/>\n  <component";
     text.replace(text.find(teller), teller.size(),
                  "process=\"counting\"" + silent + "</component>\n  <component");
@@ -370,6 +317,31 @@ TEST_CASE("the plugin's file may be overwritten or removed once the swap was ord
   std::filesystem::remove(file);
   CHECK(system.swap(next_version("test_teller_again"), {"--probation", "0 s"}).exit_code() == 0);
   system.end_in_order();
+}
+
+TEST_CASE("the parameters of a component are those of the code that runs, whatever type the graph names",
+          "[system][swap]") {
+  Telling system("talking");
+  const auto value_of = [](const std::string& param) { return run_orcactl({"get", param, "--json"}).out; };
+  REQUIRE(run_orcactl({"set", "teller.step", "2"}).exit_code() == 0);
+  const Run other = system.swap(next_version("test_teller_other") + ":test.OtherTeller",
+                                {"--set", "tone=sharp", "--probation", "0 s"});
+  INFO(other.err << system.log());
+  REQUIRE(other.exit_code() == 0);
+  CHECK_THAT(value_of("teller.tone"), Contains(R"("value": "sharp")"));
+  CHECK_THAT(value_of("teller.step"), Contains(R"("value": "2")"));
+  CHECK(run_orcactl({"set", "teller.tone", "flat", "teller.step", "3"}).exit_code() == 0);
+  CHECK_THAT(run_orcactl({"set", "teller.tone", "loud"}).err, Contains("loud") && Contains("sharp"));
+  CHECK_THAT(value_of("teller.tone"), Contains(R"("value": "flat")"));
+  CHECK_THAT(run_orcactl({"names", "param"}).out, Contains("teller.tone"));
+  REQUIRE(system.swap(next_version("test_teller_2") + ":test.Teller", {"--probation", "0 s"}).exit_code() ==
+          0);
+  CHECK_THAT(value_of("teller"), !Contains("tone"));
+  CHECK_THAT(value_of("teller.step"), Contains(R"("value": "3")"));
+  CHECK_THAT(run_orcactl({"set", "teller.tone", "flat"}).err, Contains("has no parameter \"tone\""));
+  CHECK(run_orcactl({"restart", "counting"}).exit_code() == 0);
+  CHECK_THAT(value_of("teller.step"), Contains(R"("value": "1")"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
 TEST_CASE("a process that is started again runs the code that the graph names, and says so",

@@ -295,7 +295,7 @@ Status Applying::Change::renew() {
 // The run has the new graph. Nobody is connected to what it does not have any more.
 void Applying::Change::commit() {
   for (const graph::ComponentNode& node : plan_.added) place_.operating.tell(node.name, OpenGate{node.name});
-  if (!is_edit_) place_.operating.forget_changes();
+  if (!is_edit_) place_.operating.present().forget_changes();
   for (const std::string& name : plan_.removed) place_.exchanging.forget(name);
   for (const std::string& name : announcing_.tell_of_the_gone()) place_.exchanging.forget(name);
   for (const std::string& name : plan_.removed) let_go(name);

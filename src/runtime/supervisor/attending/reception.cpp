@@ -68,9 +68,10 @@ class Reception::Desk {
  private:
   [[nodiscard]] Member& self() { return *roster_.all().front(); }
 
-  RunLevers levers() {
-    return {[this] { self().tell(TakeDown{}); }, [](Member&) -> Status { return only_process(); },
-            [] { return std::vector<const graph::Edge*>{}; }, &around_.pace_};
+  DeskLevers levers() {
+    return {{[this] { self().tell(TakeDown{}); }, [](Member&) -> Status { return only_process(); },
+             &around_.pace_},
+            [] { return std::vector<const graph::Edge*>{}; }};
   }
 
   void wait() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "channel/fields.hpp"
+#include "orca/base/contract.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
 #include "orca/supervisor/record.hpp"
@@ -125,6 +127,38 @@ void transfer(auto& archive, int& value) {
   auto number = static_cast<std::uint32_t>(value);
   transfer(archive, number);
   value = static_cast<int>(number);
+}
+
+void transfer(auto& archive, std::int64_t& value) {
+  auto number = static_cast<std::uint64_t>(value);
+  archive.number(number);
+  value = static_cast<std::int64_t>(number);
+}
+
+void transfer(auto& archive, double& value) {
+  auto number = std::bit_cast<std::uint64_t>(value);
+  archive.number(number);
+  value = std::bit_cast<double>(number);
+}
+
+template <std::size_t index = 0>
+void make_alternative(ParamValue& value, std::uint64_t wanted) {
+  if constexpr (index < std::variant_size_v<ParamValue>)
+    wanted == index ? void(value.emplace<index>()) : make_alternative<index + 1>(value, wanted);
+}
+
+void transfer(auto& archive, ParamValue& value) {
+  std::uint64_t alternative = value.index();
+  archive.number(alternative);
+  archive.require(alternative < std::variant_size_v<ParamValue>);
+  if (alternative != value.index()) make_alternative(value, alternative);
+  std::visit([&](auto& content) { transfer(archive, content); }, value);
+}
+
+void transfer(auto& archive, ParamContract& param) {
+  transfer_up_to(archive, param.type, ParamType::text_list);
+  transfer_all(archive, param.name, param.unit, param.min, param.max, param.choices, param.file, param.fixed,
+               param.default_value, param.text);
 }
 
 void transfer(auto& archive, Trigger& trigger) {

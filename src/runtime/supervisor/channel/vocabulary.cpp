@@ -78,7 +78,7 @@ void fields(auto& archive, Orphaned& m) {
   transfer_all(archive, m.process, m.graph, m.options, m.run_page, m.output, m.doorbells, m.processes);
 }
 void fields(auto& archive, ExchangedCode& m) {
-  transfer_all(archive, m.component, m.type, m.file, m.build_id, m.swaps);
+  transfer_all(archive, m.component, m.type, m.file, m.build_id, m.swaps, m.params, m.values);
 }
 void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
 void fields(auto& /*archive*/, Leaving& /*m*/) {}

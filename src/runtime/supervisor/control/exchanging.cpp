@@ -154,7 +154,6 @@ void Exchanging::swap(const std::vector<std::string>& words, const ReplyPtr& rep
   if (!wish) return reply->refuse(wish.error());
   const Result<Record> done = exchange(*wish);
   if (!done) return reply->refuse(done.error());
-  if (!wish->only_tries) operating_.note_set(wish->component, wish->params);
   reply->add(*done);
 }
 
@@ -368,6 +367,7 @@ void Exchanging::go_on() {
 
 void Exchanging::note(const ExchangedCode& code) {
   exchanged_[code.component] = {code.type, {code.file, code.build_id}, code.swaps};
+  operating_.present().note(code);
 }
 
 void Exchanging::note(const Built& built, const std::string& process) {

@@ -95,7 +95,10 @@ class Exchanging {
   /// Returns whether the code of a component is being tried out or exchanged.
   [[nodiscard]] bool is_busy(const std::string& component) const { return busy_.contains(component); }
   /// Forgets a component that has gone.
-  void forget(const std::string& component) { exchanged_.erase(component); }
+  void forget(const std::string& component) {
+    exchanged_.erase(component);
+    operating_.present().forget(component);
+  }
   /// Notes that a component runs other code.
   void note(const ExchangedCode& code);
   /// Notes the code that a process was built from.

@@ -42,11 +42,6 @@ Pairs pairs_of(const graph::Params& params) {
   return {texts.begin(), texts.end()};
 }
 
-const Contract* contract_of(const std::map<std::string, Contract>& contracts, const std::string& name) {
-  const auto found = contracts.find(name);
-  return found == contracts.end() ? nullptr : &found->second;
-}
-
 // Puts a title before each line of a text.
 std::string titled(const std::string& lines, const std::string& title) {
   std::string result = title;
@@ -59,8 +54,7 @@ std::string titled(const std::string& lines, const std::string& title) {
 // A reader of what an operator wants to set. It goes on after an error, to report all of them.
 class Operating::SettingReader {
  public:
-  SettingReader(const Operating& operating, const SystemFacts& facts)
-      : operating_(operating), facts_(facts) {}
+  explicit SettingReader(const Operating& operating) : operating_(operating) {}
 
   Result<std::vector<Setting>> read(const std::vector<std::string>& words) {
     for (std::size_t i = 0; i + 1 < words.size(); i += 2) take(words[i], words[i + 1]);
@@ -90,8 +84,7 @@ class Operating::SettingReader {
     const Result<graph::Params> read =
         graph::read_settings(name.owner.contract->params, {{name.param, value}});
     if (!read) return read.error();
-    const auto plugin = facts_.plugins.find(name.owner.hardware->type);
-    const std::string file = plugin == facts_.plugins.end() ? "PLUGIN.so" : plugin->second.file;
+    const std::string file = operating_.present_.plugin_of(*name.owner.hardware);
     return fail(
         Code::failed_precondition,
         name.owner.name + "." + name.param +
@@ -101,8 +94,9 @@ class Operating::SettingReader {
   }
 
   void read_values(Setting& setting, const std::string& title) {
-    const Contract& contract = facts_.contracts.at(setting.component);
-    Result<graph::Params> values = graph::read_settings(contract.params, setting.texts);
+    const Contract* const contract =
+        operating_.present_.contract_of(setting.component);  // take() has seen it
+    Result<graph::Params> values = graph::read_settings(contract->params, setting.texts);
     if (values) {
       setting.values = std::move(values).value();
     } else {
@@ -116,7 +110,6 @@ class Operating::SettingReader {
   }
 
   const Operating& operating_;
-  const SystemFacts& facts_;
   std::vector<Setting> settings_;  // one for each component
   std::vector<std::string> errors_;
   Code code_ = Code::invalid_argument;
@@ -126,10 +119,10 @@ Operating::Operating(Conductor& conductor, const graph::Graph& graph, const Syst
                      const SystemNames& names, host::Reports reports, RunLevers levers)
     : conductor_(conductor),
       graph_(graph),
-      facts_(facts),
       names_(names),
       reports_(std::move(reports)),
       levers_(std::move(levers)),
+      present_(graph, facts),
       joint_orders_(conductor, [this](const std::string& component, Order order) {
         return send(component, std::move(order));
       }) {}
@@ -211,12 +204,12 @@ Result<std::vector<Operating::Owner>> Operating::owners(const std::string& name)
   if (hardware == nullptr || graph_.find_component(name) != nullptr) {
     const Result<const graph::ComponentNode*> node = names_.component(name);
     if (!node) return node.error();
-    all.push_back({name, contract_of(facts_.contracts, name), nullptr, params_of(**node)});
+    all.push_back({name, present_.contract_of(name), nullptr, params_of(**node)});
     hardware = graph_.find_hardware((*node)->hardware);
   }
   if (hardware != nullptr)
-    all.push_back({hardware->name, contract_of(facts_.drivers, hardware->name), hardware,
-                   with_changes(hardware->name, hardware->params)});
+    all.push_back({hardware->name, present_.contract_of(hardware->name), hardware,
+                   present_.of(hardware->name, hardware->params)});
   return all;
 }
 
@@ -238,14 +231,7 @@ Result<Operating::ParamName> Operating::find(const std::string& what) const {
 }
 
 graph::Params Operating::params_of(const graph::ComponentNode& component) const {
-  return with_changes(component.name, component.params);
-}
-
-graph::Params Operating::with_changes(const std::string& owner, graph::Params params) const {
-  const auto changed = changed_.find(owner);
-  if (changed == changed_.end()) return params;
-  for (const auto& [name, value] : changed->second) params.insert_or_assign(name, value);
-  return params;
+  return present_.of(component.name, component.params);
 }
 
 void Operating::get(const std::string& what, const ReplyPtr& reply) const {
@@ -266,17 +252,8 @@ void Operating::get(const std::string& what, const ReplyPtr& reply) const {
     for (const auto& [param, value] : owner.params) add_param(owner, param);
 }
 
-void Operating::note_set(const std::string& owner, const std::map<std::string, std::string>& texts) {
-  const bool is_driver = graph_.find_component(owner) == nullptr;
-  const Contract* const contract = contract_of(is_driver ? facts_.drivers : facts_.contracts, owner);
-  if (contract == nullptr) return;
-  for (const auto& [name, text] : texts)
-    if (const Result<graph::Params> read = graph::read_settings(contract->params, {{name, text}}))
-      changed_[owner].insert_or_assign(name, read->at(name));
-}
-
 void Operating::set(const std::vector<std::string>& words, const ReplyPtr& reply) {
-  const Result<std::vector<Setting>> settings = SettingReader(*this, facts_).read(words);
+  const Result<std::vector<Setting>> settings = SettingReader(*this).read(words);
   if (!settings) return reply->refuse(settings.error());
   if (const Status end = change(*settings); !end.ok()) reply->refuse(end.error());
 }
@@ -304,7 +281,7 @@ Status Operating::change(const std::vector<Setting>& settings, const std::string
 
 Result<std::string> Operating::set_for(const std::string& by, const PeerOrder& order) {
   const std::string& component = order.component;
-  const Contract* const contract = contract_of(facts_.contracts, component);
+  const Contract* const contract = present_.contract_of(component);
   if (graph_.find_component(component) == nullptr || contract == nullptr) return gone(component);
   const Result<graph::Params> read = graph::read_settings(contract->params, {{order.param, order.value}});
   if (!read) return read.error();
@@ -344,7 +321,7 @@ JointStep Operating::step_of(const Setting& setting) {
   };
   const auto obeyed = [this, setting](bool has_gone) {
     for (const auto& [param, value] : has_gone ? setting.values : *setting.before)
-      changed_[setting.component].insert_or_assign(param, value);
+      present_.set(setting.component, param, value);
   };
   return {setting.component, make, obeyed};
 }
@@ -371,21 +348,20 @@ void Operating::stop(const ReplyPtr& reply) {
 
 void Operating::recall(const std::vector<std::pair<std::string, Pairs>>& params) {
   for (const auto& [component, values] : params) {
-    const auto contract = facts_.contracts.find(component);
-    if (contract == facts_.contracts.end()) continue;
-    const Result<graph::Params> read =
-        graph::read_settings(contract->second.params, {values.begin(), values.end()});
+    const Contract* const contract = present_.contract_of(component);
+    if (contract == nullptr) continue;
+    const Result<graph::Params> read = graph::read_settings(contract->params, {values.begin(), values.end()});
     if (!read) continue;
-    for (const auto& [param, value] : *read) changed_[component].insert_or_assign(param, value);
+    for (const auto& [param, value] : *read) present_.set(component, param, value);
   }
 }
 
 void Operating::came_up(const std::vector<Member*>& members) {
   for (const Member* const member : members) {
     for (const graph::ComponentNode& node : graph_.components)
-      if (node.process == member->name()) changed_.erase(node.name);
+      if (node.process == member->name()) present_.forget(node.name);
     for (const graph::HardwareNode& node : graph_.hardware)
-      if (node.process == member->name()) changed_.erase(node.name);
+      if (node.process == member->name()) present_.forget(node.name);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "control/joint_orders.hpp"
+#include "control/params/present_params.hpp"
 #include "control/system_names.hpp"
 #include "members/conductor.hpp"
 #include "members/member.hpp"
@@ -24,9 +25,7 @@ namespace orca::supervisor {
 struct RunLevers {
   std::function<void()> stop;              ///< Ends the run.
   std::function<Status(Member&)> restart;  ///< Ends a process and starts it again.
-  /// Returns the edges in use of those that ports choose from.
-  std::function<std::vector<const graph::Edge*>()> edges_in_use;
-  Pace* pace = nullptr;  ///< Of virtual time; null: the run is in real time.
+  Pace* pace = nullptr;                    ///< Of virtual time; null: the run is in real time.
 };
 
 /// Carries out what an operator orders: pauses, new parameters, restarts, the end. Jobs of the conductor call whatever says
@@ -72,8 +71,8 @@ class Operating {
   [[nodiscard]] bool is_suspended(const std::string& component) const {
     return host::is_suspended(reports_(component).state);
   }
-  /// Forgets what was changed, since the graph says the same now.
-  void forget_changes() { changed_.clear(); }
+  /// Returns what is known of the parameters of all.
+  [[nodiscard]] PresentParams& present() { return present_; }
   /// Returns the present values of a component's parameters.
   [[nodiscard]] graph::Params params_of(const graph::ComponentNode& component) const;
   /// Starts a process again, which is named by itself or by one of its components. It waits until it is back.
@@ -85,8 +84,6 @@ class Operating {
 
   /// Notes what an operator has changed through an earlier supervisor.
   void recall(const std::vector<std::pair<std::string, Pairs>>& params);
-  /// Notes that new code of a component, or a new driver, has taken over with these parameters, by their texts.
-  void note_set(const std::string& owner, const std::map<std::string, std::string>& texts);
   /// Notes that processes work again. Parameters that were changed have the graph's values there.
   void came_up(const std::vector<Member*>& members);
 
@@ -104,7 +101,6 @@ class Operating {
   };
   [[nodiscard]] Result<std::vector<Owner>> owners(const std::string& name) const;
   [[nodiscard]] Result<ParamName> find(const std::string& what) const;
-  [[nodiscard]] graph::Params with_changes(const std::string& owner, graph::Params params) const;
 
   // What is to change in one component.
   struct Setting {
@@ -125,12 +121,11 @@ class Operating {
 
   Conductor& conductor_;
   const graph::Graph& graph_;
-  const SystemFacts& facts_;
   const SystemNames& names_;
   const host::Reports reports_;
   const RunLevers levers_;
-  std::map<std::string, graph::Params> changed_;  // by component or driver: what is not as in the graph
-  std::map<std::string, std::string> comers_;     // see expect()
+  PresentParams present_;
+  std::map<std::string, std::string> comers_;  // see expect()
   std::vector<ReplyPtr> until_end_;
   JointOrders joint_orders_;
 };

@@ -146,8 +146,6 @@ void Showing::objects(Reply& reply) {
 void Showing::names(Reply& reply) const {
   for (const graph::ListedPort& port : facts_.ports) reply.add(Record{{"port", port.ref.text()}});
   for (const graph::GroupNode& node : graph_.groups) reply.add(Record{{"group", node.name}});
-  for (const graph::ComponentNode& node : graph_.components)
-    for (const auto& [name, value] : node.params) reply.add(Record{{"param", node.name + "." + name}});
 }
 
 void Showing::counters(const ReplyPtr& reply) const {

@@ -59,7 +59,7 @@ class Showing {
   void plugins(Reply& reply) const;
   /// A line for each library of object types, with its types.
   static void objects(Reply& reply);
-  /// The names of all ports and parameters, for completion.
+  /// The names of all ports and groups, for completion.
   void names(Reply& reply) const;
   /// What all connections have carried. The processes answer one after the other.
   void counters(const ReplyPtr& reply) const;

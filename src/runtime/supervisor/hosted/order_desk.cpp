@@ -275,8 +275,13 @@ void OrderDesk::pass_on(SwapCode& swap, const Told& told) {
   order.swapped = [this, by = told.by, request = told.request, component = swap.component,
                    file = swap.origin](const Result<host::SwapReport>& outcome) {
     if (outcome)
-      reports_.send(
-          ExchangedCode{component, outcome->new_type, file, outcome->build_id, ++swaps_[component]});
+      reports_.send(ExchangedCode{component,
+                                  outcome->new_type,
+                                  file,
+                                  outcome->build_id,
+                                  ++swaps_[component],
+                                  outcome->params,
+                                  {outcome->values.begin(), outcome->values.end()}});
     Answer answer{outcome ? Status(ok()) : Status(outcome.error())};
     if (outcome) answer.records.push_back(to_record(*outcome));
     (void)by->post(encode(Report(std::move(answer)), request));

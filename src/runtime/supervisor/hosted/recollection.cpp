@@ -12,7 +12,10 @@ bool Recollection::note_state(const Report& report) {
   if (const auto* built = std::get_if<Built>(&report)) return built_ = *built, true;
   if (const auto* change = std::get_if<StateChange>(&report))
     return states_[change->component] = *change, true;
-  if (const auto* code = std::get_if<ExchangedCode>(&report)) return code_[code->component] = *code, true;
+  if (const auto* code = std::get_if<ExchangedCode>(&report)) {
+    params_.erase(code->component);  // it says what they are now
+    return code_[code->component] = *code, true;
+  }
   if (const auto* kept = std::get_if<StateKept>(&report)) return kept_[kept->component] = *kept, true;
   if (const auto* rest = std::get_if<RestChange>(&report)) return at_rest_ = rest->at_rest, true;
   return false;

@@ -56,15 +56,20 @@ Result<LogWish> read_log_wish(const std::vector<std::string>& words) {
   return wish;
 }
 
+void show_names(const Showing& showing, const PresentParams& params, Reply& reply) {
+  showing.names(reply);
+  params.add_names(reply);
+}
+
 }  // namespace
 
 ControlDesk::ControlDesk(Conductor& conductor, const graph::Graph& whole, const graph::Graph& here,
                          const SystemFacts& facts, const Members& members, Ledger& ledger, Starter& starter,
-                         Renewal& renewal, const RunLevers& levers, Applying::Levers applying)
+                         Renewal& renewal, const DeskLevers& levers, Applying::Levers applying)
     : conductor_(conductor),
       ledger_(ledger),
       names_(whole, here, facts.ports, members),
-      operating_(conductor, here, facts, names_, ledger.reports(), levers),
+      operating_(conductor, here, facts, names_, ledger.reports(), levers.run),
       peers_(conductor, here, names_, operating_, ledger.reports()),
       exchanging_(conductor, here, facts, names_, operating_),
       applying_({conductor, here, facts, members, operating_, exchanging_, starter, renewal, ledger},
@@ -157,7 +162,8 @@ const ControlDesk::Handlers& ControlDesk::handlers() {
       {"ports", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.ports(*r); }},
       {"plugins", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.plugins(*r); }},
       {"objects", [](ControlDesk&, const Ask&, const ReplyPtr& r) { Showing::objects(*r); }},
-      {"names", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.names(*r); }},
+      {"names", [](ControlDesk& d, const Ask&,
+                   const ReplyPtr& r) { show_names(d.showing_, d.operating_.present(), *r); }},
       {"roles", [](ControlDesk&, const Ask& ask, const ReplyPtr& r) { show_roles(ask.words, *r); }},
       {"counters", [](ControlDesk& d, const Ask&, const ReplyPtr& r) { d.showing_.counters(r); }},
       {"alarms",

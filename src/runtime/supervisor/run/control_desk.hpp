@@ -28,6 +28,13 @@
 
 namespace orca::supervisor {
 
+/// What a desk does to a run, and asks of it.
+struct DeskLevers {
+  RunLevers run;
+  /// Returns the edges in use of those that ports choose from.
+  std::function<std::vector<const graph::Edge*>()> edges_in_use;
+};
+
 /// The place at which a running system can be watched and commanded, through its socket.
 ///
 /// Thread contract: the supervisor's thread.
@@ -38,7 +45,7 @@ class ControlDesk {
   /// @param here   what of it runs on this machine.
   ControlDesk(Conductor& conductor, const graph::Graph& whole, const graph::Graph& here,
               const SystemFacts& facts, const Members& members, Ledger& ledger, Starter& starter,
-              Renewal& renewal, const RunLevers& levers, Applying::Levers applying);
+              Renewal& renewal, const DeskLevers& levers, Applying::Levers applying);
 
   /// Notes which file the graph was read from.
   void note_file(std::string graph_file) { graph_file_ = std::move(graph_file); }

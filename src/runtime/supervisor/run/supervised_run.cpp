@@ -115,7 +115,7 @@ class SupervisedRun {
 
   // ---- Operators
 
-  RunLevers levers() {
+  DeskLevers levers() {
     const auto stop = [this] {
       if (!conclusion_.is_over()) conclusion_.stop("");
     };
@@ -128,7 +128,7 @@ class SupervisedRun {
       losses_.end(member);
       return ok();
     };
-    return {stop, restart, [this] { return trading_.in_use(); }};
+    return {{stop, restart}, [this] { return trading_.in_use(); }};
   }
 
   Applying::Levers applying() {

@@ -7,6 +7,7 @@
 //   TELLER_FAULT      0: none, else where it fails (see below)
 //   TELLER_TYPE      its type
 //   TELLER_INPUT     the name of its input
+//   TELLER_TONE       it has a parameter more
 //   TELLER_HEIR       it goes on from the state of test.Teller and test.OtherTeller, too
 #include <algorithm>
 #include <chrono>
@@ -174,6 +175,9 @@ class Teller final : public orca::Component {
   orca::Param<bool> tells_{*this, "tells", true, {.text = "Whether to log its start."}};
   orca::Param<bool> forgets_{*this, "forgets", false, {.text = "Whether start() begins to count anew."}};
   orca::Param<std::int64_t> step_{*this, "step", 1, {.min = 1, .max = 10}};
+#ifdef TELLER_TONE
+  orca::Param<std::string> tone_{*this, "tone", "flat", {.choices = { "flat", "sharp" } }};
+#endif
 
   std::int64_t count_ = 0;
   std::uint64_t last_ = 0;

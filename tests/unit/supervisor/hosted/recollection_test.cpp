@@ -50,6 +50,7 @@ TEST_CASE("the next supervisor hears the last state of everything", "[supervisor
 TEST_CASE("the next supervisor hears which code was exchanged, and how often", "[supervisor][adoption]") {
   Recollection all("base");
   CHECK(all.note_state(ExchangedCode{"avoid", "orca.VfhPlus", "/a/vfh_plus.so", "b2", 1}));
+  all.note_params("avoid", {{"clearance", "0.1 m"}});
   CHECK(all.note_state(ExchangedCode{"avoid", "orca.LaserAvoid", "/a/laser_avoid.so", "b3", 2}));
   const std::vector<Report> reports = all.reports();
   const auto* const code = std::get_if<ExchangedCode>(&reports.front());
@@ -57,6 +58,8 @@ TEST_CASE("the next supervisor hears which code was exchanged, and how often", "
   CHECK(code->type == "orca.LaserAvoid");
   CHECK(code->file == "/a/laser_avoid.so");
   CHECK(code->swaps == 2);
+  CHECK(
+      std::get<Standing>(reports.back()).params.empty());  // the old code's: the new one's are in the report
 }
 
 TEST_CASE("alarms stand until they are acknowledged, whoever has raised them", "[supervisor][adoption]") {

@@ -102,6 +102,8 @@ Result<std::unique_ptr<HardwareInstance>> DriverSwap::make_driver() {
   const Result<ParamValues> values =
       inherited((*described)->contract().params, site_.place.driver().params(), order_.params);
   if (!values) return values.error();
+  report_.params = (*described)->contract().params;
+  report_.values = *values;
   auto faults = (*described)->prepare(*values);
   std::erase_if(faults, [](const HardwareFault& fault) { return fault.only_warns; });
   if (!faults.empty()) return refuse(Code::invalid_argument, joined(texts_of(faults), "; "));

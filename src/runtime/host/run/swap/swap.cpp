@@ -94,6 +94,8 @@ Status Swap::make_successor(const LoadedType& type, const Contract& contract) {
   Result<ParamValues> values =
       inherited(contract.params, place_.component.parts().params.values(), order_.params);
   if (!values) return values.error();
+  report_.params = contract.params;
+  report_.values = *values;
   settings.params = std::move(values).value();
   successor_ = std::make_unique<ComponentInstance>(
       beside_.context(), std::move(settings), [type] { return Result<LoadedType>(type); },

@@ -3,7 +3,9 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "orca/base/contract.hpp"
 #include "orca/base/time.hpp"
 #include "orca/plugin/image.hpp"
 #include "orca/plugin/library.hpp"
@@ -30,7 +32,9 @@ struct SwapOrder {
 struct SwapReport {
   std::string old_type;
   std::string new_type;
-  std::string build_id;  ///< PluginLibrary::build_id() of the new code.
+  std::string build_id;                      ///< PluginLibrary::build_id() of the new code.
+  std::vector<ParamContract> params;         ///< That the new code has.
+  std::map<std::string, ParamValue> values;  ///< Of those that do not have their defaults.
   Duration pause{
       0};  ///< While neither object could work, of a component between two laps [s of the run's clock].
   std::string state;  ///< Tag of the state that the new object took over; empty: it began afresh.

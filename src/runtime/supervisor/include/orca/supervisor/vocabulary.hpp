@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "orca/base/contract.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/result.hpp"
@@ -382,9 +383,11 @@ struct ExchangedCode {
   static constexpr Kind kKind = Kind::exchanged_code;
   std::string component;
   std::string type;
-  std::string file;         ///< The plugin's, when it was copied.
-  std::string build_id;     ///< PluginLibrary::build_id() of what is in memory.
-  std::uint64_t swaps = 0;  ///< How often the component's code was exchanged in this process.
+  std::string file;                     ///< The plugin's, when it was copied.
+  std::string build_id;                 ///< PluginLibrary::build_id() of what is in memory.
+  std::uint64_t swaps = 0;              ///< How often the component's code was exchanged in this process.
+  std::vector<ParamContract> params{};  ///< That the code has.
+  std::vector<std::pair<std::string, ParamValue>> values{};  ///< Of those that do not have their defaults.
 };
 /// What an earlier supervisor has ordered and kept, for the one that adopts the process.
 struct Standing {
