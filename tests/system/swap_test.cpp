@@ -344,6 +344,22 @@ TEST_CASE("the parameters of a component are those of the code that runs, whatev
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
+TEST_CASE("a swap that meets a long probation is told how long that lasts, and what ends it",
+          "[system][swap]") {
+  Telling system("talking");
+  Subprocess patient(
+      orcactl({"swap", "teller", next_version("test_teller_2"), "--tryout", "100 ms", "--probation", "1 h"}));
+  REQUIRE(system.hears("heard 2:"));
+  const Run refused = system.swap(next_version("test_teller_again"));
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err, Contains("test_teller_2.so is on probation for another 35") &&
+                              Contains("orcactl restart teller ends that at once"));
+  CHECK(run_orcactl({"restart", "teller"}).exit_code() == 0);
+  CHECK(finish(patient, Seconds(10)).exit_code() == 1);
+  CHECK(system.swap(next_version("test_teller_again"), {"--probation", "0 s"}).exit_code() == 0);
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
 TEST_CASE("a process that is started again runs the code that the graph names, and says so",
           "[system][swap]") {
   Telling system("talking");

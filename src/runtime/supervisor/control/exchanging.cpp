@@ -15,6 +15,7 @@ namespace orca::supervisor {
 namespace {
 
 constexpr Duration kLongestTryout = 60s;
+constexpr Duration kLongWait = 10s;           // for the end of another exchange
 constexpr Duration kTryoutOfRebuilt = 300ms;  // whoever has just built it waits for it
 
 // A file may hold a colon in the names of its folders.
@@ -102,22 +103,22 @@ Status check_exchangeable(const graph::ComponentNode& node) {
               node.name);
 }
 
+}  // namespace
+
 // Keeps a component from being exchanged twice at a time.
-class Busy {
+class Exchanging::Busy {
  public:
-  Busy(std::set<std::string>& all, const std::string& component) : all_(all), component_(component) {
-    all_.insert(component_);
+  Busy(std::map<std::string, Underway>& all, const SwapWish& wish) : all_(all), component_(wish.component) {
+    all_[component_] = {wish.file, wish.care.probation, std::nullopt};
   }
   ~Busy() { all_.erase(component_); }
   Busy(const Busy&) = delete;
   Busy& operator=(const Busy&) = delete;
 
  private:
-  std::set<std::string>& all_;
+  std::map<std::string, Underway>& all_;
   const std::string component_;
 };
-
-}  // namespace
 
 Result<Care> read_care(const std::vector<std::string>& words) {
   Care care;
@@ -201,16 +202,28 @@ std::set<std::string> Exchanging::plugin_files() const {
 }
 
 Result<Record> Exchanging::exchange(const SwapWish& wish) {
-  if (is_busy(wish.component))
-    return fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
-                wish.component);
-  const Busy busy(busy_, wish.component);
+  if (is_busy(wish.component)) return busy_with(wish.component);
+  const Busy busy(busy_, wish);
   const graph::HardwareNode* const hardware = graph_.find_hardware(wish.component);
   const bool is_driver = hardware != nullptr && graph_.find_component(wish.component) == nullptr;
   if (is_driver && wish.only_tries)
     return fail(Code::failed_precondition, "a driver is not tried out", wish.component);
   if (wish.only_tries) return only_try(wish);
   return is_driver ? exchange_driver(wish, *hardware) : exchange_component(wish);
+}
+
+// Whoever would have to wait for long hears for how long, and what else can be done.
+Error Exchanging::busy_with(const std::string& component) const {
+  const Underway& other = busy_.at(component);
+  const auto left = [&] { return other.probation - Duration(Moment::clock::now() - *other.ordered); };
+  if (!other.ordered || left() < kLongWait)
+    return fail(Code::unavailable, "another exchange of it is under way; try again when that is done",
+                component);
+  return fail(Code::unavailable,
+              "another exchange of it is under way: " + other.file + " is on probation for another " +
+                  std::to_string(left() / 1s) + " s; try again then. orcactl restart " + component +
+                  " ends that at once: its process begins anew, with the code of the graph",
+              component);
 }
 
 Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
@@ -235,6 +248,7 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
   member = names_.ready_member_of(**node);
   if (!member) return member.error();
   const std::string file = image->origin();
+  busy_.at(wish.component).ordered = Moment::clock::now();
   return order_swap(**member, {order.component,
                                order.type,
                                {order.new_params.begin(), order.new_params.end()},

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -107,6 +108,15 @@ class Exchanging {
   void came_up(const std::vector<Member*>& members);
 
  private:
+  // An exchange that has been begun and has not ended.
+  struct Underway {
+    std::string file;
+    Duration probation;
+    std::optional<Moment> ordered;  // when the process was told; nothing: the code is being tried out
+  };
+  class Busy;
+
+  [[nodiscard]] Error busy_with(const std::string& component) const;
   void swap_rebuilt(const SwapWish& wish);
   [[nodiscard]] std::vector<PortContract> ports_of(const std::string& component) const;
   [[nodiscard]] std::vector<ServerLine> lines_to_servers_of(const std::string& component) const;
@@ -126,8 +136,8 @@ class Exchanging {
   const SystemFacts& facts_;
   const SystemNames& names_;
   Operating& operating_;
-  std::set<std::string> busy_;     // components of which an exchange has been begun and has not ended
-  std::set<std::string> rebuilt_;  // components whose code was built anew and is not exchanged yet
+  std::map<std::string, Underway> busy_;  // by component
+  std::set<std::string> rebuilt_;         // components whose code was built anew and is not exchanged yet
   std::map<std::string, std::map<std::string, std::string>> builds_;  // build ids by process, then by type
   std::map<std::string, CodeFacts> exchanged_;                        // by component or hardware
 };
