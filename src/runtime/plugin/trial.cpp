@@ -26,6 +26,7 @@
 #include "orca/base/exception_text.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/log_mute.hpp"
+#include "orca/base/system/signal_name.hpp"
 
 namespace orca::plugin {
 namespace {
@@ -274,7 +275,7 @@ void end_copy(pid_t copy) {
 std::string how_it_died(int status, const std::string& thrown) {
   if (!thrown.empty()) return thrown + ", which nothing can catch there";
   if (WIFSIGNALED(status))
-    return std::string("ended the process with the signal ") + sigabbrev_np(WTERMSIG(status)) + " (" +
+    return std::string("ended the process with the signal ") + signal_name(WTERMSIG(status)) + " (" +
            strsignal(WTERMSIG(status)) + ")";
   return "ended the process with exit(" + std::to_string(WEXITSTATUS(status)) + ")";
 }

@@ -98,6 +98,7 @@ TEST_CASE("a function that returns or throws survives its trial", "[plugin][tria
 TEST_CASE("the end of the copied process is reported with the step that it was at", "[plugin][trial]") {
   CHECK_THAT(death([] { std::abort(); }), Contains("the deed ended the process with the signal ABRT"));
   CHECK_THAT(death([] { raise(SIGKILL); }), Contains("the deed") && Contains("KILL"));
+  CHECK_THAT(death([] { raise(SIGRTMIN + 3); }), Contains("with the signal RTMIN+3"));
   CHECK_THAT(death([] { _exit(3); }), Contains("the deed ended the process with exit(3)"));
   CHECK_THAT(death([]() noexcept { no_way_out(); }),
              Contains("the deed threw std::runtime_error: no way out, which nothing can catch there"));

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "orca/base/system/signal_name.hpp"
 #include "orca/base/time.hpp"
 #include "worker.hpp"
 
@@ -34,10 +35,7 @@ double seconds(const timeval& time) {
 constexpr double kShortestOverload = 5.0;  // [s]
 
 std::string reason_of(int status) {
-  if (WIFSIGNALED(status)) {
-    const char* const name = sigabbrev_np(WTERMSIG(status));
-    return "its process died of SIG" + (name == nullptr ? std::to_string(WTERMSIG(status)) : name);
-  }
+  if (WIFSIGNALED(status)) return "its process died of SIG" + signal_name(WTERMSIG(status));
   return "its process ended with status " + std::to_string(WEXITSTATUS(status)) + " and no result";
 }
 

@@ -17,6 +17,7 @@
 
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/live_line.hpp"
+#include "orca/base/system/signal_name.hpp"
 #include "orca/host/last_words.hpp"
 
 namespace orca::host {
@@ -120,9 +121,7 @@ void StopSignal::handle_others() {
 std::string StopSignal::failure() const { return name_of(g_signal.load()); }
 
 std::string StopSignal::name_of(int signal) {
-  if (signal == 0) return {};
-  if (signal >= SIGRTMIN) return "SIGRTMIN+" + std::to_string(signal - SIGRTMIN);
-  return std::string("SIG") + sigabbrev_np(signal);
+  return signal == 0 ? std::string() : "SIG" + signal_name(signal);
 }
 
 void StopSignal::on_request(std::function<void()> action) {

@@ -4,9 +4,8 @@
 #include <locale.h>
 #include <pthread.h>
 
-#include <cstring>
-
 #include "floating_point.hpp"
+#include "orca/base/system/signal_name.hpp"
 
 namespace orca::host {
 namespace {
@@ -17,7 +16,7 @@ std::string difference(const sigset_t& now, const sigset_t& before) {
     const bool blocked = sigismember(&now, signal) == 1;
     if (blocked == (sigismember(&before, signal) == 1)) continue;
     changes += std::string(changes.empty() ? "" : ", ") + (blocked ? "blocked SIG" : "unblocked SIG") +
-               sigabbrev_np(signal);
+               signal_name(signal);
   }
   return changes;
 }

@@ -9,13 +9,10 @@
 #include <new>
 #include <string_view>
 
+#include "orca/base/system/signal_name.hpp"
+
 namespace orca::plugin {
 namespace {
-
-std::string name_of(int signal) {
-  const char* const name = sigabbrev_np(signal);
-  return name != nullptr ? std::string("SIG") + name : "signal " + std::to_string(signal);
-}
 
 // The handlers are one member of a union, whichever of them it is.
 std::uintptr_t handler_of(int signal) {
@@ -32,7 +29,7 @@ std::vector<std::string> ways_into(std::uintptr_t start, std::uintptr_t end) {
     if (address >= start && address < end) ways.push_back(way);
   };
   for (int signal = 1; signal <= SIGRTMAX; ++signal)
-    note(reinterpret_cast<const void*>(handler_of(signal)), "the handler of " + name_of(signal));
+    note(reinterpret_cast<const void*>(handler_of(signal)), "the handler of SIG" + signal_name(signal));
   note(reinterpret_cast<const void*>(std::get_new_handler()), "std::set_new_handler()");
   note(reinterpret_cast<const void*>(std::get_terminate()), "std::set_terminate()");
   for (char** text = environ; text != nullptr && *text != nullptr; ++text)

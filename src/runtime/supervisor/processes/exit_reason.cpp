@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/supervisor/exit_reason.hpp"
 
-#include <csignal>
-#include <cstring>
+#include "orca/base/system/signal_name.hpp"
 
 namespace orca::supervisor {
-namespace {
-
-std::string name_of(int signal) {
-  if (signal >= SIGRTMIN) return "SIGRTMIN+" + std::to_string(signal - SIGRTMIN);
-  const char* const name = sigabbrev_np(signal);
-  return name == nullptr ? "signal " + std::to_string(signal) : "SIG" + std::string(name);
-}
-
-}  // namespace
 
 std::string ExitReason::text() const {
   switch (force) {
@@ -26,7 +16,7 @@ std::string ExitReason::text() const {
   }
   if (is_guess) return status == 0 ? "ended as it had said" : "ended, and its new supervisor cannot tell how";
   if (signal == 0) return "exited with status " + std::to_string(status);
-  std::string text = "was ended by " + name_of(signal);
+  std::string text = "was ended by SIG" + signal_name(signal);
   if (dumped_core) text += " (core dumped)";
   if (out_of_memory) text += " (the system has probably run out of memory)";
   return text;
