@@ -103,10 +103,11 @@ TEST_CASE("a plugin with a thread_local variable that has a destructor is refuse
   CHECK_FALSE(is_mapped(path));
 }
 
-TEST_CASE("a plugin with a function that would be called at the end of the process, without it, is refused",
-          "[plugin][bad]") {
-  const std::string path = test_plugin("bad/bad_on_exit");
-  CHECK_THAT(refusal(path).text(), Contains("after it was unloaded") && Contains("on_exit()"));
+TEST_CASE("a plugin with functions that would be called after it was unloaded is refused", "[plugin][bad]") {
+  const std::string path = test_plugin("bad/bad_endings");
+  CHECK_THAT(refusal(path).text(),
+             Contains("could crash the process after it was unloaded, when that ends, by on_exit()") &&
+                 Contains("when one of its threads ends, by pthread_key_create()"));
   CHECK_FALSE(is_mapped(path));
 }
 

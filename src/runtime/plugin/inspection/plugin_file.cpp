@@ -51,16 +51,23 @@ Result<std::vector<std::byte>> bytes_of(const std::string& path) {
   return bytes;
 }
 
-// Functions for the end of the process that, other than those of atexit(), are not called and forgotten when their library is
-// unloaded.
+// Returns by what a plugin gives the process a function of its own that outlives it; empty: the symbol does not. Functions of atexit()
+// are called when their library is unloaded.
+std::string ending_by(const ElfSymbol& symbol) {
+  const std::string unless = "; use the destructor of the component, or atexit()";
+  if (symbol.defined) return {};
+  if (symbol.name == "on_exit") return "when that ends, by on_exit()" + unless;
+  if (symbol.name == "__cxa_at_quick_exit") return "when that ends, by at_quick_exit()" + unless;
+  if (symbol.name == "pthread_key_create" || symbol.name == "tss_create")
+    return "when one of its threads ends, by " + std::string(symbol.name) +
+           "(); make the variable a member of the component";
+  return {};
+}
+
 void check_endings(const ElfFile& elf, std::vector<std::string>& faults) {
-  for (const ElfSymbol& symbol : elf.symbols()) {
-    const bool is_quick = symbol.name == "__cxa_at_quick_exit";
-    if (symbol.defined || (symbol.name != "on_exit" && !is_quick)) continue;
-    faults.push_back(std::string("would crash the process when that ends, after it was unloaded: it gives ") +
-                     (is_quick ? "at_quick_exit()" : "on_exit()") +
-                     " a function; use the destructor of the component, or atexit()");
-  }
+  for (const ElfSymbol& symbol : elf.symbols())
+    if (const std::string ending = ending_by(symbol); !ending.empty())
+      faults.push_back("could crash the process after it was unloaded, " + ending);
 }
 
 }  // namespace
