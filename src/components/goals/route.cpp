@@ -6,6 +6,7 @@
 
 #include "orca/base/portable_math.hpp"
 #include "orca/geometry/objects/plane.hpp"
+#include "orca/goals/trip.hpp"
 
 namespace orca::go {
 
@@ -48,11 +49,9 @@ bool is_level(const idl::GoalPoint& goal) {
 }  // namespace
 
 const char* fault_of(const idl::GoalPoint& goal, double height) {
-  constexpr double kFarthest = 1e8;  // [m] more than twice around the Earth
   const auto& place = goal.coordinate().point();
   if (!is_finite(goal)) return "holds a number that is not finite";
-  if (std::max(std::fabs(place.x()), std::fabs(place.y())) > kFarthest)
-    return "lies farther away than any place on Earth";
+  if (is_beyond_earth(place.x(), place.y())) return "lies farther away than any place on Earth";
   const double reach = goal.reach_radius().distance();
   if (reach < 0.0) return "has a negative reach_radius";
   if (goal.use_orientation() && goal.reach_angle() <= 0.0)

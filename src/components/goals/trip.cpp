@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/goals/trip.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
@@ -67,7 +68,13 @@ Result<Place> parse_door(std::string_view text) {
   return Place{numbers[0], numbers[1], 0.0, Doorway{numbers[2] * std::numbers::pi / 180.0, numbers[3]}};
 }
 
-Result<Place> parse_place(std::string_view text) {
+Result<Place> on_earth(const Result<Place>& place) {
+  if (place && is_beyond_earth(place->x, place->y))
+    return fail(Code::invalid_argument, "it lies farther away than any place on Earth");
+  return place;
+}
+
+Result<Place> read_place(std::string_view text) {
   constexpr std::string_view kDoor = "door";
   std::string_view rest = trim(text);
   if (is_name(rest)) return Place{.name = std::string(rest)};
@@ -86,6 +93,9 @@ Result<Place> parse_place(std::string_view text) {
               "expected nothing after x, y and z, found \"" + std::string(rest) + "\"");
 }
 
+// A place where nobody could drive is refused here, so that no goal on the way is given up for it.
+Result<Place> parse_place(std::string_view text) { return on_earth(read_place(text)); }
+
 // Cuts `text` at the first `mark`: returns the part before it and leaves the part after it in `text`.
 std::string_view cut(std::string_view& text, char mark) {
   const auto at = text.find(mark);
@@ -103,6 +113,11 @@ std::string name_of(std::string_view trip) {
 }
 
 }  // namespace
+
+bool is_beyond_earth(double x, double y) {
+  constexpr double kFarthest = 1e8;  // [m] more than twice around the Earth
+  return !(std::max(std::fabs(x), std::fabs(y)) <= kFarthest);
+}
 
 Result<Trip> parse_trip(std::string_view text) {
   std::string_view rest = text;

@@ -98,6 +98,8 @@ TEST_CASE("a wrong trip is refused with what was found and an example", "[compon
                Wrong{"a: 1 2 3 4", "expected nothing after x, y and z, found \"4\""},
                Wrong{"a: 1,5 2", "\"1,5\" is not a number"}, Wrong{"a: 10abc 2", "\"10abc\" is not a number"},
                Wrong{"a: nan 2", "\"nan\" is not a number"}, Wrong{"a: 1 inf", "\"inf\" is not a number"},
+               Wrong{"a: 1e9 2", "farther away than any place on Earth"},
+               Wrong{"a: 1 2 > door 3 -1e300 90 1 > 3 4", "farther away than any place on Earth"},
                Wrong{"a: 1e999 2", "\"1e999\" is not a number"}, Wrong{"a: > 1 2", "found \"\""},
                Wrong{"a: 1 2 > > 3 4", "found \"\""}, Wrong{"a: 1 2 >", "found \"\""},
                Wrong{"a: 1 2 @ north", "\"north\" is not a number"},

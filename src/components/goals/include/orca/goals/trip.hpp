@@ -34,6 +34,9 @@ struct Trip {
   double orientation = 0.0;  ///< [rad] direction to face at the goal.
 };
 
+/// Returns whether a place is farther away than any on Earth, or is no place at all: a coordinate is not a number [m].
+[[nodiscard]] bool is_beyond_earth(double x, double y);
+
 /// Reads one trip: `kitchen: 3.1 2 > door 5 2 90 0.9 > 5 4.5 @ 90`. It consists of a name, any via points, and
 /// the goal; coordinates are in metres. A third number is the height of the place above the floor. The optional
 /// number after `@` is the direction to face at the goal, in degrees. `door` begins a place that is a doorway:
