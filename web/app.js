@@ -74,13 +74,18 @@ function listenToTabs() {
   });
 }
 
+const SILENCE = 2200;  // [ms] without an answer to STOP; a deployer waits 2 s for other machines
+
 /** Sends the stop before anything else is done. */
 function stop() {
   const began = performance.now();
   const answer = connection.ask("estop");
+  const silence = setTimeout(() => notify("STOP IS NOT CONFIRMED: what the system moves may go on; take the power from the motors. Nothing answers; "
+    + "orcactl estop on the robot's machine says why.", "refused"), SILENCE);
   teleoperation.letGo();
   byId("stop").classList.add("pressed");
   answer.then(({ ok, error }) => {
+    clearTimeout(silence);
     byId("stop").classList.remove("pressed");
     if (ok) notify(`All motors are held, confirmed after ${Math.round(performance.now() - began)} ms.`, "done");
     else notify(`STOP is not confirmed: ${error}`, "refused");

@@ -4,6 +4,8 @@
 
     tests/system/view/role_page_test.py [-k PART_OF_A_CASE'S_NAME] [--pictures FOLDER] BUILD_FOLDER
 """
+import signal
+
 from page_case import PageCase, main, wait_for
 from selenium.webdriver.common.keys import Keys
 from view_case import ROLES
@@ -91,7 +93,20 @@ class RolePage(PageCase):
         self.click("#release")
         wait_for("they are free", lambda: not self.motors_are_held())
 
-    def test_4_who_may_change_is_offered_everything(self):
+    def test_4_a_stop_that_a_stopped_deployer_does_not_confirm_says_so(self):
+        self.open_as("operate")
+        self.system.send_signal(signal.SIGSTOP)
+        try:
+            self.click("#stop")
+            wait_for("the warning", lambda: "STOP IS NOT CONFIRMED" in self.text("#notices"), 5)
+        finally:
+            self.system.send_signal(signal.SIGCONT)
+        wait_for("the motors are held", self.motors_are_held)
+        wait_for("the page says so", lambda: "All motors are held, confirmed after" in self.text("#notices"))
+        self.click("#release")
+        wait_for("they are free", lambda: not self.motors_are_held())
+
+    def test_5_who_may_change_is_offered_everything(self):
         self.open_as("change")
         self.assertFalse(self.part("#role").is_displayed())
         for selector in STEERING:
