@@ -344,6 +344,21 @@ TEST_CASE("an emergency stop that a stopped deployer does not confirm says so, a
   stop(system);
 }
 
+TEST_CASE("a process without a deployer that hangs does not hold up the emergency stop of the others",
+          "[system][adoption]") {
+  Orphans orphans;
+  kill(orphans.processes["relay"], SIGSTOP);
+  Subprocess estop(orcactl({"estop"}));
+  const Run run = finish(estop, Seconds(4));
+  CHECK(run.exit_code() == 1);
+  CHECK_THAT(run.err, Contains("process " + std::to_string(orphans.processes["relay"]) + " of flow") &&
+                          Contains("has not answered for 2 s") &&
+                          Contains("take the power from the motors") &&
+                          Contains("obeyed by the processes themselves: sink, source"));
+  kill(orphans.processes["relay"], SIGCONT);
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
 TEST_CASE("alarms that nobody has acknowledged outlive the deployer", "[system][adoption]") {
   System first(lasting_flow());
   first.when("flow ", 0, Seconds(10));

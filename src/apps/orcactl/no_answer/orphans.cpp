@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <future>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,7 @@ using supervisor::Order;
 using supervisor::Waiting;
 
 constexpr Duration kAnswerLimit = 5s;
+constexpr Duration kMotorsLimit = 2s;  // to say so early that an emergency stop is not confirmed
 constexpr int kEndMs = 3000;
 
 // Returns the systems of which processes run without a deployer.
@@ -42,8 +44,11 @@ std::optional<Order> order_of(const apps::Call& call) {
   return supervisor::StopMotors{"emergency stop; an operator releases it with: orcactl estop --release"};
 }
 
-Result<supervisor::Report> next_report(supervisor::Channel& channel) {
-  Result<supervisor::Message> message = channel.wait_for_message(kAnswerLimit);
+Result<supervisor::Report> next_report(supervisor::Channel& channel, Duration limit) {
+  Result<supervisor::Message> message = channel.wait_for_message(limit);
+  if (!message && message.error().code == Code::deadline_exceeded)
+    return fail(Code::deadline_exceeded, "it has not answered for " + seconds_text(limit) +
+                                             ", and what it moves may go on: take the power from the motors");
   if (!message) return message.error();
   return supervisor::decode_report(std::move(message).value());
 }
@@ -51,14 +56,15 @@ Result<supervisor::Report> next_report(supervisor::Channel& channel) {
 // Gives an order to a process, and waits until it is carried out. Returns the name of the process.
 Result<std::string> give(Waiting& waiting, Order order) {
   const bool is_end = std::holds_alternative<supervisor::TakeDown>(order);
+  const Duration limit = is_end ? kAnswerLimit : kMotorsLimit;
   supervisor::Channel channel(std::move(waiting.connection));
-  const Result<supervisor::Report> first = next_report(channel);
+  const Result<supervisor::Report> first = next_report(channel, limit);
   if (!first) return first.error();
   const auto* const self = std::get_if<supervisor::Orphaned>(&*first);
   if (self == nullptr) return fail(Code::data_loss, "it does not say who it is");
-  if (Status sent = channel.send(supervisor::encode(std::move(order), 1), kAnswerLimit); !sent.ok())
+  if (Status sent = channel.send(supervisor::encode(std::move(order), 1), limit); !sent.ok())
     return sent.error();
-  const Result<supervisor::Report> answer = next_report(channel);
+  const Result<supervisor::Report> answer = next_report(channel, limit);
   if (!answer) return answer.error();
   const auto* const said = std::get_if<supervisor::Answer>(&*answer);
   if (said == nullptr) return fail(Code::data_loss, "it does not answer");
@@ -71,12 +77,17 @@ Result<std::string> give(Waiting& waiting, Order order) {
 ExitCode give_all(const std::string& system, const apps::Call& call) {
   std::vector<std::string> obeyed;
   ExitCode code = ExitCode::done;
-  for (Waiting& waiting : supervisor::connect_to_waiting(system)) {
-    const Result<std::string> name = give(waiting, *order_of(call));
+  std::vector<Waiting> all = supervisor::connect_to_waiting(system);
+  std::vector<std::future<Result<std::string>>>
+      given;  // at once: none waits for another one that does not answer
+  for (Waiting& waiting : all)
+    given.push_back(std::async(std::launch::async, [&] { return give(waiting, *order_of(call)); }));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Result<std::string> name = given[i].get();
     if (name)
       obeyed.push_back(*name);
     else
-      code = report({fail(name.error().code, "process " + std::to_string(waiting.pid) + " of " + system +
+      code = report({fail(name.error().code, "process " + std::to_string(all[i].pid) + " of " + system +
                                                  ": " + name.error().message)});
   }
   if (obeyed.empty() && code == ExitCode::done)
