@@ -24,7 +24,7 @@ TOOLS = {"Mutex"}
 DEBTS = {
     ("Avoider", "functions"): 45, ("PushEdge", "functions"): 46, ("GoalFollower", "functions"): 42, ("Component", "functions"): 38,
     ("World", "functions"): 38,
-    ("SupervisedRun", "collaborators"): 20, ("WatchedSystem", "collaborators"): 13, ("Applying", "collaborators"): 8,
+    ("SupervisedRun", "collaborators"): 19, ("WatchedSystem", "collaborators"): 13, ("Applying", "collaborators"): 8,
     ("ControlDesk", "collaborators"): 13, ("HostedPart", "collaborators"): 11,
     ("OrderDesk", "collaborators"): 10, ("Run", "collaborators"): 10, ("Swap", "collaborators"): 11, ("Life", "collaborators"): 8,
     ("PortSet", "collaborators"): 8, ("QuietRun", "collaborators"): 8, ("Reporter", "collaborators"): 8,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/component/standing_watch.hpp"
 #include "orca/geometry/objects/own_beams.hpp"
 #include "orca/geometry/objects/plane.hpp"
@@ -238,11 +239,13 @@ class GridPlanner final : public orca::go::GoalFollower {
   }
 
   void drive(const Pose2& pose, const Target& target) override {
+    const bool held = orca::are_motors_held(kept_alarms());
+    if (held) idle();  // there is nothing to recover from, neither now nor at the release
     const bool hears = navigator_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= *deaf_after_;
     const bool stands = std::abs(twist_.forward) < kSlow && std::abs(twist_.turn_rate) < kSlow;
     standing_.look(stands, [&] { return hears ? what_holds() : why_deaf(); });
     const auto scan = laser_.latest();
-    if (!hears || (scan && orca::is_covered(*scan))) {
+    if (held || !hears || (scan && orca::is_covered(*scan))) {
       motion().push(orca::full_stop());
       note_speed(0.0);
       return;

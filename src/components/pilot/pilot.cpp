@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "orca/component/held_motors.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/goals/goal_follower.hpp"
 #include "orca/idl/time.hpp"
@@ -174,12 +175,15 @@ class Pilot final : public orca::go::GoalFollower {
   }
 
   void drive(const Pose2& pose, const Target& target) override {
-    if (takes_over(traverse_.latest(), now())) {
+    // It leaves the robot to who drives through doors, and to nobody while the motors are held.
+    if (orca::are_motors_held(kept_alarms()) || takes_over(traverse_.latest(), now())) {
       motion().push(orca::dont_care());
       note_speed(0.0);
       recoveries_.note(std::nullopt);
-      if (driver_) driver_->reset();
-      if (driver_) driver_->begin({now(), pose, twist_});  // it has waited for nobody
+      if (driver_) {
+        driver_->reset();
+        driver_->begin({now(), pose, twist_});  // it has waited for nobody
+      }
       return;
     }
     const bool hears = driver_ && heard_at_ && orca::to_seconds(now() - *heard_at_) <= kDeafAfter;

@@ -49,6 +49,7 @@ class Reception::Desk {
                 [&] { return around.pace_.look().time; }),
         control_(conductor_, around.graph_, around.graph_, around.facts_, roster_.all(), ledger_, starter_,
                  renewal_, levers(), {}) {
+    ledger_.relay_to(roster_.all());  // alarms that the desk itself raises, such as ESTOP
     self().adopt(HostProcess::here(self().name(), std::move(around.doors_.channel)));
     self().enter(Member::Phase::coming_up);
     control_.built(roster_.all());

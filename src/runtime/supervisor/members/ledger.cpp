@@ -148,7 +148,7 @@ void Ledger::note(idl::Alarm alarm, const std::string& process, const std::strin
   listener_.alarm(alarm);
   alarms_.take(alarm, process);
   missions_.note(alarm);
-  if (relay_ != nullptr) relay_->tell(alarm, process, reporter);
+  if (relay_) relay_->tell(alarm, process, reporter);
   const MutexLock lock(mutex_);
   so_far_.alarms.push_back(std::move(alarm));
 }
@@ -186,7 +186,7 @@ Status Ledger::acknowledge(std::uint64_t number) {
   if (known != alarms_.kept().end() && known->alarm.active() && known->alarm.kind() == idl::ESTOP)
     return fail(Code::failed_precondition,
                 "the motors are still held; first let them go: orcactl estop --release");
-  if (known != alarms_.kept().end() && relay_ != nullptr) relay_->tell_acknowledged(*known);
+  if (known != alarms_.kept().end() && relay_) relay_->tell_acknowledged(*known);
   return alarms_.acknowledge(number);
 }
 

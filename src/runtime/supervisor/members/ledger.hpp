@@ -78,8 +78,8 @@ class Ledger final : public host::RunView {
   /// @errors  not_found; failed_precondition for an emergency stop that is not released.
   Status acknowledge(std::uint64_t alarm);
   /// Tells of what happens to alarms from now on.
-  /// @param relay  outlives the object.
-  void relay_to(const AlarmRelay& relay) { relay_ = &relay; }
+  /// @param members  outlive the object.
+  void relay_to(const std::vector<Member*>& members) { relay_.emplace(members); }
 
   /// Forgets that a component has failed, because it begins anew.
   void pardon(const std::string& component);
@@ -121,7 +121,7 @@ class Ledger final : public host::RunView {
   bool are_introduced_ = false;
   host::AlarmStore alarms_;
   MissionBook missions_{start_};
-  const AlarmRelay* relay_ = nullptr;
+  std::optional<AlarmRelay> relay_;
   std::map<std::string, Tally> tallies_;  // by process
   std::optional<Error> output_error_;
 

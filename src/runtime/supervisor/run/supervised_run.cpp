@@ -11,7 +11,6 @@
 #include "machines/neighbours.hpp"
 #include "machines/team_presence.hpp"
 #include "machines/trading.hpp"
-#include "members/alarm_relay.hpp"
 #include "members/conductor.hpp"
 #include "members/ledger.hpp"
 #include "members/listening.hpp"
@@ -66,7 +65,7 @@ class SupervisedRun {
         policy_(graph::processes_on(graph, options.machine), graph.supervision),
         control_(conductor_, graph_, here_, facts_, roster_.all(), ledger_, starter_, renewal_, levers(),
                  applying()) {
-    ledger_.relay_to(relay_);
+    ledger_.relay_to(roster_.all());
     control_.note_file(options.graph_file);
     if (options.watches) control_.watch(options.graph_files);
     if (speaks_to_team()) {
@@ -392,7 +391,6 @@ class SupervisedRun {
   Roster roster_;
   Members polled_ = roster_.all();
   Starter starter_;
-  const AlarmRelay relay_{roster_.all()};
   Ledger ledger_;
   LogRelay log_relay_;
   RecorderWatch recorders_;
