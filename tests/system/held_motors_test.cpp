@@ -59,3 +59,13 @@ TEST_CASE("who plans a way recovers from nothing while the motors are held, and 
     system.stop();
   }
 }
+
+TEST_CASE("a robot that is lost looks around, and waits to be found, for as long as its motors are free",
+          "[system][goto]") {
+  Paused system({source_file("graphs/pioneer_localize.xml"), "--set", "place=library", "--set",
+                 "look_around.limit=2", "--set", "planner.lost_wait=2"});
+  (void)system.step("500ms");
+  system.order({"estop"});
+  CHECK_THAT(system.step("5s"), !Contains("has looked around") && !Contains("lost: "));
+  system.stop();
+}

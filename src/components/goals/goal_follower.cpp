@@ -194,7 +194,9 @@ bool GoalFollower::is_lost() {
   constexpr Duration kFound = 20s;
   if (!lost_) lost_at_.reset();
   if (!lost_) was_known_ = true;
-  if (lost_ && !lost_at_) lost_at_ = now();
+  // Whoever looks around, for which lost_wait leaves time, cannot do so while the motors are held.
+  const bool waits_for_release = *lost_wait_ > 0.0 && are_motors_held(kept_alarms());
+  if (lost_ && (!lost_at_ || waits_for_release)) lost_at_ = now();
   const Duration unless_set = was_known_ ? Duration{0} : kFound;
   const Duration wait = *lost_wait_ > 0.0 ? from_seconds(*lost_wait_) : unless_set;
   if (lost_ && !route_.empty() && now() - *lost_at_ >= wait)

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "orca/avoidance/laser_avoider.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/time.hpp"
 #include "outlook.hpp"
@@ -31,6 +32,8 @@ class LookAround final : public orca::avoid::LaserAvoider {
 
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                              const orca::avoid::Limits& limits) override {
+    const orca::Duration held = held_.since_last(now(), kept_alarms());
+    if (lost_since_) *lost_since_ += held;  // it does not turn meanwhile
     if (!situation.is_heeded) settle();
     if (!situation.is_heeded || !is_lost()) {
       note_known();
@@ -106,6 +109,7 @@ class LookAround final : public orca::avoid::LaserAvoider {
   std::optional<orca::TimePoint> lost_since_;  // while it is not known where the robot is
   orca::TimePoint known_since_{};              // or was last
   orca::Duration looked_{0};                   // before lost_since_
+  orca::HeldTime held_;
   bool gave_up_ = false;
 };
 
