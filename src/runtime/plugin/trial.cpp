@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,10 +17,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "inspection/effects.hpp"
 #include "orca/base/activity.hpp"
@@ -142,6 +146,31 @@ void skip_leak_check() {
 #endif
 }
 
+// Whether what is written to a descriptor reaches somebody: other processes, devices, files. An image of a plugin is sealed.
+bool leads_outside(int descriptor) {
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) return false;
+  const mode_t kind = status.st_mode & S_IFMT;
+  if (kind == S_IFSOCK || kind == S_IFIFO) return true;
+  if (kind == 0 || (fcntl(descriptor, F_GETFL) & O_ACCMODE) == O_RDONLY)
+    return false;  // 0: an event, a timer
+  const int seals = fcntl(descriptor, F_GET_SEALS);
+  return seals < 0 || (seals & F_SEAL_WRITE) == 0;
+}
+
+// Lets what the copy has inherited lead nowhere, with the same numbers: code that writes to descriptors which are not its own must not
+// reach the processes and devices of the running system.
+void cut_off_descriptors(int null) {
+  std::vector<int> outside;
+  std::error_code unused;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", unused)) {
+    const int descriptor = std::atoi(entry.path().filename().c_str());
+    if (descriptor > STDERR_FILENO && descriptor != g_report_fd && leads_outside(descriptor))
+      outside.push_back(descriptor);
+  }
+  for (const int descriptor : outside) dup3(null, descriptor, O_CLOEXEC);
+}
+
 [[noreturn]] void run_copy(int report_fd, const std::function<void(TrialLine&)>& attempt, Effects effects) {
   const int high = fcntl(report_fd, F_DUPFD_CLOEXEC, kHighDescriptor);
   g_report_fd = high < 0 ? report_fd : high;
@@ -150,6 +179,7 @@ void skip_leak_check() {
   std::set_terminate(report_terminate);
   const int null = open("/dev/null", O_RDWR);  // the copy must not talk to the user
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, fd);
+  cut_off_descriptors(null);
   Line line;
   if (effects == Effects::none) skip_leak_check();
   if (effects == Effects::none && !forbid_effects(report_effect)) {

@@ -105,6 +105,29 @@ TEST_CASE("the end of the copied process is reported with the step that it was a
   CHECK_THAT(death([] { std::terminate(); }), Contains("the deed ended the process with exit(1)"));
 }
 
+TEST_CASE("descriptors that a trial inherits lead nowhere: to no process, and into no file",
+          "[plugin][trial]") {
+  int line[2];
+  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, line) == 0);
+  int pipe_ends[2];
+  REQUIRE(pipe2(pipe_ends, O_CLOEXEC | O_NONBLOCK) == 0);
+  const int file = open("/tmp", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  REQUIRE(file >= 0);
+  const std::vector<int> all{line[0], line[1], pipe_ends[1], file};
+  CHECK(survives_trial(
+            [&](const Step&) {
+              for (const int descriptor : all)
+                if (write(descriptor, "junk", 4) != 4) std::abort();  // they are there
+            },
+            2s)
+            .ok());
+  char byte = 0;
+  for (const int end : {line[0], line[1]}) CHECK(recv(end, &byte, 1, MSG_DONTWAIT) == -1);
+  CHECK(read(pipe_ends[0], &byte, 1) == -1);
+  CHECK(lseek(file, 0, SEEK_END) == 0);
+  for (const int descriptor : {line[0], line[1], pipe_ends[0], pipe_ends[1], file}) close(descriptor);
+}
+
 TEST_CASE("a function that does not return is ended at its limit", "[plugin][trial]") {
   CHECK_THAT(death([] { pause(); }), Contains("the deed did not return within 2 s"));
 }
@@ -255,12 +278,10 @@ TEST_CASE("a trial without effects lets code read, write to its streams, and use
           if (orca::test::read_text(file) != "whole") _exit(3);
         }).ending == Ending::well);
   CHECK(without_effects([] { std::puts("hello"); }).ending == Ending::well);
-  int ends[2];
-  REQUIRE(socketpair(AF_UNIX, SOCK_STREAM, 0, ends) == 0);
-  CHECK(without_effects([&] {
-          if (send(ends[0], "hello", 5, 0) != 5) _exit(3);
+  CHECK(without_effects([] {
+          int ends[2];
+          if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0 || send(ends[0], "hello", 5, 0) != 5) _exit(3);
         }).ending == Ending::well);
-  for (const int end : ends) close(end);
   CHECK(without_effects([] { std::thread([] {}).join(); }).ending == Ending::well);
   CHECK(without_effects([] { std::abort(); }).text == "ended the process with the signal ABRT (Aborted)");
   CHECK(without_effects([] { pause(); }).ending == Ending::too_long);
