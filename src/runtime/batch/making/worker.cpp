@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "orca/batch/localization.hpp"
+#include "orca/batch/measures.hpp"
+#include "orca/batch/record.hpp"
 #include "orca/batch/referee.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"

@@ -289,8 +289,8 @@ TEST_CASE(
   INFO(reading.said);
   REQUIRE(reading.robot);
   CHECK(reading.robot->drive.steer_gain == 2.0);
-  CHECK(reading.robot->odometer->errors.at(orca::sim::Realism::nominal) == orca::kUsualWheelErrors);
-  CHECK(reading.robot->odometer->errors.at(orca::sim::Realism::harsh) == orca::kUsualHarshWheelErrors);
+  CHECK(reading.robot->odometer->errors.at(orca::robot_file::Realism::nominal) == orca::kUsualWheelErrors);
+  CHECK(reading.robot->odometer->errors.at(orca::robot_file::Realism::harsh) == orca::kUsualHarshWheelErrors);
   CHECK_THAT(reading.said, Catch::Contains("warning R029: the file says no steer_gain and wheel_errors"));
   CHECK(reading.said.find("R029") == reading.said.rfind("R029"));
   urdf.replace(urdf.find("track=\"0.3 m\""), 0, "steer_gain=\"1\" ");

@@ -22,7 +22,7 @@ constexpr Vec2 kFrontSonar{0.19, 0.0};
 // Returns what the transducer ahead of a Scout reads that stands at the origin.
 SonarReading heard_ahead(const WorldModel& model, const std::string& factors) {
   World world = estimated_world(model, {.critical_angle = 25.0 * kDegree}, factors);
-  const RobotId scout = world.add_robot("dewey", sim::test::scout(), {}).value();
+  const RobotId scout = world.add_robot("dewey", orca::sim::test::scout(), {}).value();
   do world.step();
   while (!world.sonar(scout));
   return world.sonar(scout)->readings.at(0);
@@ -66,7 +66,8 @@ double read_beside_edge(const std::string& factors) {
 // Returns how fast a Scout is that has driven along a wall for 5 s and wants 0.4 m/s, turned to the wall by an angle.
 double speed_along_wall(double angle, const std::string& factors) {
   World world = estimated_world(test_room(), {}, factors);
-  const RobotId scout = world.add_robot("dewey", sim::test::scout(), {-4.0, 5.0 - 0.206, angle}).value();
+  const RobotId scout =
+      world.add_robot("dewey", orca::sim::test::scout(), {-4.0, 5.0 - 0.206, angle}).value();
   REQUIRE(world.set_velocity_command(scout, {.forward = 0.4}));
   for (int i = 0; i < 500; ++i) world.step();
   return world.velocity(scout).forward;
@@ -82,9 +83,9 @@ double steepest_slide(const std::string& factors) {
 // Returns how far a Scout is pushed by one of twice its mass that drives into its back for 3 s.
 double pushed_by_heavier(const std::string& factors) {
   World world = estimated_world({}, {}, factors);
-  RobotModel heavy = sim::test::scout();
+  RobotModel heavy = orca::sim::test::scout();
   heavy.mass *= 2.0;
-  const RobotId light = world.add_robot("light", sim::test::scout(), {0.5, 0.0, 0.0}).value();
+  const RobotId light = world.add_robot("light", orca::sim::test::scout(), {0.5, 0.0, 0.0}).value();
   const RobotId pusher = world.add_robot("heavy", heavy, {}).value();
   REQUIRE(world.set_velocity_command(pusher, {.forward = 0.4}));
   for (int i = 0; i < 300; ++i) world.step();

@@ -12,6 +12,7 @@ using namespace orca;
 using namespace orca::sim;
 using namespace orca::sim::test;
 using Catch::Contains;
+using orca::test::TempFolder;
 using std::chrono::seconds;
 
 namespace {
