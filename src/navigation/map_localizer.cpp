@@ -240,10 +240,11 @@ void MapLocalizer::lay(Candidate& place, const RobotScan& scan) {
   if (is_elsewhere(prior, seen.mean, gone_)) return;
   if (places_.size() == 1 && place.belief.believed) offsets_[scan.sensor] = offset;
   constexpr double kMost = 9.0;
+  constexpr double kContradiction = 25.0;  // Wheels that slip are off by up to five of their deviations.
   const double misfit = squared_distance(both, seen.mean);
   if (is_wide && place.belief.believed) place.rivals.look_about(expected, *found, scan, *map_, options_);
   if (misfit > kMost) {
-    if (place.belief.believed) place.rivals.contradict(prior);
+    if (place.belief.believed && misfit > kContradiction) place.rivals.contradict(prior);
     prior = widened(prior, misfit / kMost);
   }
   place.particles.shape(fused(prior, seen), random_);
