@@ -78,10 +78,11 @@ ExitCode give_all(const std::string& system, const apps::Call& call) {
   std::vector<std::string> obeyed;
   ExitCode code = ExitCode::done;
   std::vector<Waiting> all = supervisor::connect_to_waiting(system);
-  std::vector<std::future<Result<std::string>>>
-      given;  // at once: none waits for another one that does not answer
+  // At once, so that none waits for another one that does not answer; one after the other if there are no threads to be had.
+  std::vector<std::future<Result<std::string>>> given;
   for (Waiting& waiting : all)
-    given.push_back(std::async(std::launch::async, [&] { return give(waiting, *order_of(call)); }));
+    given.push_back(std::async(std::launch::async | std::launch::deferred,
+                               [&] { return give(waiting, *order_of(call)); }));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Result<std::string> name = given[i].get();
     if (name)
