@@ -170,7 +170,7 @@ class FastBackend final : public DdsBackend {
   }
 
   void tick() {
-    participant_->look_after_keys();
+    participant_->look_after_keys(std::chrono::system_clock::now());
     const MutexLock lock(mutex_);
     for (const auto& [process, line] : lines_) line->tick();
   }

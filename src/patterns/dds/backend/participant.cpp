@@ -179,8 +179,8 @@ class FastParticipant final : public Participant {
 
   [[nodiscard]] bool is_complete() const { return publisher_ != nullptr && subscriber_ != nullptr; }
 
-  void look_after_keys() override {
-    if (gate_ != nullptr) gate_->look();
+  void look_after_keys(std::chrono::system_clock::time_point now) override {
+    if (gate_ != nullptr) gate_->look(now);
   }
   [[nodiscard]] bool may_speak_for(const Origin& speaker, const std::string& process) const override {
     if (gate_ == nullptr) return true;

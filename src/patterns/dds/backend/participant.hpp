@@ -87,8 +87,10 @@ class Participant {
   [[nodiscard]] virtual Result<std::unique_ptr<TopicReader>> make_reader(const TopicOptions& topic,
                                                                          Received received) = 0;
 
-  /// Looks after the keys of a secured participant: whether the authority has revoked some, and the time. To be called often.
-  virtual void look_after_keys() {}
+  /// Looks after the keys of a secured participant: whether the authority has revoked some, and whether they have expired. To be
+  /// called often; does so once a second.
+  /// @param now  the time of the day.
+  virtual void look_after_keys(std::chrono::system_clock::time_point /*now*/) {}
   /// Returns whether a participant may speak for a process: in a secured system, its certificate must be the process's.
   [[nodiscard]] virtual bool may_speak_for(const Origin& /*speaker*/, const std::string& /*process*/) const {
     return true;

@@ -13,8 +13,6 @@
 namespace orca::dds {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr const char* kLogName = "security";
 constexpr std::size_t kHeader = 20;        // [bytes] of an RTPS packet (DDSI-RTPS 2.3, 9.4.4)
 constexpr std::size_t kPrefix = 8;         // [bytes] where the sender's GUID begins
@@ -22,9 +20,8 @@ constexpr std::size_t kMostRefused = 200;  // lines of the log
 constexpr std::int64_t kDay = 86'400;      // [s]
 constexpr std::int64_t kAhead = 14 * kDay;
 
-std::int64_t time_now() {
-  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
+std::int64_t seconds_of(std::chrono::system_clock::time_point now) {
+  return std::chrono::duration_cast<std::chrono::seconds>(now.time_since_epoch()).count();
 }
 
 keys::Mark mark_in(std::span<const std::byte> guid) {
@@ -41,10 +38,11 @@ std::string name_of(const keys::Certificate& certificate) {
 }  // namespace
 
 Result<std::shared_ptr<Gate>> Gate::open(const std::string& keys, const std::string& process) {
-  Result<keys::KeyRing> ring = keys::KeyRing::open(keys, process, time_now());
+  const auto now = std::chrono::system_clock::now();
+  Result<keys::KeyRing> ring = keys::KeyRing::open(keys, process, seconds_of(now));
   if (!ring) return ring.error();
   const std::shared_ptr<Gate> gate(new Gate(std::move(ring).value()));
-  gate->look();
+  gate->look(now);
   return gate;
 }
 
@@ -90,12 +88,10 @@ std::optional<keys::Certificate> Gate::certificate_of(std::span<const std::byte>
   return known == ring_.known().end() ? std::nullopt : std::optional(known->second);
 }
 
-void Gate::look() {
+void Gate::look(std::chrono::system_clock::time_point now) {
   const MutexLock lock(mutex_);
-  const Steady::time_point now = Steady::now();
-  if (now_ != 0 && now - looked_ < 1s) return;
-  looked_ = now;
-  now_ = time_now();
+  if (seconds_of(now) == now_) return;
+  now_ = seconds_of(now);
   read_list();
   watch_end();
 }

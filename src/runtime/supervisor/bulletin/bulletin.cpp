@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "orca/supervisor/bulletin.hpp"
 
+#include <chrono>
 #include <memory>
 #include <span>
 #include <utility>
@@ -101,7 +102,7 @@ class DdsBulletin final : public Bulletin, private dds::DataReaderListener {
   }
 
   void say(std::span<const std::byte> state) override {
-    if (gate_ != nullptr) gate_->look();  // states are said five times a second
+    if (gate_ != nullptr) gate_->look(std::chrono::system_clock::now());
     StateType::Sample sample(state.begin(), state.end());
     writer_->write(&sample);
   }

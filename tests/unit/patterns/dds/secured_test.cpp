@@ -30,13 +30,13 @@ using namespace std::chrono_literals;
 
 namespace {
 
-using Clock = std::chrono::system_clock;
+using WallClock = std::chrono::system_clock;
 
 constexpr const char* kTopic = "orca/secured/base/motion";
 const keys::Permit kWriter{"", "writer", {kTopic}, {}};
 const keys::Permit kReader{"", "reader", {}, {kTopic}};
 
-keys::Validity for_a(std::chrono::seconds time) { return {Clock::now() - 1h, Clock::now() + time}; }
+keys::Validity for_a(std::chrono::seconds time) { return {WallClock::now() - 1h, WallClock::now() + time}; }
 
 // A folder with keys as orcactl makes them.
 class Keys {
@@ -305,8 +305,7 @@ TEST_CASE("a revoked process is not heard any more, a second after its neighbour
   const Writing writer(stolen.machine());
   REQUIRE(is_heard(*writer.out, reader.heard, 10s));
   REQUIRE(keys::revoke_keys(keys.system(), "writer", {kWriter}, for_a(1h)));
-  std::this_thread::sleep_for(1100ms);
-  reader.process->look_after_keys();
+  reader.process->look_after_keys(WallClock::now() + 1s);
   CHECK_FALSE(is_heard(*writer.out, reader.heard, 500ms));
   CHECK(log.says("says over DDS is dropped: the certificate of process writer was revoked"));
   const Writing successor(keys.machine());
@@ -314,22 +313,20 @@ TEST_CASE("a revoked process is not heard any more, a second after its neighbour
 }
 
 TEST_CASE("a process whose certificate expires while it runs is cut off", "[patterns][dds][security]") {
-  const Keys keys;
-  REQUIRE(keys::renew_keys(keys.system(), {kWriter}, for_a(2s)).ok());
+  const Keys keys(24h);
+  REQUIRE(keys::renew_keys(keys.system(), {kWriter}, for_a(1h)).ok());
   const HeardLog log;
   const Reading reader(keys.machine());
   const Writing writer(keys.machine());
   REQUIRE(is_heard(*writer.out, reader.heard, 10s));
   CHECK(log.says("the certificate of this process expires in 0 days"));
   SECTION("by itself") {
-    std::this_thread::sleep_for(4s);
-    writer.process->look_after_keys();
+    writer.process->look_after_keys(WallClock::now() + 2h);
     CHECK_FALSE(is_heard(*writer.out, reader.heard, 300ms));
     CHECK(log.says("this process is cut off from DDS: its certificate has expired"));
   }
   SECTION("by its neighbours, if it does not do so itself") {
-    std::this_thread::sleep_for(4s);
-    reader.process->look_after_keys();
+    reader.process->look_after_keys(WallClock::now() + 2h);
     CHECK_FALSE(is_heard(*writer.out, reader.heard, 300ms));
     CHECK(log.says("the certificate of process writer has expired"));
   }
@@ -345,15 +342,13 @@ TEST_CASE("a damaged or older list of certificates does not take the place of th
   REQUIRE(reader);
   SECTION("damaged") {
     keys.spoil("certificates.p7s", "valid");
-    std::this_thread::sleep_for(1100ms);
-    (*reader)->look_after_keys();
+    (*reader)->look_after_keys(WallClock::now() + 1s);
     CHECK(log.says("certificates.p7s: its signature is not the authority's"));
     CHECK(log.says("the list of certificates stays as it was"));
   }
   SECTION("older") {
     std::ofstream(keys.file("certificates.p7s")) << old_list;
-    std::this_thread::sleep_for(1100ms);
-    (*reader)->look_after_keys();
+    (*reader)->look_after_keys(WallClock::now() + 1s);
     CHECK(log.says("certificates.p7s is older than the list that this process has"));
   }
 }

@@ -47,8 +47,10 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
   /// @param guid  its GUID, or the beginning of it; at least 6 bytes.
   [[nodiscard]] std::optional<keys::Certificate> certificate_of(std::span<const std::byte> guid) const;
 
-  /// Reads the authority's list again if it has changed, and looks at the clock. To be called often; does so once a second.
-  void look();
+  /// Reads the authority's list again if it has changed, and whether the own certificate has
+  /// expired. To be called often; does so once a second.
+  /// @param now  the time of the day.
+  void look(std::chrono::system_clock::time_point now);
 
   [[nodiscard]] keys::KeyRing keys() const {
     const MutexLock lock(mutex_);
@@ -56,8 +58,6 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
   }
 
  private:
-  using Steady = std::chrono::steady_clock;
-
   explicit Gate(keys::KeyRing ring) : ring_(std::move(ring)) {}
 
   void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -71,7 +71,6 @@ class Gate final : public eprosima::fastdds::dds::DomainParticipantListener {
   mutable Mutex mutex_;
   keys::KeyRing ring_ ORCA_GUARDED_BY(mutex_);
   std::atomic<bool> is_closed_{false};
-  Steady::time_point looked_ ORCA_GUARDED_BY(mutex_){};
   std::int64_t now_ ORCA_GUARDED_BY(mutex_) = 0;             // the time of the last look [s since 1970 UTC]
   std::int64_t warned_ ORCA_GUARDED_BY(mutex_) = 0;          // of the end, at that time
   std::set<std::string> warned_of_ ORCA_GUARDED_BY(mutex_);  // what the log has said
