@@ -30,7 +30,7 @@ class Replay(PageCase):
     @classmethod
     def start_system(cls):
         graph = TREE / "graphs" / f"{cls.NAME}.xml"
-        subprocess.run([BUILD / "bin" / "deployer", graph, "--no-progress", "--log", "error", "--until", f"{LENGTH}s", "--record", cls.shown()],
+        subprocess.run([BUILD / "bin" / "deployer", graph, "--no-progress", "--log", "error", "--clock", "virtual", "--until", f"{LENGTH}s", "--record", cls.shown()],
                        env=cls.environment, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, timeout=60, check=True)
         table = cls.orcactl("bag", "csv", str(cls.shown()), "localizer.RobotPosePush").stdout
         cls.poses = [(float(row["stamp"]), float(row["x"]), float(row["y"])) for row in csv.DictReader(io.StringIO(table))]

@@ -77,7 +77,8 @@ class Run {
   void run() {
     const auto ports = options_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(graph_, catalogue_);
-    if (const Status opened = files_.open(options_, ports, bag_origin()); !opened.ok())
+    const BagOrigin origin = options_.recordings.empty() ? BagOrigin{} : bag_origin(ports);
+    if (const Status opened = files_.open(options_, ports, origin); !opened.ok())
       return refuse_output(opened.error());
     if (options_.visitors != nullptr) make_door();
     if (options_.looks_on) reporter().look_on(view_.sightings());
@@ -99,8 +100,11 @@ class Run {
                   *options_.visitors);
   }
 
-  [[nodiscard]] BagOrigin bag_origin() const {
-    return {graph_.name, graph::print(graph_), {{"seed", std::to_string(options_.seed.value_or(1))}}};
+  [[nodiscard]] BagOrigin bag_origin(const std::vector<graph::ListedPort>& ports) const {
+    return {graph_.name,
+            graph::print(graph_),
+            {{"graph.json", graph::graph_json(graph_)}, {"ports.json", graph::ports_json(ports)}},
+            {{"seed", std::to_string(options_.seed.value_or(1))}}};
   }
 
   void refuse_output(const Error& error) {

@@ -23,8 +23,11 @@ Status BagFile::open(const BagOrigin& run, const std::vector<std::string>& ports
     writer_ = std::make_unique<recording::CarmenWriter>(*std::move(output));
   else
     writer_ = std::make_unique<recording::ObjectWriter>(*std::move(output));
-  Status begun = writer_->begin({run.name, at_once, ports, run.more});
-  return begun.ok() ? writer_->attach_graph(run.graph) : begun;
+  Status done = writer_->begin({run.name, at_once, ports, run.more});
+  if (done.ok()) done = writer_->attach_graph(run.graph);
+  for (const auto& [name, text] : run.json)
+    if (done.ok()) done = writer_->attach_json(name, text);
+  return done;
 }
 
 void BagFile::add(const std::string& row, const ObjectRef& object, TimePoint passed) {

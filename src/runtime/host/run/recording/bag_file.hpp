@@ -20,8 +20,10 @@ namespace orca::host {
 
 /// What a recording says of the run that it is of.
 struct BagOrigin {
-  std::string name;                         ///< Of the graph.
-  std::string graph;                        ///< As graph::print() writes it.
+  std::string name;   ///< Of the graph.
+  std::string graph;  ///< As graph::print() writes it.
+  std::map<std::string, std::string>
+      json;  ///< What the page shows of the system, by the names of attachments.
   std::map<std::string, std::string> more;  ///< "seed"
 };
 
