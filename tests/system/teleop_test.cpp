@@ -38,6 +38,17 @@ std::string event(std::int16_t value, unsigned char type, unsigned char number) 
   return bytes;
 }
 
+// Holds a key until the robot does something: on a busy machine one press may be over before anybody looks.
+bool holds_until(const Terminal& terminal, const std::string& key, Subprocess& program,
+                 const std::string& text) {
+  const auto end = std::chrono::steady_clock::now() + kLimit;
+  while (std::chrono::steady_clock::now() < end) {
+    terminal.press(key);
+    if (program.wait_for_output(text, kRepeat)) return true;
+  }
+  return false;
+}
+
 // The sink reports changes only, so a second stop comes after the driving.
 bool comes_to_stop_after_driving(const Subprocess& program) {
   const auto stops = [&] {
@@ -57,10 +68,8 @@ TEST_CASE("a key drives the robot, letting go stops it, Q ends the run and the t
   Subprocess program(teleop({"--set", "keyboard=" + terminal.name()}));
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
   CHECK(terminal.comes_to_echo(false));
-  terminal.press("w");
-  CHECK(program.wait_for_output("FUSED by teleop speed 0.30 turn 0.00", kLimit));
-  terminal.press("\x1b[D");
-  CHECK(program.wait_for_output("turn 0.80", kLimit));
+  CHECK(holds_until(terminal, "w", program, "FUSED by teleop speed 0.30 turn 0.00"));
+  CHECK(holds_until(terminal, "\x1b[D", program, "turn 0.80"));
   terminal.press("q");
   const Run run = finish(program, kLimit);
   INFO(run.err);
@@ -73,8 +82,7 @@ TEST_CASE("the base says how fast it can be, and a person drives no faster", "[s
   Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "speed=9 m/s"}));
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
   CHECK_THAT(program.err(), Catch::Contains("the base can do less") && Catch::Contains("at most 1 m/s"));
-  terminal.press("w");
-  CHECK(program.wait_for_output("FUSED by teleop speed 1.00 turn 0.00", kLimit));
+  CHECK(holds_until(terminal, "w", program, "FUSED by teleop speed 1.00 turn 0.00"));
   terminal.press("q");
   CHECK(finish(program, kLimit).exit_code() == 0);
 }
@@ -85,8 +93,7 @@ TEST_CASE("P asks where the robot is, and the driving goes on meanwhile", "[syst
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
   terminal.press("p");
   CHECK(program.wait_for_output("position 0.00 m, 0.00 m, heading 0 deg by odometry", kLimit));
-  terminal.press("wp");
-  CHECK(program.wait_for_output("FUSED by teleop speed 0.30", kLimit));
+  CHECK(holds_until(terminal, "wp", program, "FUSED by teleop speed 0.30"));
   terminal.press("q");
   CHECK(finish(program, kLimit).exit_code() == 0);
 }
@@ -95,8 +102,7 @@ TEST_CASE("the robot stops when no more keys come", "[system][teleop]") {
   const Terminal terminal;
   Subprocess program(teleop({"--set", "keyboard=" + terminal.name(), "--set", "joystick="}));
   REQUIRE(program.wait_for_output("TOLD_TO_STOP by teleop", kLimit));
-  terminal.press("w");
-  REQUIRE(program.wait_for_output("FUSED by teleop speed 0.30", kLimit));
+  REQUIRE(holds_until(terminal, "w", program, "FUSED by teleop speed 0.30"));
   CHECK(comes_to_stop_after_driving(program));
   program.send(SIGINT);
   CHECK(finish(program, kLimit).exit_code() == 0);
