@@ -51,9 +51,10 @@ std::optional<Rectangle> LaserAvoider::body() const {
   return described ? described : rectangle(*robot_length_, *robot_width_);
 }
 
-Limits LaserAvoider::with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const {
+Limits LaserAvoider::with_body(std::span<const Vec2> echoes, const Situation& situation,
+                               Limits limits) const {
   limits.body = body();
-  limits.squeezes = limits.body && should_squeeze(memory.echoes(), situation, limits);
+  limits.squeezes = limits.body && should_squeeze(echoes, situation, limits);
   return limits;
 }
 

@@ -17,10 +17,10 @@ class LaserAvoid final : public orca::avoid::LaserAvoider {
                              const orca::avoid::Limits& limits) override {
     orca::avoid::Limits mine = limits;
     mine.turn_margin = kTurnMargin;
-    mine = with_body(memory, situation, mine);
     mine.watches_goal = true;
     seen_.assign(memory.echoes().begin(), memory.echoes().end());
     orca::avoid::add_feet(seen_, std::max(0.0, kFromAlone - limits.margin));
+    mine = with_body(seen_, situation, mine);
     return avoid(seen_, situation, mine);
   }
 

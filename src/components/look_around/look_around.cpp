@@ -51,7 +51,7 @@ class LookAround final : public orca::avoid::LaserAvoider {
       give_up();
       return {};
     }
-    orca::look::Limits mine{.body = with_body(memory, situation, limits), .turn_rate = *turn_rate_};
+    orca::look::Limits mine{.body = with_body(memory.echoes(), situation, limits), .turn_rate = *turn_rate_};
     mine.body.slides = false;  // It turns to where it drives, as its view does.
     mine.body.watches_goal = true;
     const orca::Pose2 here{situation.place.x, situation.place.y, situation.heading};

@@ -31,7 +31,7 @@ class VfhPlus final : public orca::avoid::LaserAvoider {
   // way to the goal is not free: where only the latter is blocked, the robot would otherwise turn back into it.
   orca::avoid::Advice advice(const orca::avoid::EchoMemory& memory, const orca::avoid::Situation& situation,
                              const orca::avoid::Limits& given) override {
-    const orca::avoid::Limits limits = with_body(memory, situation, given);
+    const orca::avoid::Limits limits = with_body(memory.echoes(), situation, given);
     look_at(memory, situation, limits);
     const orca::vfh::Motion motion{situation.heading, std::max(0.0, situation.speed) / *turn_rate_};
     const double goal = situation.goal.value_or(0.0);

@@ -38,7 +38,9 @@ class LaserAvoider : public Avoider {
 
   /// Returns the limits with the body that counts, if the robot is to squeeze through and its circle finds no way: that which
   /// the base describes; without one, that of the parameters.
-  [[nodiscard]] Limits with_body(const EchoMemory& memory, const Situation& situation, Limits limits) const;
+  /// @param echoes  those that the advice is for.
+  [[nodiscard]] Limits with_body(std::span<const Vec2> echoes, const Situation& situation,
+                                 Limits limits) const;
 
   // A derived class that overrides these calls them too.
   Status configure() override;
