@@ -146,6 +146,21 @@ class RunMemory {
   std::vector<std::span<std::uint32_t>> all_;
 };
 
+// Writes ones over the counters of the memory that a process shares with another one for an edge. Returns whether it was there.
+bool damage(pid_t process, const std::string& edge) {
+  const std::string folder = "/proc/" + std::to_string(process);
+  std::ifstream maps(folder + "/maps");
+  std::string line;
+  while (std::getline(maps, line) && line.find("/memfd:orca " + edge) == std::string::npos) continue;
+  if (!maps) return false;
+  const std::string ones(64, '\xff');
+  const int memory = open((folder + "/mem").c_str(), O_RDWR | O_CLOEXEC);
+  const auto place = static_cast<off_t>(std::strtoull(line.c_str(), nullptr, 16));
+  const auto written = pwrite(memory, ones.data(), ones.size(), place);
+  close(memory);
+  return written == static_cast<ssize_t>(ones.size());  // not if it has just got other memory
+}
+
 // Returns a thread of Fast DDS in a process; 0 if it has none.
 pid_t network_thread_of(pid_t process) {
   std::error_code none;
@@ -232,6 +247,29 @@ TEST_CASE(
   const Run run = stop(system);
   CHECK_FALSE(run.says("SIGSEGV"));
   CHECK_FALSE(run.says("GAVE_UP"));
+}
+
+TEST_CASE(
+    "a connection whose memory is damaged is cut, with an alarm, and gets new memory; at last it stays cut",
+    "[system]") {
+  const std::string edge = "relay.out to sink.in";
+  System system(flow());
+  system.when("flow ", 0, Seconds(10));
+  for (int round = 0; round < 3; ++round) {
+    CAPTURE(round);
+    const std::size_t mark = system.mark();
+    REQUIRE(comes_true([&] { return damage(system.process("sink"), edge); }, Seconds(5)));
+    system.when("LINK_CUT", mark, Seconds(10));
+    system.when("its damaged connections have new memory", mark, Seconds(10));
+    CHECK(run_orcactl({"echo", "sink.in", "--count", "3"}, Seconds(5)).exit_code() == 0);
+  }
+  const auto stays_cut = [&] {
+    return system.program().err().find("stays cut: its memory was damaged too often") != std::string::npos;
+  };
+  for (int round = 0; round < 8 && !comes_true(stays_cut, Seconds(1)); ++round)
+    (void)damage(system.process("sink"), edge);
+  CHECK(comes_true(stays_cut, Seconds(10)));
+  CHECK(stop(system).exit_code() == 0);
 }
 
 TEST_CASE(

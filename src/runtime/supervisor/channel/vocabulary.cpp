@@ -82,6 +82,7 @@ void fields(auto& archive, ExchangedCode& m) {
 }
 void fields(auto& archive, Standing& m) { transfer_all(archive, m.alarms, m.motors_held, m.params); }
 void fields(auto& /*archive*/, Leaving& /*m*/) {}
+void fields(auto& archive, EdgeDamaged& m) { transfer(archive, m.edge); }
 void fields(auto& archive, LogWished& m) { transfer(archive, m.is_wanted); }
 void fields(auto& archive, PeerCalled& m) {
   transfer_up_to(archive, m.act, PeerCalled::Act::resume);

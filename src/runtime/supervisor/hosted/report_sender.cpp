@@ -112,6 +112,8 @@ void ReportSender::peer_called(const host::PeerCall& call) {
                   order.param, order.value});
 }
 
+void ReportSender::edge_damaged(const std::string& edge) { send(EdgeDamaged{edge}); }
+
 void ReportSender::output_failed(const Error& error) { send_last(OutputFailed{error}); }
 
 void ReportSender::show(const host::RunGlance& glance) {

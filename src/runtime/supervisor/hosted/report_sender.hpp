@@ -52,6 +52,7 @@ class ReportSender final : public host::PartListener {
   void counted(const host::RunCounters& counters, const std::vector<host::RunResult::Way>& ways) override;
   void state_kept(const std::string& component, const host::KeptState& state) override;
   void peer_called(const host::PeerCall& call) override;
+  void edge_damaged(const std::string& edge) override;
   void output_failed(const Error& error) override;
   /// Sends what the part is like, if that has changed since it was sent last.
   /// @thread  one at a time.

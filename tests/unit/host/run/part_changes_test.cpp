@@ -36,6 +36,7 @@ class NapListener final : public PartListener {
   void counted(const RunCounters& /*counters*/, const std::vector<RunResult::Way>& /*ways*/) override {}
   void state_kept(const std::string& /*component*/, const KeptState& /*state*/) override {}
   void peer_called(const PeerCall& /*call*/) override {}
+  void edge_damaged(const std::string& /*edge*/) override {}
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

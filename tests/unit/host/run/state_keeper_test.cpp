@@ -45,6 +45,7 @@ class StateListener final : public PartListener {
       others[component] = state;
   }
   void peer_called(const PeerCall& /*call*/) override {}
+  void edge_damaged(const std::string& /*edge*/) override {}
   void output_failed(const Error& error) override { FAIL(error.text()); }
   [[noreturn]] void abandon(const RunResult& /*result*/) override { std::abort(); }
 

@@ -55,12 +55,13 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
 }  // namespace
 
 OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
-                       ClockAhead clock_ahead)
+                       ClockAhead clock_ahead, Watch watch)
     : whole_(whole),
       process_(std::move(process)),
       doorbell_(std::move(doorbell)),
       run_(std::move(run)),
-      clock_ahead_(std::move(clock_ahead)) {
+      clock_ahead_(std::move(clock_ahead)),
+      watch_(std::move(watch)) {
   for (const graph::ComponentNode& node : whole.components) learn(node);
 }
 
@@ -132,10 +133,13 @@ Status OuterEdges::connect(System& system) {
 }
 
 void OuterEdges::connect_memory(const graph::Edge& edge, RingSegment segment, Endpoint& port) {
-  const graph::PortRef& there = ends_of(edge).there;
+  const auto [here, there] = ends_of(edge);
   const auto server = servers_.find(edge.name());
+  const auto damaged = [this, name = edge.name(), component = here.component](const Error& reason) {
+    watch_.damaged(name, component, reason);
+  };
   ShmEnd* const end = join(port, {std::move(segment),
-                                  {there.text(), doorbell_(there.component)},
+                                  {there.text(), doorbell_(there.component), damaged},
                                   policy_of(edge),
                                   server == servers_.end() ? Duration{0} : server->second.period});
   const MutexLock lock(mutex_);
@@ -238,10 +242,13 @@ void OuterEdges::cut(const std::string& edge, const Error& reason) {
 Status OuterEdges::renew(const std::string& edge, const Descriptor& memory) {
   Result<RingSegment> segment = RingSegment::map(memory.number());
   if (!segment) return segment.error();
-  const MutexLock lock(mutex_);
-  const auto end = ends_.find(edge);
-  if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
-  end->second->renew(std::move(segment).value());
+  {
+    const MutexLock lock(mutex_);
+    const auto end = ends_.find(edge);
+    if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
+    end->second->renew(std::move(segment).value());
+  }
+  watch_.renewed(edge);
   return ok();
 }
 

@@ -31,11 +31,22 @@ class OuterEdges {
   /// Returns by how much the clock of a machine of the graph is ahead, as in PartOptions.
   using ClockAhead = std::function<Duration(std::size_t machine)>;
 
+  /// Whom the edges through shared memory tell how they are. Both are called with the name of the edge.
+  struct Watch {
+    /// The memory holds what cannot be, and the edge is cut.
+    /// @param component  of this process.
+    /// @thread  the strand of the port.
+    std::function<void(const std::string& edge, const std::string& component, const Error& reason)> damaged;
+    /// It has new memory.
+    /// @thread  that of renew().
+    std::function<void(const std::string& edge)> renewed;
+  };
+
   /// @param whole    the graph of all processes; outlives the object.
   /// @param process  the one that this process is.
   /// @param run      the name of the run.
   OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
-             ClockAhead clock_ahead);
+             ClockAhead clock_ahead, Watch watch);
 
   /// Asks the plugins what this process must know of the components at the other ends.
   /// @param memory  of each edge through shared memory.
@@ -86,6 +97,7 @@ class OuterEdges {
   const Doorbell doorbell_;
   const std::string run_;
   const ClockAhead clock_ahead_;
+  const Watch watch_;
   std::vector<graph::Edge> edges_;               // to other processes, until connect()
   std::map<std::string, Descriptor> memory_;     // until connect()
   std::map<std::string, PortContract> servers_;  // of Push

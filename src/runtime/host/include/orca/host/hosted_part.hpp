@@ -47,6 +47,10 @@ class PartListener : public RunListener {
   /// Takes the order of a component about another one, in whatever process that is.
   /// @thread  the part's main task.
   virtual void peer_called(const PeerCall& call) = 0;
+  /// Reports that the memory of an edge to another process holds what cannot be. The edge is cut until it gets new memory.
+  /// @param edge  graph::Edge::name().
+  /// @thread  the strand of the port.
+  virtual void edge_damaged(const std::string& edge) = 0;
   /// Reports that an output could not be written.
   /// @thread  the part's main task, or the thread that calls HostedPart::write_outputs().
   virtual void output_failed(const Error& error) = 0;

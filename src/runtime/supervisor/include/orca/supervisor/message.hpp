@@ -68,6 +68,7 @@ enum class Kind : std::uint16_t {
   exchanged_code = 171,
   state_kept,
   peer_called,
+  edge_damaged,
   // Words of an operator's program and the answers: see orca/supervisor/control.hpp.
   ask = 201,
   record_answer = 301,

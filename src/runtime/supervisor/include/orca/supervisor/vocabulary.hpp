@@ -408,15 +408,20 @@ struct PeerCalled {
   std::string param;  ///< To set.
   std::string value;  ///< To set: as in the graph, with its unit.
 };
+/// The memory of an edge holds what cannot be. The process has cut the edge.
+struct EdgeDamaged {
+  static constexpr Kind kKind = Kind::edge_damaged;
+  std::string edge;  ///< graph::Edge::name()
+};
 /// Everything is taken down on order or at a signal, and the process ends.
 struct Leaving {
   static constexpr Kind kKind = Kind::leaving;
 };
 
-using Report =
-    std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport, ContactReport,
-                 AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance, Prompting, MissionStep,
-                 HeardReport, Orphaned, Standing, Leaving, LogWished, ExchangedCode, StateKept, PeerCalled>;
+using Report = std::variant<Answer, Built, StateChange, RestChange, ArrivedReport, GoalFailedReport,
+                            ContactReport, AlarmReport, Logged, LastWordsReport, Tally, OutputFailed, Glance,
+                            Prompting, MissionStep, HeardReport, Orphaned, Standing, Leaving, LogWished,
+                            ExchangedCode, StateKept, PeerCalled, EdgeDamaged>;
 
 /// Encodes an order or a report.
 /// @param request  the number that the answer repeats, or, in an answer, that of the order; 0: none.
