@@ -400,7 +400,7 @@ TEST_CASE("an RPLIDAR's turns arrive as scans with the ranges that it saw, and i
   CHECK(number(scans.back(), "min_range") == 0.15);
   CHECK(number(scans.back(), "max_range") == 12.0);
   CHECK(eventually([&] { return !laser.sends(); }));  // it may not have read its line yet
-  CHECK(laser.requests().back() == 0x25);  // stop
+  CHECK(laser.requests().back() == 0x25);             // stop
 }
 
 TEST_CASE("an RPLIDAR that is unplugged while it scans comes back", "[system][hardware]") {
