@@ -176,6 +176,15 @@ TEST_CASE("a base that cannot say how large the robot is keeps it from moving, w
   CHECK(first_time(run, "watch: moves") == -1.0);
 }
 
+TEST_CASE("a base that describes a robot that cannot be keeps it from moving, with what is wrong",
+          "[system][laser]") {
+  const Run run =
+      pioneer_with(describer("<param name=\"radius\" value=\"-0.3 m\"/>"), "", {"--until", "8 s"});
+  INFO(run.err);
+  CHECK(run.says("the base describes no robot that there can be: its radius is -0.3 m"));
+  CHECK(first_time(run, "watch: moves") == -1.0);
+}
+
 TEST_CASE("the same run with LaserAvoid has the same trace", "[system][laser]") {
   const Run run = behind_the_pillar();
   REQUIRE(run.trace_hash().has_value());

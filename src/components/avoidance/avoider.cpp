@@ -9,6 +9,7 @@
 #include "orca/component/held_motors.hpp"
 #include "orca/geometry/arc.hpp"
 #include "orca/geometry/objects/covariance.hpp"
+#include "orca/geometry/objects/description.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
 
@@ -142,6 +143,9 @@ Status Avoider::learn_robot() {
   if (!*answer)
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;
+  if (const Status sound = check_description(robot); !sound.ok())
+    return fail(sound.error().code,
+                "the base describes no robot that there can be: " + sound.error().message);
   body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
   body_->slides = std::ranges::any_of(robot.drives(),
                                       [](const idl::Drive& drive) { return drive.type() == idl::HOLONOMIC; });

@@ -24,7 +24,7 @@ class Describer final : public orca::Component {
 
   orca::QueryServer<orca::idl::Ask, orca::idl::Robot> robot_{*this, "RobotQuery", &Describer::on_ask};
   orca::Param<double> answer_after_{*this, "answer_after", 0.0, {.unit = "s", .min = 0.0}};
-  orca::Param<double> radius_{*this, "radius", 0.0, {.unit = "m", .min = 0.0}};
+  orca::Param<double> radius_{*this, "radius", 0.0, {.unit = "m"}};
 };
 
 }  // namespace

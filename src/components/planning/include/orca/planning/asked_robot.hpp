@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "orca/component.hpp"
+#include "orca/geometry/objects/description.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/system.hpp"
 #include "orca/navigation/footprint.hpp"
@@ -56,7 +57,7 @@ class AskedRobot {
     return ok();
   }
   /// Looks for the answer.
-  /// @errors  those of the base.
+  /// @errors  those of the base, and of check_description().
   Status learn() {
     const auto answer = question_ ? port_.query_receive(*question_) : std::nullopt;
     if (!answer) return ok();
@@ -64,6 +65,9 @@ class AskedRobot {
     if (!*answer)
       return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
     const idl::Robot& robot = ***answer;
+    if (const Status sound = check_description(robot); !sound.ok())
+      return fail(sound.error().code,
+                  "the base describes no robot that there can be: " + sound.error().message);
     body_ = Body{std::max(robot.radius(), robot.bumper_radius()), robot.length(), robot.width()};
     for (const idl::Drive& drive : robot.drives()) {
       body_->max_speed = drive.max_speed();
