@@ -54,6 +54,7 @@ const char* fault_of(const idl::GoalPoint& goal, double height) {
   if (is_beyond_earth(place.x(), place.y())) return "lies farther away than any place on Earth";
   const double reach = goal.reach_radius().distance();
   if (reach < 0.0) return "has a negative reach_radius";
+  if (!(goal.time_limit() >= 0.0)) return "has a time_limit that is negative, or no number";
   if (goal.use_orientation() && goal.reach_angle() <= 0.0)
     return "has an orientation to take with a reach_angle that is not positive";
   if (goal.use_orientation() && !is_level(goal))
@@ -66,6 +67,7 @@ const char* fault_of(const idl::GoalPoint& goal, double height) {
 const char* fault_of_door(const idl::Door& door, double room) {
   const double width = door.door_width().distance();
   if (!std::isfinite(width)) return "holds a number that is not finite";
+  if (width < 0.0) return "is a door of negative width";
   if (!door.passable()) return "is a door that is not passable";
   if (width > 0.0 && width < room) return "is a door narrower than Goto's door_room";
   return nullptr;

@@ -42,6 +42,9 @@ TEST_CASE("a goal that no robot on the floor can take is refused with the reason
       {"not finite", [](idl::GoalPoint& goal) { goal.orientation().orientation().roll(kNan); }},
       {"not finite", [](idl::GoalPoint& goal) { goal.reach_radius().distance(kNan); }},
       {"negative reach_radius", [](idl::GoalPoint& goal) { goal.reach_radius().distance(-0.1); }},
+      {"time_limit that is negative", [](idl::GoalPoint& goal) { goal.time_limit(kNan); }},
+      {"time_limit that is negative", [](idl::GoalPoint& goal) { goal.time_limit(-0.1); }},
+      {"", [](idl::GoalPoint& goal) { goal.time_limit(0.0); }},
       {"", [](idl::GoalPoint& goal) { goal.reach_radius().distance(0.0); }},
       {"", [](idl::GoalPoint& goal) { goal.reach_radius().uncertainty(0.5); }},
       {"not positive", [](idl::GoalPoint& goal) { goal.reach_angle(0.0); }},
@@ -63,4 +66,12 @@ TEST_CASE("a goal that no robot on the floor can take is refused with the reason
   const char* found = fault_of(goal, 0.0);
   CHECK((found != nullptr) == !std::string(fault).empty());
   if (found != nullptr) CHECK_THAT(found, Catch::Contains(fault));
+}
+
+TEST_CASE("a door of negative width is no door of which nobody knows the width", "[goto][fault]") {
+  idl::Door door;
+  door.passable(true);
+  CHECK(fault_of_door(door, 0.5) == nullptr);
+  door.door_width().distance(-1.0);
+  CHECK_THAT(fault_of_door(door, 0.5), Catch::Contains("negative width"));
 }
