@@ -16,6 +16,21 @@ namespace {
 
 constexpr std::size_t kMaxBytes = 1'000'000;  // of a list of types; real ones have a hundred
 
+// Returns what to do about the libraries of these folders that have no list of types beside them; empty if there are none. Whoever copies
+// a plugin to a robot forgets the list.
+std::string hint_at_lists(const std::vector<std::string>& folders) {
+  std::error_code error;
+  for (const std::string& folder : folders)
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      const fs::path list = fs::path(entry.path()).replace_extension(".types");
+      if (entry.path().extension() == ".so" && !fs::exists(list, error))
+        return "; " + entry.path().string() +
+               " is not looked into, since it has no list of its types beside it: copy " +
+               list.filename().string() + ", too";
+    }
+  return {};
+}
+
 }  // namespace
 
 void PluginIndex::add(const std::vector<std::string>& folders) {
@@ -77,7 +92,8 @@ Result<std::string> PluginIndex::file_of(const std::string& type) const {
   if (found != place_by_type_.end()) return found->second.file;
   std::string places;
   for (const std::string& place : searched_) places += (places.empty() ? "" : ", ") + place;
-  return fail(Code::not_found, "no plugin holds the type \"" + type + "\"; searched: " + places);
+  return fail(Code::not_found,
+              "no plugin holds the type \"" + type + "\"; searched: " + places + hint_at_lists(folders_));
 }
 
 std::string PluginIndex::text_of(const std::string& type) const {

@@ -10,7 +10,6 @@
 using namespace orca;
 using namespace orca::plugin;
 using namespace orca::test;
-using Catch::Contains;
 
 TEST_CASE("the index names the file that holds a type", "[plugin][index]") {
   const PluginIndex index({kShipped, kForTests});
@@ -28,6 +27,17 @@ TEST_CASE("a type that no plugin holds is not found, and the error names the pla
   CHECK(file.error().code == Code::not_found);
   CHECK_THAT(file.error().text(), Contains("\"orca.Gotto\"") && Contains(kShipped) &&
                                       Contains("/no/such/folder (no such folder)"));
+}
+
+TEST_CASE("a plugin that was copied without its list of types is named where its type is not found",
+          "[plugin][index]") {
+  const TempFolder folder;
+  const std::string copy = folder.path().string();
+  std::filesystem::copy_file(test_plugin("test_two"), copy + "/test_two.so");
+  const auto found = PluginIndex({copy}).file_of("test.First");
+  REQUIRE_FALSE(found.has_value());
+  CHECK_THAT(found.error().message,
+             Contains(copy + "/test_two.so is not looked into") && Contains("copy test_two.types, too"));
 }
 
 TEST_CASE("the first of two folders that hold a type wins", "[plugin][index]") {
