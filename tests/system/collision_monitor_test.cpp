@@ -359,6 +359,31 @@ TEST_CASE("a robot whose laser falls silent stands 0.7 s later, and says which o
   CHECK(std::ranges::all_of(late, [](double speed) { return speed == 0.0; }));
 }
 
+TEST_CASE("a gate that is told by a clock ahead who moves lets the robot stand, and says so",
+          "[system][gate]") {
+  const TempFolder folder;
+  const std::string gate = "<component name=\"gate\"";
+  std::string text = text_in(system_graph("sudden.xml"));
+  text.insert(text.find(gate),
+              "<component name=\"people\" type=\"test.Foreteller\"><param name=\"ahead\" "
+              "value=\"${ahead}\"/></component>"
+              "<connect from=\"people.MovingThingsPush\" to=\"gate.moving\"/>");
+  text.insert(text.find("<arg "), "<arg name=\"ahead\" text=\"Of the clock\"/>");
+  const auto drive_by = [&](const std::string& ahead) {
+    return run_deployer(Words{folder.write("graph.xml", text), "--until", "8 s", "--set", "ahead=" + ahead,
+                              "--set", "goals=near: 3 3", "--set",
+                              "robot=" + source_file("sim/robots/pioneer_2dx.urdf"), "--set",
+                              "world=" + folder.write("world.xml", hall(""))} +
+                        Words{"--plugins", ORCA_BINARY_DIR "/tests/plugins"} + virtual_clock());
+  };
+  const Run right = drive_by("0 s");
+  INFO(right.err);
+  CHECK(right.arrivals().size() == 1);
+  const Run ahead = drive_by("86400 s");
+  CHECK(ahead.arrivals().empty());
+  CHECK(ahead.says("the robot stands: nothing valid comes at its port \"moving\""));
+}
+
 TEST_CASE("low and overhanging things that one of two lasers sees stop a robot before it touches them",
           "[system][gate]") {
   const std::map<std::string, std::string> things{

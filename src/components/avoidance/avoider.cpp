@@ -34,7 +34,7 @@ bool stays(const Twist2& twist) { return speed_of(twist) < 0.005; }
 bool passes_somebody(const ObjectPtr<idl::MovingThings>& moving, Vec2 place, TimePoint now) {
   constexpr double kBeside = 3.5;  // [m]
   constexpr Duration kFresh = 1s;
-  return moving && now - to_time_point(moving->stamp()) <= kFresh &&
+  return moving && std::chrono::abs(now - to_time_point(moving->stamp())) <= kFresh &&
          std::ranges::any_of(moving->things(), [&](const idl::MovingThing& thing) {
            return norm(Vec2{thing.x(), thing.y()} - place) <= kBeside;
          });

@@ -64,6 +64,8 @@ class FollowPerson final : public orca::Component {
     const auto moving = moving_.latest();
     if (!moving || !senders_.accepts(*moving, orca::check_reading(*moving))) return people;
     const double age = orca::to_seconds(now() - orca::to_time_point(moving->stamp()));
+    constexpr double kAhead = 0.6;  // [s] Later ones would be taken back along their ways.
+    if (age < 0.0 && !senders_.accepts(*moving, orca::check_age(age, kAhead))) return people;
     for (const orca::idl::MovingThing& thing : moving->things())
       people.push_back({thing.number(),
                         {thing.x() + age * thing.velocity_x(), thing.y() + age * thing.velocity_y()},

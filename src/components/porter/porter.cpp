@@ -103,7 +103,10 @@ class Porter final : public orca::Component {
   void do_errand(const orca::Pose2& pose) {
     errand_->delay(orca::to_seconds(held_.since_last(now(), kept_alarms())));
     const auto gripper = gripper_state_.latest();
-    if (!gripper || orca::to_seconds(now() - orca::to_time_point(gripper->stamp())) > *deaf_after_) {
+    const auto age_of = [&](const orca::idl::GripperState& state) {
+      return orca::to_seconds(now() - orca::to_time_point(state.stamp()));
+    };
+    if (!gripper || !orca::check_age(age_of(*gripper), *deaf_after_).ok()) {
       motion_.push(orca::full_stop());
       if (orca::to_seconds(now() - heard_) > *patience_) give_up("the gripper says nothing of its state");
       return;

@@ -93,7 +93,7 @@ class TraverseDoor final : public orca::Component {
     const auto scan = laser_.latest();
     if (robot.x > kThrough) {
       motion_.push(orca::dont_care());
-    } else if (!scan || age_of(scan->stamp()) > kDeaf || !senders_.accepts(*scan)) {
+    } else if (!scan || !orca::check_age(age_of(scan->stamp()), kDeaf).ok() || !senders_.accepts(*scan)) {
       motion_.push(orca::full_stop());
     } else {
       drive(robot, look(*scan, X_WR, door.door_width().distance()));

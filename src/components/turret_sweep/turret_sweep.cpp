@@ -45,7 +45,8 @@ class TurretSweep final : public orca::Component {
     constexpr double kFresh = 0.6;  // [s]
     const auto odometry = odometry_.latest();
     if (!odometry || !senders_.accepts(*odometry)) return {};
-    if (orca::to_seconds(now() - orca::to_time_point(odometry->stamp())) > kFresh) return {};
+    const double age = orca::to_seconds(now() - orca::to_time_point(odometry->stamp()));
+    if (!orca::check_age(age, kFresh).ok()) return {};
     return {odometry->translational_velocity(), odometry->sideways_velocity(), odometry->steering_velocity()};
   }
 
