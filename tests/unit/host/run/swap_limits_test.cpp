@@ -33,7 +33,8 @@ TEST_CASE("what is refused because a component is in a long lap is never carried
       SwapOrder order = next_napper();
       const std::string name = order.plugin.mapped_name();
       CHECK_THAT(refusal(run, std::move(order)),
-                 Contains("has not come to the end of a lap within 5 s; it is in work()"));
+                 Contains("has not come to the end of a lap within 5 s; it is in work()") &&
+                     Contains("orcactl restart begins its process anew"));
       CHECK_FALSE(plugin::is_mapped(name));
       const Status set = run.set("napper", {{"mood", "fine"}});
       REQUIRE_FALSE(set.ok());

@@ -164,9 +164,11 @@ Swap::Outcome Swap::taken_over() {
 Swap::Outcome Swap::withdraw() {
   const std::string hook = place_.component.current_hook();
   if (pending_->withdraw())
-    return end(refuse(Code::deadline_exceeded, "it has not come to the end of a lap within 5 s" +
-                                                   (hook.empty() ? "" : "; it is in " + hook) +
-                                                   "; nothing has changed, so try again when that is over"));
+    return end(refuse(Code::deadline_exceeded,
+                      "it has not come to the end of a lap within 5 s" +
+                          (hook.empty() ? "" : "; it is in " + hook) +
+                          "; nothing has changed, so try again when that is over; if it never is, "
+                          "orcactl restart begins its process anew, with the code of the graph"));
   if (phase_ == Phase::in_take_over) return lose((hook.empty() ? "it" : hook) + " hangs in an exchange");
   enter(Phase::in_take_over, kTakeOverLimit);
   return step();
