@@ -313,6 +313,33 @@ TEST_CASE("a change at a time known before is part of a run that repeats bit for
   CHECK(hash_after({"--change", now + "@20s", "--change", other + "@10s"}) != changed);
 }
 
+TEST_CASE("a behaviour gets another name where others require it, and the one of before again",
+          "[system][apply]") {
+  const TempFolder folder;
+  const auto named = [&](const std::string& name) {
+    const std::string text = std::regex_replace(read_text(source_file("graphs/scout_goto.xml")),
+                                                std::regex("\\bavoid\\b(?=[.\"])"), name);
+    return folder.write(name + ".xml",
+                        std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file("")));
+  };
+  const Run virtually = run_deployer(Words{named("avoid"), "--until", "6 s", "--change",
+                                           named("dodge") + "@3s", "--change", named("avoid") + "@4s"} +
+                                     virtual_clock());
+  INFO(virtually.err);
+  CHECK(virtually.exit_code() == 0);
+  Subprocess program(deployer({named("avoid")}));
+  const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
+  REQUIRE(comes_true(works, Seconds(20)));
+  for (const char* const name : {"dodge", "avoid"}) {
+    const Run applied = run_orcactl({"apply", named(name)});
+    INFO(applied.err << program.err());
+    REQUIRE(applied.exit_code() == 0);
+    CHECK_THAT(run_orcactl({"get", "fuser.required"}).out, Contains(name));
+  }
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+  CHECK(finish(program, Seconds(10)).exit_code() == 0);
+}
+
 TEST_CASE("a change that the graph names is carried out as one of the command line", "[system][apply]") {
   const std::string graph = source_file("sim/experiments/vfh_on_the_way.xml");
   const std::string other = source_file("sim/experiments/vfh_on_the_way/vfh.xml");

@@ -78,8 +78,8 @@ Result<Applying::Outcome> Applying::Change::carry_out(const GraphSource& source)
   const Outcome outcome{plan_, records_of(plan_.renewed, place_.all, wanted_.graph)};
   if (way_ == Way::compares) return outcome;
   if (Status possible = is_possible(); !possible.ok()) return possible.error();
-  for (Status (Change::*const step)() :
-       {&Change::exchange, &Change::set, &Change::come, &Change::settle, &Change::rewire}) {
+  for (Status (Change::*const step)() : {&Change::exchange, &Change::set, &Change::come, &Change::settle,
+                                         &Change::rewire, &Change::set_late}) {
     Status done = (this->*step)();
     if (done.ok() && !lost_.empty()) done = loss();
     if (!done.ok()) return go_back(done.error());
@@ -164,14 +164,31 @@ Error Applying::Change::exchange_back(const SwapWish& before, const Error& reaso
   return done ? reason : with(reason, before.component, done.error());
 }
 
+// A value may name what is connected only then, as the behaviours that a fuser requires. So what is refused is tried again with the new connections.
 Status Applying::Change::set() {
+  set_after_ = undo_.size();
+  Status done = set_all();
+  sets_late_ =
+      !done.ok() && lost_.empty() &&
+      std::ranges::any_of(plan_.connections, [this](const graph::GraphPlan::Rewiring& one) {
+        const graph::Edge& edge = one.after ? *one.after : *one.before;
+        return plan_.settings.contains(edge.from.component) || plan_.settings.contains(edge.to.component);
+      });
+  return sets_late_ ? ok() : done;
+}
+
+Status Applying::Change::set_late() { return sets_late_ ? set_all() : ok(); }
+
+// The values of before fit the connections of before: they go back after these, whenever they were set.
+Status Applying::Change::set_all() {
   std::map<std::string, graph::Params> before;
   for (const auto& [component, values] : plan_.settings) {
     const graph::Params present = place_.operating.params_of(node_of(component));
     for (const auto& [param, value] : values) before[component][param] = present.at(param);
   }
   if (Status done = place_.operating.change(plan_.settings); !done.ok()) return done;
-  undo_.emplace_back([this, before](const Error& reason) mutable {
+  const auto after = undo_.begin() + static_cast<std::ptrdiff_t>(set_after_);
+  undo_.insert(after, [this, before](const Error& reason) mutable {
     std::erase_if(before, [this](const auto& one) { return is_lost(one.first); });
     const Status done = place_.operating.change(before);
     return done.ok() ? reason : with(reason, "parameters", done.error());

@@ -40,6 +40,7 @@ class Applying::Change {
   Status come();
   Status settle();
   Status rewire();
+  Status set_late();
   Status renew();
   // What follows when all has been done, or some of it has not.
   void commit();
@@ -52,6 +53,7 @@ class Applying::Change {
   // Returns the processes of the components that come and go.
   [[nodiscard]] std::map<std::string, std::string> comers() const;
   Status exchange(const graph::GraphPlan::Exchange& wanted);
+  Status set_all();
   [[nodiscard]] Error exchange_back(const SwapWish& before, const Error& reason);
   // Ends a component.
   void let_go(const std::string& name);
@@ -71,6 +73,8 @@ class Applying::Change {
   const bool is_edit_;  // of the run's graph: what operators have set and exchanged stays as it is
   CheckedSystem wanted_;
   graph::GraphPlan plan_;
+  bool sets_late_ = false;      // parameters were refused before the connections changed
+  std::size_t set_after_ = 0;   // how many steps came before the parameters
   bool is_renewing_ = false;    // processes end because they are to begin anew
   std::vector<Undo> undo_;      // the last step comes first
   std::set<std::string> lost_;  // processes that have ended since the reading

@@ -38,16 +38,24 @@ Result<TimePoint> TimedChanges::go_on() {
 
 Status TimedChanges::carry_out(const TimedChange& change) {
   for (const graph::GraphPlan::Exchange& one : change.plan.exchanges) exchange(change, one);
-  for (const auto& [component, params] : change.plan.settings) {
-    const Status set = watched_.system().set_params(component, graph::print_values(params),
-                                                    watched_.changed(), executive_.now() + kLapLimit);
-    if (!set.ok()) return set;
-  }
+  // A value may name what is connected only then, as the behaviours that a fuser requires.
+  const bool are_set = set(change.plan.settings).ok();
   if (Status come = add(change.plan); !come.ok()) return come;
   if (Status changed = rewire(change.plan.connections_of(false)); !changed.ok()) return changed;
+  if (!are_set)
+    if (Status set_late = set(change.plan.settings); !set_late.ok()) return set_late;
   for (const graph::ComponentNode& node : change.plan.added)
     (*watched_.system().instance(node.name))->open_gate();
   return remove(change.plan.removed);
+}
+
+Status TimedChanges::set(const std::map<std::string, graph::Params>& settings) {
+  for (const auto& [component, params] : settings) {
+    Status set = watched_.system().set_params(component, graph::print_values(params), watched_.changed(),
+                                              executive_.now() + kLapLimit);
+    if (!set.ok()) return set;
+  }
+  return ok();
 }
 
 // A component finds its connections when it is configured, as at a start.

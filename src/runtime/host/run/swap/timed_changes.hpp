@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "orca/base/result.hpp"
@@ -45,6 +47,7 @@ class TimedChanges {
   void exchange(const TimedChange& change, const graph::GraphPlan::Exchange& exchange);
   void note(const TimedChange& change, const Error& error);
 
+  Status set(const std::map<std::string, graph::Params>& settings);
   Status add(const graph::GraphPlan& plan);
   Status remove(const std::vector<std::string>& components);
   Status rewire(const std::vector<graph::GraphPlan::Rewiring>& connections);
