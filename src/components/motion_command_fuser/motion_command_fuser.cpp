@@ -96,12 +96,20 @@ class MotionCommandFuser final : public orca::Component {
 
   Status listen_to(const std::vector<std::string>& names) {
     if (Status chosen = choose(names); !chosen.ok()) return chosen;
-    for (const Source& source : motion_.sources()) {
-      const bool listed = std::any_of(listened_.begin(), listened_.end(),
-                                      [&](const Listened& behaviour) { return behaviour.source == source; });
-      listed ? source.subscribe() : source.unsubscribe();
-    }
+    for (const Source& source : motion_.sources())
+      listens_to(source) ? source.subscribe() : source.unsubscribe();
     return orca::ok();
+  }
+
+  [[nodiscard]] bool listens_to(const Source& source) const {
+    return std::any_of(listened_.begin(), listened_.end(),
+                       [&](const Listened& behaviour) { return behaviour.source == source; });
+  }
+
+  // A behaviour that was disconnected and is connected again still has the subscription that it had. What nobody takes would make lap follow lap.
+  void silence_others() const {
+    for (const Source& source : motion_.sources())
+      if (source.new_data_arrived() && !listens_to(source)) source.unsubscribe();
   }
 
   orca::Result<orca::Loan<orca::idl::ClientList>> on_check(const ObjectPtr<orca::idl::ClientList>& list) {
@@ -134,6 +142,7 @@ class MotionCommandFuser final : public orca::Component {
 
   orca::Outcome work() override {
     const bool heard = await_wishes();
+    if (heard) silence_others();
     if (listened_.empty()) return orca::again();
     voices_.clear();
     for (Listened& behaviour : listened_) voices_.push_back(hear(behaviour));
