@@ -322,11 +322,12 @@ TEST_CASE("a behaviour gets another name where others require it, and the one of
     return folder.write(name + ".xml",
                         std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file("")));
   };
-  const Run virtually = run_deployer(Words{named("avoid"), "--until", "6 s", "--change",
+  const Run virtually = run_deployer(Words{named("avoid"), "--until", "20 s", "--change",
                                            named("dodge") + "@3s", "--change", named("avoid") + "@4s"} +
                                      virtual_clock());
   INFO(virtually.err);
   CHECK(virtually.exit_code() == 0);
+  CHECK(virtually.arrivals().size() == 1);  // by the new behaviour, and not after a while of standing
   Subprocess program(deployer({named("avoid")}));
   const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
   REQUIRE(comes_true(works, Seconds(20)));
@@ -336,6 +337,9 @@ TEST_CASE("a behaviour gets another name where others require it, and the one of
     REQUIRE(applied.exit_code() == 0);
     CHECK_THAT(run_orcactl({"get", "fuser.required"}).out, Contains(name));
   }
+  const Run misspelt = run_orcactl({"set", "command.behaviours", "goto; avoit"});
+  CHECK(misspelt.exit_code() == 1);
+  CHECK_THAT(misspelt.err, Contains("no behaviour \"avoit\" is connected"));
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
   CHECK(finish(program, Seconds(10)).exit_code() == 0);
 }

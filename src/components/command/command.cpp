@@ -93,6 +93,7 @@ class Command final : public orca::Component {
 
   // Another list takes the place of the one that is driven; the goal on the way is given up.
   orca::Status params_changed() override {
+    if (orca::Status known = mission_.check_behaviours(); !known.ok()) return known;
     if (*goals_ == listed_) return orca::ok();
     std::vector<Trip> trips;
     for (const std::string& text : *goals_)

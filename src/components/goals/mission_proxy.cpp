@@ -26,6 +26,7 @@ struct MissionProxy::Drive {
   std::uint64_t mission;
   double time_limit;                  // [s]
   TimePoint limit;                    // for Goto to reach it
+  std::vector<std::string> told{};    // the behaviours of which the fuser knows
   bool by_route = false;              // The via points are those of a route.
   std::optional<TimePoint> ask_at{};  // when the route is asked for again
 };
@@ -76,11 +77,14 @@ Status MissionProxy::configure() {
 // A list with a wrong name would be refused on the way. Where nobody answers yet, as to an object that is to take another one's
 // place, that has to do.
 Status MissionProxy::check_behaviours() {
-  if (!check_.connected()) return ok();
+  if (!check_.connected() || checked_ == *behaviours_) return ok();
   auto list = check_.loan();
   list->clients() = *behaviours_;
   const auto checked = check_.query(std::move(list));
-  if (checked) return ok();
+  if (checked) {
+    checked_ = *behaviours_;
+    return ok();
+  }
   if (checked.error().code == Code::not_found) return behaviours_.refuse(checked.error());
   host_.write_log(log::Level::debug,
                   "cannot ask yet whether its behaviours are there: " + checked.error().message);
@@ -144,6 +148,7 @@ std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double
 }
 
 std::optional<MissionProxy::Ending> MissionProxy::wait(Duration longest) {
+  if (drive_->told != *behaviours_) drive_->outbox.list_changed();
   const Duration left = last_moment() - host_.now();
   if (const PushSubject* const port = next_result(std::min(left, longest))) {
     if (const std::optional<Ending> ending = take_result(*port)) return end(*ending);
@@ -221,6 +226,7 @@ Status MissionProxy::send_due(double time_limit) {
   }
   if (!outbox.list_is_due()) return ok();
   if (Status sent = send_clients(*behaviours_); !sent.ok()) return sent;
+  drive_->told = *behaviours_;
   outbox.list_sent();
   return ok();
 }
@@ -238,8 +244,11 @@ bool MissionProxy::is_due() const {
 
 void MissionProxy::send_again() {
   const double left = to_seconds(drive_->limit - host_.now());
+  const bool has_changed = !drive_->told.empty() && drive_->told != *behaviours_;
   const Status sent = send_due(std::max(left, 0.1));
-  if (sent.ok()) {
+  if (sent.ok() && has_changed) {
+    host_.write_log(log::Level::info, "the robot now drives by " + listed(*behaviours_));
+  } else if (sent.ok()) {
     host_.write_log(log::Level::info,
                     "Goto or the fuser was started again, and has been sent what it needs for \"" +
                         drive_->trip.name + "\": " + std::to_string(drive_->outbox.points_left()) + " of " +

@@ -49,6 +49,7 @@ class Outbox {
   void point_sent() { ++next_; }
   [[nodiscard]] bool list_is_due() const { return list_is_due_; }
   void list_sent() { list_is_due_ = false; }
+  void list_changed() { list_is_due_ = true; }
   [[nodiscard]] bool is_empty() const { return next_ == points_ && !list_is_due_; }
 
  private:

@@ -43,6 +43,9 @@ class MissionProxy {
   /// Connects its parts. @pre  called once, from the component's configure().
   /// @errors  the fuser does not know the behaviours.
   [[nodiscard]] Status configure();
+  /// Asks the fuser about the behaviours, unless it knew the same ones before; for params_changed().
+  /// @errors  the fuser does not know them.
+  [[nodiscard]] Status check_behaviours();
   /// Completes the places of a trip that are given by their names, as far as there is an answer now.
   /// @errors  invalid_argument: nobody is there to say where they are, or there is no such place.
   [[nodiscard]] Status look_up(Trip& trip);
@@ -69,7 +72,6 @@ class MissionProxy {
  private:
   struct Drive;
 
-  Status check_behaviours();
   Status find_places(Trip& trip);
   Status find_place(Place& place);
   Status send_due(double time_limit);
@@ -105,6 +107,7 @@ class MissionProxy {
   Param<double> via_radius_;
   Param<double> reach_angle_;
 
+  std::vector<std::string> checked_;  // behaviours that the fuser knows
   Synchronizer results_;
   std::unique_ptr<Drive> drive_;
 };
