@@ -11,6 +11,9 @@
 namespace orca::xml {
 namespace {
 
+// [s] Times are counted in nanoseconds, by numbers that hold three times as long. As with parse_duration(), it is a hundred years.
+constexpr double kLongestTime = 100.0 * 365.25 * 86400.0;
+
 std::nullopt_t refuse(ValueFault& fault, ValueFault::Kind kind, std::string message) {
   fault = {kind, std::move(message)};
   return std::nullopt;
@@ -73,6 +76,9 @@ std::optional<double> read_number(std::string_view text, const ValueRule& rule, 
   const Result<double> value = to_si(number->value, number->rest, rule.unit);
   if (!value) return refuse(fault, ValueFault::Kind::unit, in_quotes(text) + ": " + value.error().message);
   if (!in_range(*value, rule)) return out_of_range(fault, text, rule);
+  if (rule.unit == "s" && std::fabs(*value) > kLongestTime)
+    return refuse(fault, ValueFault::Kind::range,
+                  in_quotes(text) + " is out of range: a time of at most a hundred years is allowed");
   return *value;
 }
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "orca/xml/quantity.hpp"
+#include "orca/xml/values.hpp"
 
 using namespace orca::xml;
 using namespace std::chrono_literals;
@@ -84,4 +85,16 @@ TEST_CASE("a duration is neither negative nor endless nor something else than a 
     INFO(text);
     CHECK_FALSE(parse_duration(text));
   }
+}
+
+TEST_CASE("a time that no counter of nanoseconds holds is out of range, whatever its rule allows",
+          "[xml][quantity]") {
+  const ValueRule seconds{.form = ValueRule::Form::number, .unit = "s", .min = 0.0};
+  ValueFault fault;
+  CHECK(read_number("3.1e9 s", seconds, fault) == 3.1e9);
+  CHECK_FALSE(read_number("1e300", seconds, fault));
+  CHECK(fault.kind == ValueFault::Kind::range);
+  CHECK_THAT(fault.message, Catch::Contains("\"1e300\" is out of range: a time of at most a hundred years"));
+  const ValueRule metres{.form = ValueRule::Form::number, .unit = "m"};
+  CHECK(read_number("1e300", metres, fault) == 1e300);
 }
