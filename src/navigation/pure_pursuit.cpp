@@ -22,6 +22,9 @@ constexpr double kSqueezeMargin = 0.005;  // [m] kept free where the margin find
 constexpr double kSqueezeSpeed = 0.5;     // at that share of the narrow speed
 constexpr double kCreep = 0.06;           // [m/s] Below this it counts as standing.
 constexpr double kAlmostThere = 0.05;     // [m] left of an arc that need not be free
+constexpr double kBendSpeed = 0.5;        // [m/s] with which any robot takes any bend
+constexpr double kBendPiece = 0.3;        // [m] of the path over which a bend is measured
+constexpr double kStraight = 1e-3;        // [1/m]
 
 struct Choice {
   Arc arc;
@@ -65,6 +68,23 @@ Choice choose(const Path& path, double along, const Scene& scene, const Footprin
   return best;
 }
 
+// Returns the largest speed from which it slows down in time for the bends of the path that come.
+double speed_before_bends(const Path& path, double along, const Pursuit& pursuit) {
+  double speed = pursuit.max_speed;
+  const double most =
+      std::min(path.length() - along, speed * pursuit.delay + 0.5 * speed * speed / pursuit.deceleration);
+  for (double ahead = 0.0; speed > kBendSpeed && ahead < most; ahead += kBendPiece) {
+    const double bend =
+        std::fabs(wrapped(path.heading(along + ahead + kBendPiece) - path.heading(along + ahead))) /
+        kBendPiece;
+    if (bend < kStraight) continue;
+    const double there = std::min(std::sqrt(pursuit.lateral_acceleration / bend), pursuit.turn_rate / bend);
+    const double slowed = speed_to_stop_within(ahead, pursuit.deceleration, pursuit.delay);
+    speed = std::min(speed, norm({std::max(there, kBendSpeed), slowed}));
+  }
+  return speed;
+}
+
 double regulated_speed(const Choice& choice, double left, const Pursuit& pursuit, double last_speed) {
   const double bend = std::fabs(choice.arc.curvature);
   double speed = pursuit.max_speed;
@@ -78,7 +98,8 @@ double regulated_speed(const Choice& choice, double left, const Pursuit& pursuit
   if (choice.free < choice.seen)
     speed = std::min(speed, speed_to_stop_within(choice.free, pursuit.deceleration, pursuit.delay));
   const double end = speed_to_stop_within(left, pursuit.deceleration, 0.0);
-  return std::min(speed, norm({end, last_speed}));
+  // Behind its end another path may lead anywhere.
+  return std::min(speed, norm({end, std::min(last_speed, kBendSpeed)}));
 }
 
 bool may_turn(double angle, const Scene& scene, const Footprint& footprint) {
@@ -127,7 +148,8 @@ Steer follow(const Path& path, double along, const Scene& scene, const Footprint
     if (!steer.blocked || std::fabs(off) > pursuit.turn_in_place) return steer;
   }
   const Choice choice = choose(path, along, scene, footprint, pursuit);
-  const double speed = regulated_speed(choice, path.length() - along, pursuit, last_speed);
+  const double speed = std::min(regulated_speed(choice, path.length() - along, pursuit, last_speed),
+                                speed_before_bends(path, along, pursuit));
   if (speed >= kCreep || choice.free >= choice.arc.length - kAlmostThere)
     return {speed, std::clamp(speed * choice.arc.curvature, -pursuit.turn_rate, pursuit.turn_rate), false,
             false};

@@ -49,6 +49,16 @@ TEST_CASE("the Pioneer plans its way to three goals of the office and touches no
     }
 }
 
+TEST_CASE("at the largest speed of its base it slows down before bends and touches nothing",
+          "[system][planner]") {
+  const Run run = run_deployer(
+      Words{source_file("graphs/pioneer_planner.xml"), "--set", "speed=2.2 m/s", "--until", "40 s"} +
+      virtual_clock());
+  INFO(run.err);
+  CHECK(run.contacts().empty());
+  CHECK(run.arrivals().size() == 2);
+}
+
 TEST_CASE("without via points it finds its way through the doors of the office by itself",
           "[system][planner]") {
   const Run run = office({"--set", "goals=kitchen: 4.2 9.8; office_2: 9 2; meeting: 13 10.4"});

@@ -100,6 +100,26 @@ TEST_CASE("it slows down in bends: the lateral acceleration stays within its lim
   CHECK(steer.turn_rate > 0.0);
 }
 
+TEST_CASE("it slows down before a bend early enough for its brakes", "[navigation]") {
+  const std::array points{Vec2{}, Vec2{10.0, 0.0}, Vec2{10.0, 5.0}};
+  const Pursuit fast{.max_speed = 2.0, .deceleration = 0.4, .delay = 0.2};
+  const auto speed_at = [&](double along, const Pursuit& pursuit) {
+    const Scene scene{.pose = {along, 0.0, 0.0}, .speed = pursuit.max_speed};
+    return follow(Path(points), along, scene, kRobot, pursuit, 0.0).speed;
+  };
+  CHECK(speed_at(4.0, fast) == 2.0);
+  double before = 2.0;
+  for (const double along : {5.5, 6.5, 7.5, 8.5}) {
+    const double speed = speed_at(along, fast);
+    CAPTURE(along);
+    CHECK(speed < before);
+    // From there it comes down to half a metre a second before the corner.
+    CHECK(fast.delay * speed + (speed * speed - 0.25) / (2.0 * fast.deceleration) <= 10.0 - along + 1e-9);
+    before = speed;
+  }
+  CHECK(speed_at(8.5, {.max_speed = 0.5, .deceleration = 0.4, .delay = 0.2}) == 0.5);
+}
+
 TEST_CASE("it drives the slower the nearer it passes obstacles", "[navigation]") {
   double before = 0.0;
   for (const double room : {0.05, 0.1, 0.15, 0.25}) {
