@@ -346,8 +346,7 @@ class CollisionMonitor final : public orca::Component {
       return "nothing valid comes at its port \"odometry\"";
     const auto moving = moving_.latest();
     if (moving_.connected() &&
-        (!moving || !orca::check_reading(*moving).ok() ||
-         !orca::check_age(age_of(*moving), kDeafAfter).ok()))
+        (!moving || !orca::check_reading(*moving).ok() || !orca::check_age(age_of(*moving), kDeafAfter).ok()))
       return "nothing valid comes at its port \"moving\"";
     for (const Sensor<LaserRangeReadings>& laser : laser_list_) {
       if (is_silent(laser)) return "nothing valid comes from " + laser.source.path();

@@ -35,6 +35,17 @@ constexpr orca::Duration kWatchPeriod = std::chrono::milliseconds(20);
 constexpr double kShortestSilence = 0.1;
 constexpr double kSilentPeriods = 3.0;
 
+bool listens_to(const std::vector<Listened>& listened, const Source& source) {
+  return std::ranges::find(listened, source, &Listened::source) != listened.end();
+}
+
+// A behaviour that was disconnected and is connected again still has the subscription that it had. What nobody takes would make lap
+// follow lap.
+void silence_others(const MotionPort& motion, const std::vector<Listened>& listened) {
+  for (const Source& source : motion.sources())
+    if (source.new_data_arrived() && !listens_to(listened, source)) source.unsubscribe();
+}
+
 /// The component that fuses the wishes of the behaviours in a client's list into one crisp command (thesis
 /// 11.1). A list may name the behaviours that the graph connects to `motion`. README.md explains the modes.
 class MotionCommandFuser final : public orca::Component {
@@ -97,19 +108,8 @@ class MotionCommandFuser final : public orca::Component {
   Status listen_to(const std::vector<std::string>& names) {
     if (Status chosen = choose(names); !chosen.ok()) return chosen;
     for (const Source& source : motion_.sources())
-      listens_to(source) ? source.subscribe() : source.unsubscribe();
+      listens_to(listened_, source) ? source.subscribe() : source.unsubscribe();
     return orca::ok();
-  }
-
-  [[nodiscard]] bool listens_to(const Source& source) const {
-    return std::any_of(listened_.begin(), listened_.end(),
-                       [&](const Listened& behaviour) { return behaviour.source == source; });
-  }
-
-  // A behaviour that was disconnected and is connected again still has the subscription that it had. What nobody takes would make lap follow lap.
-  void silence_others() const {
-    for (const Source& source : motion_.sources())
-      if (source.new_data_arrived() && !listens_to(source)) source.unsubscribe();
   }
 
   orca::Result<orca::Loan<orca::idl::ClientList>> on_check(const ObjectPtr<orca::idl::ClientList>& list) {
@@ -142,7 +142,7 @@ class MotionCommandFuser final : public orca::Component {
 
   orca::Outcome work() override {
     const bool heard = await_wishes();
-    if (heard) silence_others();
+    if (heard) silence_others(motion_, listened_);
     if (listened_.empty()) return orca::again();
     voices_.clear();
     for (Listened& behaviour : listened_) voices_.push_back(hear(behaviour));
