@@ -189,6 +189,23 @@ TEST_CASE("types and parameters change while the system runs, and a process that
   CHECK(run_orcactl({"stop"}).exit_code() == 0);
 }
 
+TEST_CASE(
+    "a process is not ended for an operator while a plugin is missing without which it would not come back",
+    "[system][apply]") {
+  Applied system;
+  const fs::path plugin = fs::path(system.write("x.xml", {})).parent_path() / "plugins/test_talker.so";
+  fs::rename(plugin, plugin.string() + ".away");
+  const pid_t host = system.host();
+  const Run refused = run_orcactl({"restart", "a"});
+  CHECK(refused.exit_code() == 1);
+  CHECK_THAT(refused.err,
+             Contains("test_talker.so") && Contains("is not there any more") && Contains("put it back"));
+  CHECK(system.host() == host);
+  fs::rename(plugin.string() + ".away", plugin);
+  CHECK(run_orcactl({"restart", "a"}).exit_code() == 0);
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
+}
+
 TEST_CASE("if a later step fails, what was exchanged is exchanged back", "[system][apply]") {
   if (!kTriesInShadow) return;
   Applied system;
@@ -311,37 +328,6 @@ TEST_CASE("a change at a time known before is part of a run that repeats bit for
   CHECK(hash_after({"--change", other + "@20s"}) != changed);
   CHECK(hash_after({"--change", now + "@10s"}) == plain);  // nothing differs
   CHECK(hash_after({"--change", now + "@20s", "--change", other + "@10s"}) != changed);
-}
-
-TEST_CASE("a behaviour gets another name where others require it, and the one of before again",
-          "[system][apply]") {
-  const TempFolder folder;
-  const auto named = [&](const std::string& name) {
-    const std::string text = std::regex_replace(read_text(source_file("graphs/scout_goto.xml")),
-                                                std::regex("\\bavoid\\b(?=[.\"])"), name);
-    return folder.write(name + ".xml",
-                        std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file("")));
-  };
-  const Run virtually = run_deployer(Words{named("avoid"), "--until", "20 s", "--change",
-                                           named("dodge") + "@3s", "--change", named("avoid") + "@4s"} +
-                                     virtual_clock());
-  INFO(virtually.err);
-  CHECK(virtually.exit_code() == 0);
-  CHECK(virtually.arrivals().size() == 1);  // by the new behaviour, and not after a while of standing
-  Subprocess program(deployer({named("avoid")}));
-  const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
-  REQUIRE(comes_true(works, Seconds(20)));
-  for (const char* const name : {"dodge", "avoid"}) {
-    const Run applied = run_orcactl({"apply", named(name)});
-    INFO(applied.err << program.err());
-    REQUIRE(applied.exit_code() == 0);
-    CHECK_THAT(run_orcactl({"get", "fuser.required"}).out, Contains(name));
-  }
-  const Run misspelt = run_orcactl({"set", "command.behaviours", "goto; avoit"});
-  CHECK(misspelt.exit_code() == 1);
-  CHECK_THAT(misspelt.err, Contains("no behaviour \"avoit\" is connected"));
-  CHECK(run_orcactl({"stop"}).exit_code() == 0);
-  CHECK(finish(program, Seconds(10)).exit_code() == 0);
 }
 
 TEST_CASE("a change that the graph names is carried out as one of the command line", "[system][apply]") {

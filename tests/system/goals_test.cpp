@@ -6,6 +6,7 @@
 #include <regex>
 #include <string>
 
+#include "hosted_system.hpp"
 #include "deployer.hpp"
 #include "temp_folder.hpp"
 
@@ -238,5 +239,36 @@ TEST_CASE("while the prompt waits, orders of an operator are taken, and what has
   program.write_input("ped: 1.6 6\n");
   CHECK(program.wait_for_output("arrived typed", Seconds(30)));
   program.send(SIGTERM);
+  CHECK(finish(program, Seconds(10)).exit_code() == 0);
+}
+
+TEST_CASE("a behaviour gets another name where others require it, and the one of before again",
+          "[system][goals]") {
+  const TempFolder folder;
+  const auto named = [&](const std::string& name) {
+    const std::string text = std::regex_replace(read_text(source_file("graphs/scout_goto.xml")),
+                                                std::regex("\\bavoid\\b(?=[.\"])"), name);
+    return folder.write(name + ".xml",
+                        std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file("")));
+  };
+  const Run virtually = run_deployer(Words{named("avoid"), "--until", "20 s", "--change",
+                                           named("dodge") + "@3s", "--change", named("avoid") + "@4s"} +
+                                     virtual_clock());
+  INFO(virtually.err);
+  CHECK(virtually.exit_code() == 0);
+  CHECK(virtually.arrivals().size() == 1);  // by the new behaviour, and not after a while of standing
+  Subprocess program(deployer({named("avoid")}));
+  const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
+  REQUIRE(comes_true(works, Seconds(20)));
+  for (const char* const name : {"dodge", "avoid"}) {
+    const Run applied = run_orcactl({"apply", named(name)});
+    INFO(applied.err << program.err());
+    REQUIRE(applied.exit_code() == 0);
+    CHECK_THAT(run_orcactl({"get", "fuser.required"}).out, Contains(name));
+  }
+  const Run misspelt = run_orcactl({"set", "command.behaviours", "goto; avoit"});
+  CHECK(misspelt.exit_code() == 1);
+  CHECK_THAT(misspelt.err, Contains("no behaviour \"avoit\" is connected"));
+  CHECK(run_orcactl({"stop"}).exit_code() == 0);
   CHECK(finish(program, Seconds(10)).exit_code() == 0);
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "refusal.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "orca/base/log.hpp"
 
 namespace orca::supervisor {
@@ -19,6 +22,16 @@ Error unreachable(Error why) {
     why.message =
         "nothing is started, because no emergency stop (orcactl estop) could reach it: " + why.message;
   return why;
+}
+
+Status can_start_processes(const SystemFacts& facts) {
+  std::error_code error;
+  for (const auto& [type, plugin] : facts.plugins)
+    if (!plugin.file.empty() && !std::filesystem::exists(plugin.file, error))
+      return fail(Code::failed_precondition,
+                  plugin.file + ", the plugin of " + type +
+                      ", is not there any more, and no process could come up without it; put it back before");
+  return ok();
 }
 
 }  // namespace orca::supervisor

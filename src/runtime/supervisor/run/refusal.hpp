@@ -6,6 +6,7 @@
 #include "orca/base/result.hpp"
 #include "orca/host/run_listener.hpp"
 #include "orca/host/run_result.hpp"
+#include "orca/supervisor/system_facts.hpp"
 
 namespace orca::supervisor {
 
@@ -15,5 +16,9 @@ host::RunResult refuse(const Error& error, const std::string& log_name, host::Ru
 
 /// Returns the error of a robot that no emergency stop can reach, and that therefore does not begin to move.
 [[nodiscard]] Error unreachable(Error why);
+
+/// Checks whether the plugins of the system are still there: a process loads all of them when it is started.
+/// @errors  failed_precondition, with the file and what to do.
+[[nodiscard]] Status can_start_processes(const SystemFacts& facts);
 
 }  // namespace orca::supervisor

@@ -123,6 +123,7 @@ class SupervisedRun {
       if (Status works = this->works(); !works.ok()) return works;
       if (renewal_.is_under_way())
         return fail(Code::unavailable, "processes are just beginning anew; try again when they are up");
+      if (Status can = can_start_processes(facts_); !can.ok()) return can;
       policy_.restart(member.index(), now());
       on_demand_.want(member);
       losses_.end(member);
