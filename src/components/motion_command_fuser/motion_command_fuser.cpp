@@ -39,7 +39,7 @@ bool listens_to(const std::vector<Listened>& listened, const Source& source) {
   return std::ranges::find(listened, source, &Listened::source) != listened.end();
 }
 
-// A behaviour that was disconnected and is connected again still has the subscription that it had. What nobody takes would make lap
+// A behaviour that was disconnected and is connected again still has the subscription that it had. Its wishes, which nobody takes, would make lap
 // follow lap.
 void silence_others(const MotionPort& motion, const std::vector<Listened>& listened) {
   for (const Source& source : motion.sources())
