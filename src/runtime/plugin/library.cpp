@@ -219,7 +219,12 @@ Result<std::unique_ptr<PluginLibrary>> PluginLibrary::open(const Source& source)
         "name; start the process again",
         source.path);
   }
-  return std::unique_ptr<PluginLibrary>(new PluginLibrary(source, *handle));
+  std::unique_ptr<PluginLibrary> library(new PluginLibrary(source, *handle));
+  for (const TypeEntry* type : library->types())
+    if (library->find(type->kind, type->type) != type)  // that is the first of this name
+      return refuse(source.path, "holds two classes with the type " + in_quotes(type->type) +
+                                     "; give one of them another name, else nobody knows which one runs");
+  return library;
 }
 
 PluginLibrary::PluginLibrary(const Source& source, void* handle)

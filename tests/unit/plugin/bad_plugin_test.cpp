@@ -41,6 +41,15 @@ TEST_CASE("a library without a manifest is refused and never mapped", "[plugin][
   CHECK_FALSE(is_mapped(path));
 }
 
+TEST_CASE("a plugin that holds two classes with one type is refused and unloaded", "[plugin][bad]") {
+  const std::string path = test_plugin("bad/bad_twice");
+  const Error error = refusal(path);
+  CHECK(error.code == Code::invalid_argument);
+  CHECK_THAT(error.text(), Contains("two classes with the type \"test.First\"") &&
+                               Contains("give one of them another name"));
+  CHECK_FALSE(is_mapped(path));
+}
+
 TEST_CASE("a plugin for a newer ABI version is refused with both versions and what to do", "[plugin][bad]") {
   const std::string path = test_plugin("bad/bad_abi_newer");
   const Error error = refusal(path);
