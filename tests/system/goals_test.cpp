@@ -6,8 +6,8 @@
 #include <regex>
 #include <string>
 
-#include "hosted_system.hpp"
 #include "deployer.hpp"
+#include "hosted_system.hpp"
 #include "temp_folder.hpp"
 
 using namespace orca::test;
