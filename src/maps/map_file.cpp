@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kLeastOccupied = 50;            // [%] likelier than not
+constexpr int kMostOccupied = 100;            // [%] beyond: not known
 constexpr std::size_t kMostText = 64 * 1024;  // [bytes] of a YAML file
 
 Status check_extent(const image::GreyImage& image, double side, const std::string& path) {
@@ -145,6 +147,20 @@ Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution) 
   const bool is_picture = image::is_picture(*beginning) || !image::foreign_picture(*beginning).empty();
   if (is_picture || beginning->size() > kMostText) return read_plan(path, resolution);
   return read_with_header(*beginning, path, resolution);
+}
+
+std::optional<std::string> doubt_about(const idl::OccupancyGrid& map) {
+  std::size_t occupied = 0, free = 0;
+  for (const int cell : map.cells()) {
+    occupied += cell >= kLeastOccupied && cell <= kMostOccupied ? 1 : 0;
+    free += cell < kLeastOccupied ? 1 : 0;
+  }
+  const std::string what_to_do = "; is it the right picture, and are negate, mode and the thresholds right?";
+  if (occupied == 0) return "no cell is occupied, so no robot finds its place by a laser" + what_to_do;
+  if (free == 0) return "no cell is free, so no robot finds a way" + what_to_do;
+  if (occupied <= free) return std::nullopt;
+  return "more cells are occupied (" + std::to_string(occupied) + ") than free (" + std::to_string(free) +
+         "); if black and white are exchanged, change negate in the YAML file";
 }
 
 Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view picture_name) {

@@ -27,6 +27,8 @@ struct Fault {
   std::string text;
 };
 
+constexpr double kMostYaw = 6.2832;  // [rad] a turn; more is degrees
+
 // The values of the keys. Each is there and valid, or that is a Fault.
 class Values {
  public:
@@ -75,6 +77,9 @@ class Values {
       if (!value) throw Fault{list[i].Mark(), key + ": " + value.error().message};
       found[i] = *value;
     }
+    if (std::fabs(found[2]) > kMostYaw)
+      throw Fault{list[2].Mark(), key + ": the yaw is " + xml::number_text(found[2]) +
+                                      "; it is in radians, where 1.5708 is a right angle"};
     return {found[0], found[1], wrapped(found[2])};
   }
 

@@ -115,3 +115,23 @@ TEST_CASE("the map that a robot has made is a YAML file and a picture for progra
   CHECK_THAT(read.out, StartsWith("L (") && Contains(" 0.05 [") && Contains(" 254") && Contains(" 205") &&
                            Contains(" 0,"));
 }
+
+TEST_CASE("a MapServer warns of maps without walls, exchanged colours and light grey walls",
+          "[system][maps]") {
+  const TempFolder folder;
+  const std::string rest =
+      "image: hall.pgm\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  folder.write("hall.pgm", "P2 3 1 255 0 254 254\n");
+  const auto log_of = [&](const std::string& file, const std::string& resolution) {
+    return run_deployer({system_graph("maps.xml"), "--clock", "virtual", "--until", "10 ms", "--set",
+                         "map=" + file, "--set", "office.resolution=" + resolution})
+        .err;
+  };
+  CHECK_THAT(log_of(folder.write("right.yaml", rest + "negate: 0\n"), "0"), !Contains("warning"));
+  CHECK_THAT(log_of(folder.write("wrong.yaml", rest + "negate: 1\n"), "0"),
+             Contains("wrong.yaml: more cells are occupied (2) than free (1)"));
+  CHECK_THAT(log_of(folder.write("white.pgm", "P2 3 1 255 255 255 255\n"), "0.1"),
+             Contains("white.pgm: no cell is occupied"));
+  CHECK_THAT(log_of(folder.write("grey.pgm", "P2 5 1 255 0 255 255 180 180\n"), "0.1"),
+             Contains("grey.pgm: 40 % of the pixels are light grey"));
+}

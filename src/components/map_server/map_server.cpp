@@ -7,7 +7,9 @@
 #include "orca/component.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
+#include "orca/image/grey_image.hpp"
 #include "orca/maps/map_file.hpp"
+#include "orca/sim/bitmap.hpp"
 #include "orca/sim/occupancy.hpp"
 #include "orca/sim/world_file.hpp"
 
@@ -28,7 +30,7 @@ class MapServer final : public orca::Component {
 
   orca::Status configure() override {
     if (file_->empty()) return file_.refuse("it is not set; name a map, such as \"office.yaml\"");
-    orca::Result<OccupancyGrid> map = is_world() ? draw_world() : orca::maps::read_map(*file_, *resolution_);
+    orca::Result<OccupancyGrid> map = is_world() ? draw_world() : read_file();
     if (!map) return file_.refuse(map.error().text());
     auto made = orca::make_object<OccupancyGrid>();
     *made = std::move(*map);
@@ -45,6 +47,17 @@ class MapServer final : public orca::Component {
   [[nodiscard]] bool is_world() const {
     const std::string file = file_->substr(0, file_->rfind('#'));
     return file.ends_with(".xml") || file.ends_with(".csv") || file.ends_with(".csv.gz");
+  }
+
+  [[nodiscard]] orca::Result<OccupancyGrid> read_file() const {
+    orca::Result<OccupancyGrid> map = orca::maps::read_map(*file_, *resolution_);
+    if (!map) return map;
+    if (const auto doubt = orca::maps::doubt_about(*map)) log_warning(*file_ + ": " + *doubt);
+    if (*resolution_ == 0.0) return map;  // a YAML file says which greys are occupied, free and not known
+    const orca::Result<orca::image::GreyImage> plan = orca::image::read_image(*file_);
+    if (!plan) return map;
+    if (const auto doubt = orca::sim::doubt_about(*plan)) log_warning(*file_ + ": " + *doubt);
+    return map;
   }
 
   [[nodiscard]] orca::Result<OccupancyGrid> draw_world() const {

@@ -39,6 +39,20 @@ TEST_CASE("a picture in a format that is not read is refused with how to convert
              Contains("this is a JPEG file") && Contains("convert floor.jpg floor.png"));
 }
 
+TEST_CASE("a map with nothing occupied, nothing free or more occupied than free is doubtful",
+          "[maps][plan]") {
+  const auto doubt = [](const std::vector<int>& cells) {
+    idl::OccupancyGrid map;
+    for (const int cell : cells) map.cells().push_back(static_cast<std::uint8_t>(cell));
+    return doubt_about(map).value_or("");
+  };
+  CHECK(doubt({100, 0, 0, 255, 255}).empty());
+  CHECK(doubt({100, 0}).empty());
+  CHECK_THAT(doubt({0, 49, 255}), Contains("no cell is occupied"));
+  CHECK_THAT(doubt({50, 100, 255}), Contains("no cell is free"));
+  CHECK_THAT(doubt({100, 100, 0, 255}), Contains("more cells are occupied (2) than free (1)"));
+}
+
 TEST_CASE("the floor plans of Stage are maps", "[maps][plan][data]") {
   const std::string folder = orca::test::public_data("stage_maps");
   if (folder.empty()) return;
@@ -48,6 +62,7 @@ TEST_CASE("the floor plans of Stage are maps", "[maps][plan][data]") {
     INFO(fault_of(map));
     REQUIRE(map);
     const auto occupied = std::ranges::count(map->cells(), 100);
+    CHECK(doubt_about(*map).value_or("").empty());
     CHECK(occupied > 0);
     CHECK(occupied + std::ranges::count(map->cells(), 0) == static_cast<std::ptrdiff_t>(map->cells().size()));
   }

@@ -60,6 +60,7 @@ TEST_CASE("values that no map can have are refused at their lines", "[maps][refu
       {{"[-1.0, 2.0, 0.0]", "[-1.0, 2.0]"}, ":3: origin must be three numbers"},
       {{"[-1.0, 2.0, 0.0]", "0"}, ":3: origin must be three numbers"},
       {{"[-1.0, 2.0, 0.0]", "[-1.0, 2.0, north]"}, ":3: origin: "},
+      {{"[-1.0, 2.0, 0.0]", "[-1.0, 2.0, 90]"}, ":3: origin: the yaw is 90; it is in radians"},
       {{"negate: 0", "negate: 2"}, ":4: negate is \"2\"; it must be 0 or 1"},
       {{"0.65", "65"}, ":5: occupied_thresh is 65; it must be from 0 to 1"},
       {{"0.196", "0.7"}, ":6: free_thresh must be less than occupied_thresh"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,11 @@ inline constexpr double kMostDistance =
 ///          bits, of more than kMostCells pixels, with width and height exchanged, or a photograph.
 /// @thread  any.
 [[nodiscard]] Result<idl::OccupancyGrid> read_map(const std::string& path, double resolution = 0.0);
+
+/// Returns what makes it doubtful that a map is the right one, or read as it was meant: nothing in it is occupied or free, or more is
+/// occupied than free. Nothing if all of it is clear.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::optional<std::string> doubt_about(const idl::OccupancyGrid& map);
 
 /// The files of a map, as write_map() makes them.
 struct MapTexts {
