@@ -98,6 +98,11 @@ TEST_CASE("a robot that stands for good says why, in one line for each cause", "
          "the robot stands: of the laser \"liar\" 10 of its 181 beams, from -90 to -81 deg, are nearer than "
          "0.02 m: something is at the laser");
   }
+  says({"by_laser", "orca.LaserAvoid"}, "backwards",
+       "the robot stands: none of its lasers looks ahead; is the rpy of the laser's joint in the robot's "
+       "file right?");
+  says({"planner", {}}, "backwards",
+       "the LaserRangeReadings of \"liar\" counts as none: none of its beams looks ahead");
   says({"by_sonar", {}}, "sonars_off",
        "the SonarRangeReadings of \"liar\" counts as none: no sonar has fired for ");
 }

@@ -78,14 +78,21 @@ void LaserAvoider::stop() {
   Avoider::stop();
 }
 
-bool LaserAvoider::listen(EchoMemory& memory) { return put_into(memory, *laser_.get_update(), 0); }
+bool LaserAvoider::listen(EchoMemory& memory) {
+  const auto scan = laser_.get_update();
+  const bool counts = put_into(memory, *scan, 0);
+  if (counts) ahead_ = check_looks_ahead(*scan).ok();
+  return counts;
+}
 
 // Sources of other processes come, and all of them may go, while the robot drives.
 void LaserAvoider::listen_aside(EchoMemory& memory) {
   for (const MoreLasers::Source& source : more_lasers_.sources()) {
     Further& laser = further(source);
     if (!source.new_data_arrived()) continue;
-    const bool counts = put_into(memory, *source.take_latest(), laser.number);
+    const auto scan = source.take_latest();
+    const bool counts = put_into(memory, *scan, laser.number);
+    laser.ahead = counts && check_looks_ahead(*scan).ok();
     laser.heard = counts ? std::optional(now()) : std::nullopt;
   }
 }
@@ -95,14 +102,19 @@ bool LaserAvoider::is_heard(const MoreLasers::Source& source, double longest) co
   return laser != further_.end() && laser->heard && to_seconds(now() - *laser->heard) <= longest;
 }
 
+bool LaserAvoider::looks_ahead() const { return ahead_ || std::ranges::any_of(further_, &Further::ahead); }
+
 bool LaserAvoider::hears_aside(double longest) const {
-  return std::ranges::all_of(more_lasers_.sources(),
-                             [&](const MoreLasers::Source& source) { return is_heard(source, longest); });
+  return looks_ahead() && std::ranges::all_of(more_lasers_.sources(), [&](const MoreLasers::Source& source) {
+           return is_heard(source, longest);
+         });
 }
 
 std::string LaserAvoider::silent_aside(double longest) const {
   for (const MoreLasers::Source& source : more_lasers_.sources())
     if (!is_heard(source, longest)) return "nothing valid comes from " + source.path();
+  if (!looks_ahead())
+    return "none of its lasers looks ahead; is the rpy of the laser's joint in the robot's file right?";
   return {};
 }
 

@@ -127,8 +127,8 @@ class GridPlanner final : public orca::go::GoalFollower {
     const ObjectPtr<orca::idl::LaserRangeReadings> scan = laser_.get_update();
     const double age =
         history_.empty() ? 0.0 : orca::to_seconds(history_.newest() - orca::to_time_point(scan->stamp()));
-    if (is_valid(*scan) && is_valid(*scan, orca::check_view_ahead(*scan)) &&
-        is_valid(*scan, orca::check_age(age, *deaf_after_)))
+    if (is_valid(*scan) && is_valid(*scan, orca::check_looks_ahead(*scan)) &&
+        is_valid(*scan, orca::check_view_ahead(*scan)) && is_valid(*scan, orca::check_age(age, *deaf_after_)))
       return scans_.add(scan);
     scans_.clear();
     heard_at_.reset();

@@ -74,6 +74,13 @@ struct View {
   }
 };
 
+View view_of(const idl::LaserRangeReadings& scan) {
+  View view;
+  for (std::size_t i = 0; i < scan.ranges().size(); ++i)
+    view.add(scan.pose().rotation().yaw() + angle_of(scan, i), scan.ranges()[i]);
+  return view;
+}
+
 template <class Round>
 Status check_round(const Round& round) {
   View view;
@@ -100,11 +107,14 @@ bool is_covered(const idl::LaserRangeReadings& scan) {
   return std::ranges::any_of(scan.ranges(), [&](double range) { return is_too_near(scan, range); });
 }
 
-Status check_view_ahead(const idl::LaserRangeReadings& scan) {
-  View view;
-  for (std::size_t i = 0; i < scan.ranges().size(); ++i)
-    view.add(scan.pose().rotation().yaw() + angle_of(scan, i), scan.ranges()[i]);
-  return view.check();
+Status check_view_ahead(const idl::LaserRangeReadings& scan) { return view_of(scan).check(); }
+
+Status check_looks_ahead(const idl::LaserRangeReadings& scan) {
+  if (view_of(scan).ahead > 0) return ok();
+  return fail(
+      Code::invalid_argument,
+      "none of its beams looks ahead, within 30 degrees of the robot's x axis; is the rpy of its joint "
+      "in the robot's file right?");
 }
 
 Status check_view_ahead(const idl::SonarRangeReadings& round) { return check_round(round); }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -137,6 +138,7 @@ class Liar final : public orca::Component {
   template <class T>
   void break_something(T& /*object*/) const {}
   void break_something(LaserRangeReadings& scan) const {
+    if (*fault_ == "backwards") scan.angle_start(scan.angle_start() + std::numbers::pi);
     for (std::size_t i = 0; i < 10; ++i) {
       if (*fault_ == "posts") scan.ranges()[i] = 0.1;
       if (*fault_ == "covered") scan.ranges()[i] = -std::numeric_limits<double>::infinity();
@@ -278,7 +280,8 @@ class Liar final : public orca::Component {
   orca::SendProxy<orca::idl::GoalPoint> goto_{
       *this, "goto", {.text = "Who drives; it is to circle around (x, y).", .optional = true}};
   orca::Param<std::int64_t> lies_{*this, "lies", 12, {.min = 1.0}};
-  orca::Param<std::string> fault_{*this, "fault", "", {.choices = {"", "posts", "covered", "sonars_off"}}};
+  orca::Param<std::string> fault_{
+      *this, "fault", "", {.choices = {"", "posts", "covered", "backwards", "sonars_off"}}};
   orca::Param<double> x_{*this, "x", 7.0, {.unit = "m"}};
   orca::Param<double> y_{*this, "y", 4.5, {.unit = "m"}};
 

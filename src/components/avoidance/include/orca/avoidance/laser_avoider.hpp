@@ -53,6 +53,7 @@ class LaserAvoider : public Avoider {
     MoreLasers::Source source;
     std::uint32_t number;              // the sensor's, for the memory
     std::optional<TimePoint> heard{};  // When its last scan came, unless that was none.
+    bool ahead = false;                // Whether it looks ahead.
   };
 
   PushProxyHandle& sensor() override { return laser_; }
@@ -63,6 +64,7 @@ class LaserAvoider : public Avoider {
   [[nodiscard]] std::string silent_aside(double longest) const override;
   [[nodiscard]] bool is_covered() override;
   [[nodiscard]] std::string what_holds() override;
+  [[nodiscard]] bool looks_ahead() const;
   [[nodiscard]] bool is_heard(const MoreLasers::Source& source, double longest) const;
   [[nodiscard]] Further& further(const MoreLasers::Source& source);
   // Returns whether the scan counts.
@@ -79,6 +81,7 @@ class LaserAvoider : public Avoider {
       {.text = "Scans of further lasers; needs odometry. The robot stands while one of them is silent.",
        .optional = true}};
   std::vector<Further> further_;
+  bool ahead_ = true;  // Whether the laser looks ahead; true until a scan says otherwise.
 };
 
 }  // namespace orca::avoid
