@@ -105,6 +105,7 @@ TEST_CASE("what is wrong with contrasts is reported, each at its place", "[batch
     <contrast first="a" second="b" metric="time" margin="1 s"/>
     <contrast first="a" second="b" metric="time" claim="equal" margin="1 m"/>
     <contrast first="a" second="b" metric="success" claim="equal" margin="0 %"/>
+    <contrast first="a" second="b" metric="success" claim="not_worse" margin="100 %"/>
     <contrast first="a" second="b" metric="success" claim="better" margin="1 %"/>)"));
   CHECK_THAT(faults, Contains("error E014: there is no variant \"c\"; there are a, b"));
   CHECK_THAT(faults, Contains("error E014: a contrast needs two variants"));
@@ -114,6 +115,7 @@ TEST_CASE("what is wrong with contrasts is reported, each at its place", "[batch
                          Contains("e.xml:5:5: error E014: claims of not_worse and equal need a margin"));
   CHECK_THAT(faults, Contains("e.xml:6:") && Contains("error E014: ") && Contains("measures"));
   CHECK_THAT(faults, Contains("error E014: a margin is above 0"));
+  CHECK_THAT(faults, Contains("error E014: a margin of success is below 100 %"));
   CHECK_THAT(faults, Contains("error E005: ") && Contains("better"));
 }
 

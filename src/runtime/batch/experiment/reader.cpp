@@ -222,6 +222,11 @@ class ExperimentReader {
       element.error_at("margin", codes::kContrast, read.error().message);
     else if (!(*read > 0.0))
       element.error_at("margin", codes::kContrast, "a margin is above 0");
+    else if (metric.is_success() && *read >= 1.0)
+      element.error_at(
+          "margin", codes::kContrast,
+          "a margin of success is below 100 %: no two shares differ by more, so the claim would hold "
+          "whatever the runs are");
     else
       contrast.asked.margin = *read;
   }
