@@ -115,6 +115,25 @@ TEST_CASE("variants that are the same in all runs are named", "[batch][report]")
   CHECK_THAT(report_on(rows).summary, !Contains("did nothing"));
 }
 
+TEST_CASE("why runs failed is told beside the figures, the commonest reasons first", "[batch][report]") {
+  std::vector<Row> rows;
+  add(rows, "bad", 0, 50.0);
+  add(rows, "good", 0, 60.0);
+  CHECK_THAT(report_on(rows).summary, !Contains("why "));
+  const auto fail_at = [&](std::size_t row, const std::string& reason) {
+    rows[row].outcome.ending = Ending::failed;
+    rows[row].outcome.reason = reason;
+  };
+  fail_at(0, "rare");
+  for (const std::size_t row : {5U, 6U}) fail_at(row, "a goal is at the place \"kichen\"");
+  CHECK_THAT(report_on(rows).summary, Contains("why 2 runs failed (first " + rows[5].variant + " in " +
+                                               rows[5].world + ", seed " + std::to_string(rows[5].seed) +
+                                               "): a goal is at the place \"kichen\"\nwhy 1 run failed"));
+  CHECK_THAT(report_on(rows).markdown, Contains("why 2 runs failed"));
+  for (const std::size_t row : {10U, 11U}) fail_at(row, "another " + std::to_string(row));
+  CHECK_THAT(report_on(rows).summary, Contains("other runs failed for 1 more reason: see the report"));
+}
+
 TEST_CASE("goals that are reached at once are told", "[batch][report]") {
   std::vector<Row> rows;
   add(rows, "bad", 0, 50.0);

@@ -70,6 +70,35 @@ std::vector<std::string> lines_of_same_variants(const std::vector<Row>& rows) {
   return lines;
 }
 
+// Runs that fail for one reason, which may lie in the experiment or its graphs and not in what is compared.
+std::vector<std::string> lines_of_reasons(const std::vector<Row>& rows) {
+  constexpr std::size_t kMostReasons = 3;
+  struct Reason {
+    std::string text;
+    const Row* first;
+    std::size_t count;
+  };
+  std::vector<Reason> reasons;
+  for (const Row& row : rows) {
+    if (row.outcome.reason.empty()) continue;
+    const auto known = std::ranges::find(reasons, row.outcome.reason, &Reason::text);
+    if (known == reasons.end())
+      reasons.push_back({row.outcome.reason, &row, 1});
+    else
+      ++known->count;
+  }
+  std::ranges::stable_sort(reasons, std::greater{}, &Reason::count);
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(reasons.size(), kMostReasons); ++i)
+    lines.push_back("why " + counted(reasons[i].count, "run") + " failed (first " +
+                    reasons[i].first->variant + " in " + reasons[i].first->world + ", seed " +
+                    std::to_string(reasons[i].first->seed) + "): " + reasons[i].text);
+  if (reasons.size() > kMostReasons)
+    lines.push_back("other runs failed for " + counted(reasons.size() - kMostReasons, "more reason") +
+                    ": see the report");
+  return lines;
+}
+
 }  // namespace
 
 std::string value_text(double value, const Metric& metric) {
@@ -187,6 +216,7 @@ std::vector<std::string> lines_on_runs(const Experiment& experiment, const std::
   for (const SameRuns& same : result.same_runs) lines.push_back(line_of(same, result.variants.size()));
   std::ranges::copy(lines_of_same_variants(rows), std::back_inserter(lines));
   std::ranges::copy(lines_of_absent_failures(experiment, rows), std::back_inserter(lines));
+  std::ranges::copy(lines_of_reasons(rows), std::back_inserter(lines));
   const auto at_once = std::ranges::count_if(rows, [](const Row& row) {
     return row.outcome.ending == Ending::success && row.outcome.time < kAtOnce;
   });

@@ -44,7 +44,7 @@ namespace orca::batch {
 [[nodiscard]] std::string line_of(const Contrast& unanswered);
 
 /// Returns sentences on seeds, worlds and variants that change nothing, on the failures that an experiment plans and that did not come, because
-/// runs ended before, and on goals that were reached at once.
+/// runs ended before, why runs failed, and on goals that were reached at once.
 [[nodiscard]] std::vector<std::string> lines_on_runs(const Experiment& experiment,
                                                      const std::vector<Row>& rows, const BatchResult& result);
 
