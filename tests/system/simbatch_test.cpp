@@ -213,6 +213,20 @@ TEST_CASE("a report can be made again, and needs results", "[system][batch]") {
   CHECK(text_in(out + "/report.html") == first);
 }
 
+TEST_CASE("a batch overwrites no files of others, and makes no run before it says so", "[system][batch]") {
+  const TempFolder paper;
+  const std::string experiment = drive(paper);
+  const std::string figure = paper.file("figures/mine.pdf");
+  std::filesystem::create_directories(paper.path() / "figures");
+  (void)paper.write("figures/mine.pdf", "a figure");
+  const Run run = run_simbatch({experiment, "--out", paper.path().string()});
+  CHECK(run.exit_code() == 2);
+  CHECK(
+      run.says("figures: it is there already and not of a batch, and would be overwritten; --out DIR takes"));
+  CHECK(text_in(figure) == "a figure");
+  CHECK_FALSE(std::filesystem::exists(paper.path() / "results.sqlite"));
+}
+
 TEST_CASE("metrics that are exchanged after the runs stand on the page as a change", "[system][batch]") {
   const TempFolder folder;
   const std::string experiment = drive(folder);

@@ -14,6 +14,22 @@ std::filesystem::path results_in(const std::filesystem::path& folder) {
   return std::filesystem::is_regular_file(folder) ? folder : folder / "results.sqlite";
 }
 
+std::vector<std::string> names_of_report() {
+  return {"report.html", "report.md", "provenance.json", "runs.csv",
+          "timing.csv",  "laps.csv",  "figures",         "tables"};
+}
+
+Status check_free(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+  if (std::filesystem::exists(results_in(folder))) return ok();  // what is there is of the batch
+  for (const std::string& name : names)
+    if (std::filesystem::exists(std::filesystem::symlink_status(folder / name)))
+      return fail(
+          Code::already_exists,
+          "it is there already and not of a batch, and would be overwritten; --out DIR takes another folder",
+          (folder / name).lexically_normal().string());
+  return ok();
+}
+
 Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder) {
   const std::filesystem::path file = results_in(folder);
   if (!std::filesystem::exists(file))

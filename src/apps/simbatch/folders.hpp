@@ -17,6 +17,14 @@ namespace orca::simbatch {
 /// Returns the file of the results in a folder. A path that is a file is that file.
 [[nodiscard]] std::filesystem::path results_in(const std::filesystem::path& folder);
 
+/// Returns the names of the files and folders that a report consists of, in the folder of its results.
+[[nodiscard]] std::vector<std::string> names_of_report();
+
+/// Checks that nothing of somebody else lies where results are to be written for the first time.
+/// @param names  of files and folders that will be written, and replaced, there.
+/// @errors  already_exists, with the first that is there in a folder without results.
+[[nodiscard]] Status check_free(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
 /// Opens results that are there, whatever experiment they are of.
 /// @errors  not_found if there are none; those of Store::open().
 [[nodiscard]] Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder);

@@ -200,11 +200,13 @@ ExitCode write_tuned(const batch::Experiment& experiment, const batch::Experimen
 
 // Opens the folder for the results of an experiment, and keeps what they depend on.
 Result<std::unique_ptr<batch::Store>> prepare(const Options& options, const batch::Experiment& experiment,
-                                              const std::filesystem::path& folder, const Listener& listener) {
+                                              const std::filesystem::path& folder, const Listener& listener,
+                                              const std::vector<std::string>& written = names_of_report()) {
   if (std::filesystem::exists(results_in(folder)) && !options.resume)
     return fail(Code::already_exists, in_quotes(folder.string()) +
                                           " holds results already; --resume makes what is missing, "
                                           "--out DIR takes another folder");
+  if (const Status free = check_free(folder, written); !free.ok()) return free.error();
   std::error_code error;
   if (const Status trusted = check_output_place(folder.string()); !trusted.ok())
     return fail(trusted.error().code, folder.string() + ": " + trusted.error().message);
@@ -237,7 +239,9 @@ ExitCode tune(const Options& options) {
   if (diagnostics.has_errors()) return ExitCode::bad_input;
   if (!drawn) return refuse(drawn.error());
   const std::filesystem::path folder = options.out.empty() ? experiment->name + ".tuned" : options.out;
-  Result<std::unique_ptr<batch::Store>> store = prepare(options, *drawn, folder, {});
+  std::vector<std::string> written{"draws.csv"};
+  for (const batch::Variant& variant : experiment->variants) written.push_back(variant.name + ".xml");
+  Result<std::unique_ptr<batch::Store>> store = prepare(options, *drawn, folder, {}, written);
   if (!store) return refuse(store.error());
   if (const std::string fault = make_runs(options, *drawn, **store); !fault.empty())
     return did_not_finish(fault);
@@ -292,6 +296,7 @@ ExitCode join(const Options& options) {
                        in_quotes(options.out) + " holds results already; --out DIR takes another folder"));
   const Result<std::unique_ptr<batch::Store>> first = open_results(options.subject);
   if (!first) return refuse(first.error());
+  if (const Status free = check_free(options.out, names_of_report()); !free.ok()) return refuse(free.error());
   if (const Status trusted = check_output_place(options.out); !trusted.ok())
     return refuse(fail(trusted.error().code, options.out + ": " + trusted.error().message));
   std::filesystem::create_directories(options.out);
