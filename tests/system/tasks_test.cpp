@@ -11,6 +11,8 @@
 
 using namespace orca::test;
 using Catch::Contains;
+using Catch::EndsWith;
+using Catch::StartsWith;
 using namespace std::chrono_literals;
 
 namespace {
@@ -243,6 +245,9 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
   CHECK_THAT(tree, Contains("task: tour, on the way"));
   CHECK_THAT(tree, Contains("done            Drive to=kitchen"));
   CHECK_THAT(tree, Contains("now             Drive to=library"));
+  const std::string json = robot.order({"tasks", "--json"}).out;
+  CHECK_THAT(json, StartsWith("[\n") && EndsWith("]\n") && Contains("\"component\": \"task\""));
+  CHECK_THAT(json, Contains("\"phase\": \"running\"") && Contains("\"text\": \"Drive to=library"));
   robot.step("50s");  // on the way to the office
   robot.order({"tasks", "skip"});
   robot.order({"tasks", "pause"});
@@ -282,6 +287,9 @@ TEST_CASE("an operator sends a robot here and there, and sees how far it is and 
   robot.step("5s");
   CHECK_THAT(robot.order({"go"}).out,
              Contains("command: on the way to kitchen, ") && Contains(" m left; then office_2, meeting"));
+  const std::string json = robot.order({"go", "--json"}).out;
+  CHECK_THAT(json, StartsWith("[\n") && EndsWith("]\n") && Contains("\"going_to\": \"kitchen\""));
+  CHECK_THAT(json, Contains("\"left\": ") && Contains("\"missed\": 0"));
   robot.order({"go", "library"});
   robot.order({"go", "--queue", "2", "6"});
   CHECK_THAT(robot.order({"go"}).out,

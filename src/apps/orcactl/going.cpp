@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -14,6 +15,7 @@
 #include "asking.hpp"
 #include "client.hpp"
 #include "offering.hpp"
+#include "orca/base/json.hpp"
 #include "orca/base/text.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/system.hpp"
@@ -58,31 +60,65 @@ Result<ObjectPtr<idl::TripState>> fetch_trips(Client& client, const std::string&
   return fetch<idl::TripState>(client, component + std::string(kTrips), std::move(order), limit);
 }
 
-// Returns "4.2 m left" or why the robot waits, of whoever drives to that goal; empty if nobody says so.
-std::string progress_text(Client& client, const std::string& goal, Duration limit) {
+// Returns how far whoever drives to that goal is; null if nobody says so.
+ObjectPtr<idl::Progress> progress_to(Client& client, const std::string& goal, Duration limit) {
   for (const std::string& driver : components_with(client, kDrives)) {
     const auto progress = fetch<idl::Progress>(client, driver + std::string(kDrives),
                                                make_object(object_type<idl::Ask>()), limit);
-    if (!progress || (*progress)->name() != goal) continue;
-    char text[48];
-    std::snprintf(text, sizeof text, ", %.1f m left", (*progress)->left());
-    return text + ((*progress)->waits().empty() ? "" : "; it waits: " + printable((*progress)->waits()));
+    if (progress && (*progress)->name() == goal) return *progress;
   }
   return {};
 }
 
-Status show_goals(Client& client, const std::vector<std::string>& components, Duration limit) {
+// Returns "4.2 m left" or why the robot waits.
+std::string progress_text(const ObjectPtr<idl::Progress>& progress) {
+  if (!progress) return {};
+  char text[48];
+  std::snprintf(text, sizeof text, ", %.1f m left", progress->left());
+  return text + (progress->waits().empty() ? "" : "; it waits: " + printable(progress->waits()));
+}
+
+std::string trip_text(const idl::TripState& trip, const ObjectPtr<idl::Progress>& progress) {
+  std::string text = trip.going_to().empty()
+                         ? "no goal"
+                         : "on the way to " + printable(trip.going_to()) + progress_text(progress);
+  if (!trip.next().empty()) text += "; then " + listed(trip.next());
+  if (!trip.result().empty()) text += "; the last one: " + printable(trip.result());
+  return text;
+}
+
+void write_trip(const std::string& component, const idl::TripState& trip,
+                const ObjectPtr<idl::Progress>& progress, JsonWriter& json) {
+  std::vector<std::string> next;
+  for (const std::string& goal : trip.next()) next.push_back(printable(goal));
+  json.begin_object();
+  json.member("component", component);
+  json.member("going_to", printable(trip.going_to()));
+  json.member("left", progress ? progress->left() : std::numeric_limits<double>::quiet_NaN());  // null
+  json.member("waits", progress ? printable(progress->waits()) : std::string());
+  json.member("next", next);
+  json.member("reached", trip.reached());
+  json.member("missed", trip.missed());
+  json.member("result", printable(trip.result()));
+  json.end();
+}
+
+Status show_goals(Client& client, const std::vector<std::string>& components, Duration limit, bool as_json) {
+  JsonWriter json;
+  json.begin_array();
   for (const std::string& component : components) {
     const auto state = fetch_trips(client, component, make_object<idl::TripOrder>(), limit);
     if (!state) return state.error();
-    std::string text = component + ": ";
-    const std::string& goal = (*state)->going_to();
-    text +=
-        goal.empty() ? "no goal" : "on the way to " + printable(goal) + progress_text(client, goal, limit);
-    if (!(*state)->next().empty()) text += "; then " + listed((*state)->next());
-    if (!(*state)->result().empty()) text += "; the last one: " + printable((*state)->result());
-    print(text + "\n");
+    const idl::TripState& trip = **state;
+    const ObjectPtr<idl::Progress> progress =
+        trip.going_to().empty() ? nullptr : progress_to(client, trip.going_to(), limit);
+    if (as_json)
+      write_trip(component, trip, progress, json);
+    else
+      print(component + ": " + trip_text(trip, progress) + "\n");
   }
+  json.end();
+  if (as_json) print(json.text());
   return ok();
 }
 
@@ -128,7 +164,7 @@ Status carry_out_trip(Client& client, const std::vector<std::string>& components
   if (call.has("--queue") && call.has("--repeat"))
     return fail(Code::invalid_argument,
                 "--queue adds to the goals that there are, --repeat takes their place");
-  if (shows) return show_goals(client, components, limit);
+  if (shows) return show_goals(client, components, limit, call.has("--json"));
   const std::optional<std::string> named = call.text("--component");
   if (!named && components.size() > 1)
     return fail(Code::invalid_argument, "several components send robots to goals: " + listed(components) +

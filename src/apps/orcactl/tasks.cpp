@@ -51,6 +51,26 @@ const char* word_for(idl::TaskPhase phase) {
   return "on the way";
 }
 
+const char* name_of(idl::TaskStepState state) {
+  switch (state) {
+    case idl::STEP_RUNNING: return "running";
+    case idl::STEP_DONE: return "done";
+    case idl::STEP_FAILED: return "failed";
+    case idl::STEP_IDLE: break;
+  }
+  return "idle";
+}
+
+const char* name_of(idl::TaskPhase phase) {
+  switch (phase) {
+    case idl::TASK_PAUSED: return "paused";
+    case idl::TASK_DONE: return "done";
+    case idl::TASK_FAILED: return "failed";
+    case idl::TASK_RUNNING: break;
+  }
+  return "running";
+}
+
 Result<ObjectPtr<idl::TaskState>> fetch_task(Client& client, const std::string& component, Duration limit) {
   Result<ObjectLoan> reply =
       ask_port(client, component + std::string(kShows), make_object(object_type<idl::Ask>()), limit);
@@ -62,11 +82,19 @@ Result<ObjectPtr<idl::TaskState>> fetch_task(Client& client, const std::string& 
 
 Status show(Client& client, const std::vector<std::string>& components, const apps::Call& call) {
   const Duration limit = call.duration("--timeout").value_or(kAnswerLimit);
+  const bool as_json = call.has("--json");
+  JsonWriter json;
+  json.begin_array();
   for (const std::string& component : components) {
     const auto task = fetch_task(client, component, limit);
     if (!task) return task.error();
-    print(component + ": " + tree_text(**task));
+    if (as_json)
+      write_task(component, **task, json);
+    else
+      print(component + ": " + tree_text(**task));
   }
+  json.end();
+  if (as_json) print(json.text());
   return ok();
 }
 
@@ -103,6 +131,25 @@ std::string tree_text(const idl::TaskState& task) {
     text += "\n";
   }
   return text;
+}
+
+void write_task(const std::string& component, const idl::TaskState& task, JsonWriter& json) {
+  json.begin_object();
+  json.member("component", component);
+  json.member("task", printable(task.name()));
+  json.member("phase", name_of(task.phase()));
+  json.member("reason", printable(task.reason()));
+  json.key("steps").begin_array();
+  for (const idl::TaskStep& step : task.steps()) {
+    json.begin_object();
+    json.member("depth", step.depth());
+    json.member("state", name_of(step.state()));
+    json.member("text", printable(step.text()));
+    json.member("reason", printable(step.reason()));
+    json.end();
+  }
+  json.end();
+  json.end();
 }
 
 ExitCode handle_tasks(const apps::Call& call) {
