@@ -181,6 +181,7 @@ TEST_CASE("orcactl import prints a graph that the deployer finds right, or says 
   CHECK(wrong.out().empty());
   Subprocess none({ORCA_BINARY_DIR "/bin/orcactl", "import", folder.file("none.xml")});
   CHECK(none.wait(30s)->exit_code == 1);
+  CHECK_THAT(none.err(), Contains("none.xml: No such file"));
 }
 
 TEST_CASE("docs/errors-elsewhere.md explains every code of import, and no other", "[orcactl][import][docs]") {

@@ -19,7 +19,7 @@ constexpr std::size_t kLongest = std::size_t{1} << 20;  // [bytes] of a file tha
 ExitCode import_file(const apps::Call& call) {
   const std::string& name = call.words.front();
   Result<std::string> text = read_input_file(name, kLongest);
-  if (!text) return report({text.error()});
+  if (!text) return report({fail(text.error().code, text.error().message, name)});
   xml::Diagnostics found;
   const importing::ComponentFile file = importing::read_component_file(std::move(*text), name, found);
   const std::string graph = found.has_errors() ? "" : importing::graph_text(file, name, found);
