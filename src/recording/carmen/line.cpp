@@ -180,13 +180,12 @@ bool is_kind(std::string_view word) {
   }) && (word.front() < '0' || word.front() > '9');
 }
 
-// Takes a host and the time at which the line was logged.
-Duration read_end(Words& words) {
-  const Duration stamp = words.stamp();
+// Takes a stamp, a host and the time at which the line was logged.
+void read_end(Words& words, Line& line) {
+  line.stamp = words.stamp();
   words.word("host");
-  words.number("time of logging", kLatest);
+  line.logged = from_seconds(words.number("time of logging", kLatest));
   if (!words.at_end()) words.find_fault("there is more behind its end");
-  return stamp;
 }
 
 bool read_content(std::string_view kind, Words& words, Line& line) {
@@ -198,7 +197,7 @@ bool read_content(std::string_view kind, Words& words, Line& line) {
     line.content = read_new_scan(words, kind == "ROBOTLASER1" ? Laser::front : Laser::rear);
   else
     return false;
-  line.stamp = read_end(words);
+  read_end(words, line);
   return true;
 }
 

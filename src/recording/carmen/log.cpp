@@ -143,6 +143,24 @@ void leave_out_cut_rows(Log& log) {
   });
 }
 
+// Programs that convert logs write the stamp 0 in all lines; when each was logged is behind it.
+void take_times_of_logging(Log& log) {
+  if (std::ranges::any_of(log.entries, [](const Entry& entry) { return entry.what.stamp > Duration{0}; }))
+    return;
+  for (Entry& entry : log.entries) entry.what.stamp = entry.what.logged;
+  log.flaws.stamps =
+      "all stamps are 0, so each line has the time at which it was logged, the last number in it";
+}
+
+// A log in which no time passes is over at once, and nobody would know why.
+void find_standing_clock(Log& log) {
+  constexpr std::size_t kLeast = 3;  // that one moment can hardly have
+  if (log.entries.size() < kLeast || log.entries.front().passed != log.entries.back().passed) return;
+  log.flaws.stamps =
+      "all " + std::to_string(log.entries.size()) +
+      " lines have the same stamp, so no time passes in it; give each line the time at which it was sensed";
+}
+
 // Returns about what a line takes in memory once it is read, with what maps and heaps add [bytes].
 std::size_t memory_of(const Line& line) {
   constexpr std::size_t kAdded = 128;
@@ -210,6 +228,7 @@ std::vector<std::string> Flaws::texts() const {
                            "stamps are wrong, so their lines have the time of the one before"));
   if (clock_jumps.count > 0) all.push_back(sentence(clock_jumps, "jump of the clock", "jumps of the clock"));
   if (gaps.count > 0) all.push_back(sentence(gaps, "gap", "gaps"));
+  if (!stamps.empty()) all.push_back(stamps);
   if (!cut.empty()) all.push_back("the file ends early: " + cut);
   return all;
 }
@@ -241,9 +260,11 @@ Result<Log> read_log(const std::function<std::string_view()>& next, std::size_t 
                                                        ": " + log.flaws.damaged.first
                                                  : ""));
   if (table) leave_out_cut_rows(log);
+  take_times_of_logging(log);
   TimeLine times(log.flaws);
   for (std::size_t i = 0; i < log.entries.size(); ++i)
     times.set(log.entries[i], i + 1 < log.entries.size() ? &log.entries[i + 1] : nullptr);
+  find_standing_clock(log);
   find_gaps(
       log, [](const Entry& entry) { return scan_of(entry) == nullptr; }, log.flaws.gaps);
   find_gaps(

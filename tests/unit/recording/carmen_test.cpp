@@ -234,6 +234,24 @@ TEST_CASE("a line whose stamp is 0, or alone far off, has the time of the line b
   CHECK(log.flaws.wrong.first_line == 2);
 }
 
+TEST_CASE("where all stamps are 0 the times of logging count, and a log in which no time passes says so",
+          "[recording][carmen]") {
+  const auto line = [](double stamp, double logged) {
+    return "ODOM 1 0 0 0.5 0 0 " + std::to_string(stamp) + " host " + std::to_string(logged) + "\n";
+  };
+  const Log logged = good_log_of(line(0, 3) + line(0, 4) + line(0, 5));
+  CHECK(sensed_of(logged) == std::vector<double>{3.0, 4.0, 5.0});
+  REQUIRE(logged.flaws.texts().size() == 1);
+  CHECK_THAT(logged.flaws.texts()[0],
+             Contains("all stamps are 0, so each line has the time at which it was logged"));
+  for (const double stamp : {0.0, 7.0}) {
+    const Log standing = good_log_of(line(stamp, 0) + line(stamp, 0) + line(stamp, 0));
+    REQUIRE(standing.flaws.texts().size() == 1);
+    CHECK_THAT(standing.flaws.texts()[0], Contains("all 3 lines have the same stamp"));
+  }
+  CHECK(good_log_of(line(7, 1) + line(7, 2)).flaws.texts().empty());
+}
+
 TEST_CASE("when the clock of a log is set, time goes on without the jump, and it is reported",
           "[recording][carmen]") {
   const double jump = GENERATE(-3600.0, -5.0, 86400.0);

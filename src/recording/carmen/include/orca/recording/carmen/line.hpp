@@ -55,6 +55,7 @@ struct Line {
   Duration stamp{
       0};  ///< When it was sensed, by the clock of whoever wrote the log; 0 for lines without a stamp.
   std::variant<NoLine, OtherLine, ParamLine, OdometryLine, ScanLine> content;
+  Duration logged{0};  ///< When it was written, by the last number of the line.
 };
 
 /// Reads a line, without its end.

@@ -32,7 +32,8 @@ struct Flaws {
   Flaw
       clock_jumps;  ///< Stamps that are older by more, or that come an hour or more later: the clock was set, and time goes on without that.
   Flaw gaps;  ///< Pauses of ten times the usual interval of odometry or of scans, and of a second at least.
-  std::string cut;  ///< Why the file ends before its end; empty: it does not.
+  std::string stamps;  ///< What is odd about the stamps of all lines together; empty: nothing.
+  std::string cut;     ///< Why the file ends before its end; empty: it does not.
 
   /// Returns one sentence for each kind that there is.
   [[nodiscard]] std::vector<std::string> texts() const;
