@@ -159,4 +159,12 @@ TEST_CASE("a recording without the ports of a replay is refused by name",
   CHECK(run.exit_code() == 2);
   CHECK(run.says("the recording has nothing of \"laser.LaserRangeReadingsPush\"; it has: "));
   CHECK(run_deployer({kReplay, "--check", "--set", "recording=/nonexistent.mcap"}).exit_code() == 2);
+
+  // What is damaged in it may be why.
+  const std::string log =
+      folder.write("run.log", "ODOM 0 0 0 0 0 0 1.0 host 1.0\nFLASER 180 2.0 2.0 0 0 0 0 0 0 1.1 host 1.1\n");
+  const Run damaged = run_deployer({kReplay, "--check", "--set", "recording=" + log});
+  CHECK(damaged.says(
+      "nothing of \"laser.LaserRangeReadingsPush\"; it has: base.OdometryPush; 1 damaged line is left "
+      "out, the first in line 2: a line FLASER: "));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -108,7 +109,11 @@ class LogReplay final : public HardwareContainer {
 
   void declare(const std::string& port, std::vector<HardwareFault>& faults) {
     const Result<std::string> row = recording::find_row(run_->rows(), run_->others(), port);
-    if (!row) return faults.push_back({.param = "ports", .text = row.error().message});
+    if (!row) {
+      std::vector<std::string> words{row.error().message};
+      std::ranges::copy(run_->flaws(), std::back_inserter(words));  // lines that are damaged may be why
+      return faults.push_back({.param = "ports", .text = joined(words, "; ")});
+    }
     if (sensors_.contains(*row))
       return faults.push_back({.param = "ports", .text = in_quotes(*row) + " is named twice"});
     const auto& [type_name, count] = *run_->rows().at(*row).types.begin();
