@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "files/formats/mesh_place.hpp"
 #include "motion/hull_corners.hpp"
 #include "orca/base/text.hpp"
+#include "orca/robot_file/values.hpp"
 #include "orca/xml/attributes.hpp"
 
 namespace orca::sim::detail {
@@ -51,8 +53,14 @@ class UrdfChecker {
   void origin(const xml::Element& parent) const {
     const xml::Element* origin = only_child(parent, "origin");
     if (origin == nullptr) return;
-    for (const char* name : {"xyz", "rpy"})
-      if (of(*origin).has(name)) static_cast<void>(numbers(of(*origin), name));
+    if (of(*origin).has("xyz")) static_cast<void>(numbers(of(*origin), "xyz"));
+    const auto angles = of(*origin).has("rpy") ? numbers(of(*origin), "rpy") : std::nullopt;
+    if (angles &&
+        std::ranges::any_of(*angles, [](double v) { return std::fabs(v) > robot_file::values::kWholeTurn; }))
+      reporter_.diagnostics().warning(robot_codes::kDegrees, origin->position(),
+                                      "rpy is in radians, and one of these angles is more than a turn; is it "
+                                      "one of degrees? A right angle "
+                                      "is 1.5708, half a turn 3.1416");
   }
 
   void limit(const xml::Element& joint, const std::string& type) const {

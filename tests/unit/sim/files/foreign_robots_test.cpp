@@ -263,6 +263,25 @@ TEST_CASE("an inertia that no body can have gives a warning", "[sim][foreign]") 
   check_is_read(disc);
 }
 
+TEST_CASE("an angle of a robot's file that is more than a turn is doubted: it may be one of degrees",
+          "[sim][foreign]") {
+  std::string urdf = urdf_of(on_footprint(kChassis));
+  urdf.insert(urdf.find("<link name=\"base_link\""), R"x(<link name="eye"/>)x");
+  const auto joint = [](const std::string& rpy) {
+    return R"x(<joint name="neck" type="fixed"><parent link="base_link"/><child link="eye"/><origin rpy=")x" +
+           rpy + R"x("/></joint>)x";
+  };
+  const auto said = [&](const std::string& rpy) {
+    std::string text = urdf;
+    text.insert(text.find("<orca"), joint(rpy));
+    const Reading reading = Workspace().read(text);
+    CHECK(reading.robot);
+    return reading.said;
+  };
+  CHECK_THAT(said("0 0 -180"), Catch::Contains("warning R030: rpy is in radians"));
+  CHECK_THAT(said("0 0 -6.28319"), !Catch::Contains("R030"));
+}
+
 TEST_CASE("a point of mass may have an inertia of zero, but not the whole robot", "[sim][foreign]") {
   const std::string nothing = R"x(<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>)x";
   const Reading lamp = Workspace().read(urdf_of(

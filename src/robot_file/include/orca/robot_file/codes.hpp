@@ -31,5 +31,6 @@ inline constexpr const char* kDoubtfulInertia = "R026";
 inline constexpr const char* kBelowFloor = "R027";
 inline constexpr const char* kOtherMesh = "R028";
 inline constexpr const char* kUsualFigures = "R029";
+inline constexpr const char* kDegrees = "R030";
 
 }  // namespace orca::robot_file::codes

@@ -35,7 +35,9 @@ inline constexpr ValueRule kCoordinate{
     .form = ValueRule::Form::number, .unit = "m", .min = -kFarthest, .max = kFarthest};
 inline constexpr ValueRule kLength = positive("m", kFarthest);
 inline constexpr ValueRule kLengthOrZero = not_negative("m", kFarthest);
-inline constexpr ValueRule kAngle = any("rad");
+inline constexpr double kWholeTurn = 6.2832;  // [rad] A larger angle is one of degrees.
+inline constexpr ValueRule kAngle{
+    .form = ValueRule::Form::number, .unit = "rad", .min = -kWholeTurn, .max = kWholeTurn};
 inline constexpr ValueRule kTime = not_negative("s", kHundredYears);
 inline constexpr ValueRule kPeriod = positive("s", kHundredYears);
 
