@@ -103,6 +103,10 @@ TEST_CASE("a robot that stands for good says why, in one line for each cause", "
        "file right?");
   says({"planner", {}}, "backwards",
        "the LaserRangeReadings of \"liar\" counts as none: none of its beams looks ahead");
+  says({"by_sonar", {}}, "backwards",
+       "the SonarRangeReadings of \"liar\" counts as none: none of its sonars looks ahead");
+  says({"walk", {}}, "backwards",
+       "the LaserRangeReadings of \"liar\" counts as none: none of its beams looks ahead");
   says({"by_sonar", {}}, "sonars_off",
        "the SonarRangeReadings of \"liar\" counts as none: no sonar has fired for ");
 }

@@ -69,7 +69,8 @@ class RandomWalk final : public orca::Component {
     echoes_.clear();
     if (sonar_.new_data_arrived()) last_sonar_ = sonar_.get_update();
     if (laser_.new_data_arrived()) last_laser_ = laser_.get_update();
-    const bool sound = (!last_sonar_ || counts(*last_sonar_)) && (!last_laser_ || counts(*last_laser_));
+    const bool sound =
+        (!last_sonar_ || counts(*last_sonar_)) && (!last_laser_ || counts(*last_laser_)) && looks_ahead();
     heard_at_ = sound ? std::optional(now()) : std::nullopt;
     if (!sound) return;
     if (last_sonar_) hear_round(*last_sonar_);
@@ -87,6 +88,13 @@ class RandomWalk final : public orca::Component {
     return senders_.accepts(round) && senders_.accepts(round, orca::check_view_ahead(round)) &&
            (!fired || senders_.accepts(
                           round, orca::avoid::check_firing(age_of(*fired), *deaf_after_, "sonar", "fired")));
+  }
+
+  // Returns whether one of its sensors looks where it drives.
+  bool looks_ahead() {
+    if (last_sonar_ && orca::check_looks_ahead(*last_sonar_).ok()) return true;
+    if (last_laser_) return senders_.accepts(*last_laser_, orca::check_looks_ahead(*last_laser_));
+    return senders_.accepts(*last_sonar_, orca::check_looks_ahead(*last_sonar_));
   }
 
   [[nodiscard]] double age_of(orca::TimePoint stamp) const { return orca::to_seconds(now() - stamp); }

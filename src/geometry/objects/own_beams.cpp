@@ -82,11 +82,20 @@ View view_of(const idl::LaserRangeReadings& scan) {
 }
 
 template <class Round>
-Status check_round(const Round& round) {
+View view_of_round(const Round& round) {
   View view;
   for (std::size_t i = 0; i < std::min(round.ranges().size(), round.poses().size()); ++i)
     view.add(round.poses()[i].rotation().yaw(), round.ranges()[i]);
-  return view.check();
+  return view;
+}
+
+Status check_any_ahead(const View& view, const std::string& parts, const std::string& what_to_correct) {
+  if (view.ahead > 0) return ok();
+  return fail(Code::invalid_argument,
+              "none of its " + parts +
+                  " looks ahead, within 30 degrees of the robot's x axis; in the robot's file, "
+                  "is " +
+                  what_to_correct + " right?");
 }
 
 }  // namespace
@@ -110,16 +119,20 @@ bool is_covered(const idl::LaserRangeReadings& scan) {
 Status check_view_ahead(const idl::LaserRangeReadings& scan) { return view_of(scan).check(); }
 
 Status check_looks_ahead(const idl::LaserRangeReadings& scan) {
-  if (view_of(scan).ahead > 0) return ok();
-  return fail(
-      Code::invalid_argument,
-      "none of its beams looks ahead, within 30 degrees of the robot's x axis; is the rpy of its joint "
-      "in the robot's file right?");
+  return check_any_ahead(view_of(scan), "beams", "the rpy of its joint");
 }
 
-Status check_view_ahead(const idl::SonarRangeReadings& round) { return check_round(round); }
+Status check_looks_ahead(const idl::SonarRangeReadings& round) {
+  return check_any_ahead(view_of_round(round), "sonars", "first_angle, or angles, of its ring");
+}
 
-Status check_view_ahead(const idl::InfraredRangeReadings& round) { return check_round(round); }
+Status check_looks_ahead(const idl::InfraredRangeReadings& round) {
+  return check_any_ahead(view_of_round(round), "sensors", "first_angle of its ring");
+}
+
+Status check_view_ahead(const idl::SonarRangeReadings& round) { return view_of_round(round).check(); }
+
+Status check_view_ahead(const idl::InfraredRangeReadings& round) { return view_of_round(round).check(); }
 
 std::string beams_at_robot(const idl::LaserRangeReadings& scan, const RobotOutline& robot) {
   Sector covered;

@@ -145,6 +145,12 @@ class Liar final : public orca::Component {
     }
   }
   void break_something(SonarRangeReadings& round) const {
+    if (*fault_ == "backwards") {  // only the array at the back is left
+      constexpr std::ptrdiff_t kFront = 8;
+      round.ranges().erase(round.ranges().begin(), round.ranges().begin() + kFront);
+      round.poses().erase(round.poses().begin(), round.poses().begin() + kFront);
+      round.stamps().erase(round.stamps().begin(), round.stamps().begin() + kFront);
+    }
     if (*fault_ != "sonars_off") return;
     for (orca::idl::TimeValue& stamp : round.stamps()) stamp = orca::to_time_value(orca::TimePoint{3s});
   }

@@ -42,7 +42,8 @@ class RingAvoider : public Avoider {
   // Sensors may measure one after the other, and the robot moves meanwhile.
   bool listen(EchoMemory& memory) override {
     const auto readings = ring_.get_update();
-    if (!is_valid(*readings) || !is_valid(*readings, check_view_ahead(*readings)) || !measures(*readings))
+    if (!is_valid(*readings) || !is_valid(*readings, check_looks_ahead(*readings)) ||
+        !is_valid(*readings, check_view_ahead(*readings)) || !measures(*readings))
       return false;
     ear_.take(*readings, now(), !remembers(),
               [&](Vec2 echo, TimePoint fired) { memory.hear(moved_since(echo, age_of(fired)), keep()); });

@@ -37,11 +37,13 @@ struct RobotOutline {
 [[nodiscard]] Status check_view_ahead(const idl::SonarRangeReadings& round);
 [[nodiscard]] Status check_view_ahead(const idl::InfraredRangeReadings& round);
 
-/// Checks whether a laser looks ahead at all: within 30 degrees of the robot's x axis. A robot whose only laser looks aside or to the back
+/// Checks whether a sensor looks ahead at all: within 30 degrees of the robot's x axis. A robot whose only sensor looks aside or to the back
 /// would drive blindly.
 /// @errors  invalid_argument, with what to correct.
-/// @thread  pure function; any thread.
+/// @thread  pure function, as the next two; any thread.
 [[nodiscard]] Status check_looks_ahead(const idl::LaserRangeReadings& scan);
+[[nodiscard]] Status check_looks_ahead(const idl::SonarRangeReadings& round);
+[[nodiscard]] Status check_looks_ahead(const idl::InfraredRangeReadings& round);
 
 /// Says which beams of a scan must hold the robot where it is, for people: those that are too near to be measured, and those that
 /// end within the robot's own outline. Empty if there are none.
