@@ -168,3 +168,24 @@ TEST_CASE("a recording without the ports of a replay is refused by name",
       "nothing of \"laser.LaserRangeReadingsPush\"; it has: base.OdometryPush; 1 damaged line is left "
       "out, the first in line 2: a line FLASER: "));
 }
+
+TEST_CASE("a recording that was cut off says so wherever it is read", "[system][recording][replay][fault]") {
+  const TempFolder folder;
+  const std::string recording = folder.file("run.mcap");
+  REQUIRE(run_deployer(
+              Words{source_file("graphs/pioneer_laser_goto.xml"), "--until", "1s", "--record", recording} +
+              virtual_clock())
+              .exit_code() == 0);
+  const std::string cut = folder.file("cut.mcap");
+  std::filesystem::copy_file(recording, cut);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  const std::string said = "only what is whole of the recording is read; byte ";
+  CHECK_THAT(bag({"info", cut}).err, Contains(said) && Contains("ends in the middle of a record"));
+  const Run table = bag({"csv", cut, "base.OdometryPush"});
+  CHECK(table.exit_code() == 0);
+  CHECK_THAT(table.err, Contains(said));
+  CHECK_THAT(bag({"diff", recording, cut, "base.OdometryPush"}).err, Contains(said));
+  CHECK_THAT(run_deployer({source_file("graphs/intel_log.xml"), "--check", "--set", "log=" + cut}).err,
+             Contains(said));
+  CHECK_THAT(bag({"csv", recording, "base.OdometryPush"}).err, !Contains(said));
+}

@@ -102,10 +102,10 @@ Status info(const Words& words, bool as_json) {
   if (!is_mcap)
     for (const recording::Finding& finding : findings)
       std::fprintf(stderr, "orcactl: %s\n", finding.text.c_str());
-  if (is_mcap && !file->has_index())
-    std::fprintf(stderr,
-                 "orcactl: the file has no end, because its writer was interrupted; orcactl bag recover "
-                 "gives it one\n");
+  if (const std::string damage = recording::damage_of(*file); !damage.empty())
+    std::fprintf(stderr, "orcactl: %s\n", damage.c_str());
+  else if (is_mcap && !file->has_index())
+    std::fprintf(stderr, "orcactl: the file has no index; orcactl bag recover gives it one\n");
   return ok();
 }
 

@@ -63,6 +63,11 @@ std::vector<std::string> topics_for(const std::map<std::string, RecordedRow>& ro
   return found;
 }
 
+void log_flaws(const Reader& file, const std::vector<std::string>& found) {
+  if (const std::string damage = damage_of(file); !damage.empty()) log::warning("bag", damage);
+  for (const std::string& flaw : found) log::warning("bag", flaw);
+}
+
 }  // namespace
 
 Result<ObjectReader> ObjectReader::open(const std::string& path) {
@@ -138,6 +143,17 @@ void ObjectReader::learn_frames(std::uint16_t channel) {
   });
 }
 
+std::string damage_of(const Reader& file) {
+  const std::vector<Finding>& findings = file.findings();
+  if (file.has_index() || findings.empty() || findings.front().offset == 0)
+    return {};  // bags in SQLite say it themselves
+  const std::string more =
+      findings.size() > 1 ? ", and " + std::to_string(findings.size() - 1) + " more" : "";
+  return "only what is whole of the recording is read; byte " + std::to_string(findings.front().offset) +
+         ": " + findings.front().text + more +
+         "; orcactl bag check says all, and recover writes what is whole";
+}
+
 std::string fact(const Values& facts, const std::string& name) {
   const auto found = facts.find(name);
   return found == facts.end() ? "" : found->second;
@@ -199,10 +215,10 @@ Status ObjectReader::objects(const std::set<std::string>& rows,
   for (const std::string& frame : unknown_frames)
     found.push_back("its /tf_static does not say where '" + frame +
                     "' is; readings in that frame are taken to be from the middle of the robot");
-  for (const std::string& flaw : found) {
-    if (flaws != nullptr) flaws->push_back(flaw);
-    if (flaws == nullptr) log::warning("bag", flaw);
-  }
+  if (flaws == nullptr)
+    log_flaws(file_, found);
+  else
+    flaws->insert(flaws->end(), found.begin(), found.end());
   return status.ok() ? read : status;
 }
 

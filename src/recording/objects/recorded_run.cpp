@@ -24,7 +24,9 @@ constexpr Duration kOtherClock = 10s;
 
 class ObjectRun final : public RecordedRun {
  public:
-  explicit ObjectRun(ObjectReader reader) : reader_(std::move(reader)) {}
+  explicit ObjectRun(ObjectReader reader) : reader_(std::move(reader)) {
+    if (std::string damage = damage_of(reader_.file()); !damage.empty()) flaws_.push_back(std::move(damage));
+  }
 
   const std::map<std::string, RecordedRow>& rows() const override { return reader_.rows(); }
   std::map<std::string, std::string> others() const override { return reader_.others(); }

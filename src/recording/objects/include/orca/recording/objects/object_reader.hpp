@@ -37,6 +37,10 @@ struct RecordedObject {
 /// Returns one of them, or a value of the metadata of a channel; empty: it is not there.
 [[nodiscard]] std::string fact(const Values& facts, const std::string& name);
 
+/// Returns what is wrong with an MCAP file that has no index, so that what can be read of it may not be all; empty: nothing, or it has one.
+/// @thread  pure function; any thread.
+[[nodiscard]] std::string damage_of(const Reader& file);
+
 /// Returns the row that a name means: that of this name; in a bag, whose rows are topics, also the only topic with objects of the type that
 /// the name of a port ends with, so that `laser.LaserRangeReadingsPush` means its scans.
 /// @param others  topics without objects, and the types of their messages, for a refusal that says more.
