@@ -105,6 +105,7 @@ TEST_CASE("a robot that stands for good says why, in one line for each cause", "
        "the LaserRangeReadings of \"liar\" counts as none: none of its beams looks ahead");
   says({"by_sonar", {}}, "backwards",
        "the SonarRangeReadings of \"liar\" counts as none: none of its sonars looks ahead");
+  says({"gate", {}}, "backwards", "alarm SENSOR_SILENT: the robot stands: none of its sensors looks ahead");
   says({"walk", {}}, "backwards",
        "the LaserRangeReadings of \"liar\" counts as none: none of its beams looks ahead");
   says({"by_sonar", {}}, "sonars_off",

@@ -21,6 +21,7 @@
 #include "orca/idl/sensing.hpp"
 #include "orca/idl/time.hpp"
 #include "orca/navigation/pose_history.hpp"
+#include "sensor.hpp"
 #include "surroundings.hpp"
 #include "tally.hpp"
 
@@ -31,6 +32,7 @@ using orca::Pose2;
 using orca::Status;
 using orca::TimePoint;
 using orca::Twist2;
+using orca::gate::Sensor;
 using orca::gate::Verdict;
 using orca::idl::LaserRangeReadings;
 using orca::idl::MotionCommand;
@@ -53,14 +55,6 @@ class CollisionMonitor final : public orca::Component {
   static constexpr orca::Duration kPassedAfter = std::chrono::milliseconds(100);
   static constexpr double kLong = 2.0;      // [s] of standing after which an alarm is raised
   static constexpr double kPatient = 10.0;  // [s] the same while somebody passes
-
-  template <class Reading>
-  struct Sensor {
-    typename orca::PushProxyArray<Reading>::Source source;
-    std::optional<TimePoint> heard{};  // When its last valid reading came.
-    std::vector<TimePoint> fired{};    // By sonar: the stamp of its last reading.
-    ObjectPtr<Reading> waiting{};      // A scan that is newer than the odometry.
-  };
 
   Status configure() override {
     if (robot_->empty())
@@ -169,6 +163,7 @@ class CollisionMonitor final : public orca::Component {
 
   Verdict judge(const Twist2& wanted) {
     blind_ = why_blind();
+    if (blind_.empty() && !looks_ahead()) blind_ = orca::gate::kNoneAhead;
     if (!blind_.empty()) return {0.0, true, std::nullopt};
     const auto state = gripper_.latest();
     const orca::collision::SweptBody& body = machine_->body(state && state->holds());
@@ -284,6 +279,7 @@ class CollisionMonitor final : public orca::Component {
     laser.heard = sound ? std::optional(now()) : std::nullopt;
     laser.waiting = scan;
     if (!sound) return;
+    laser.ahead = orca::check_looks_ahead(*scan).ok();
     surroundings_.see(laser.source.path(), {.ranges = {scan->ranges().begin(), scan->ranges().end()},
                                             .max_range = scan->max_range(),
                                             .angle_start = scan->angle_start(),
@@ -296,6 +292,7 @@ class CollisionMonitor final : public orca::Component {
   void hear(Sensor<SonarRangeReadings>& ring, const ObjectPtr<SonarRangeReadings>& round) {
     ring.heard = senders_.accepts(*round) ? std::optional(now()) : std::nullopt;
     if (!ring.heard) return;
+    ring.ahead = orca::check_looks_ahead(*round).ok();
     ring.fired.resize(std::min(round->ranges().size(), round->poses().size()));
     for (std::size_t i = 0; i < ring.fired.size(); ++i) {
       const bool has_stamp = i < round->stamps().size();
@@ -338,6 +335,11 @@ class CollisionMonitor final : public orca::Component {
   template <class Reading>
   [[nodiscard]] bool is_silent(const Sensor<Reading>& sensor) const {
     return !sensor.heard || orca::to_seconds(now() - *sensor.heard) > limit_of(sensor);
+  }
+
+  [[nodiscard]] bool looks_ahead() const {
+    const auto ahead = [](const auto& sensor) { return sensor.ahead; };
+    return std::ranges::any_of(laser_list_, ahead) || std::ranges::any_of(sonar_list_, ahead);
   }
 
   // Returns why it must not let the robot drive, whatever the surroundings; empty if it may.
