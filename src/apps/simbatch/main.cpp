@@ -163,13 +163,12 @@ ExitCode report_again(const Options& options) {
 // Makes the runs that are missing. Returns why it could not make all; empty: it did.
 std::string make_runs(const Options& options, const batch::Experiment& experiment, batch::Store& store) {
   batch::MissingRuns missing(experiment, store, options.shard);
-  Progress progress(experiment, store, missing.count());
   // A tuner only chooses: the comparison of what it has chosen makes runs twice.
   const bool chooses = options.action == Options::Action::tune;
-  const Result<batch::BatchEnd> end = batch::run_batch(
-      experiment,
-      {chooses ? std::vector<std::size_t>{} : missing.not_repeated(), [&] { return missing.next(); }},
-      options.batch, progress);
+  const std::vector<std::size_t> twice = chooses ? std::vector<std::size_t>{} : missing.not_repeated();
+  Progress progress(experiment, store, missing.count_with(twice));
+  const Result<batch::BatchEnd> end =
+      batch::run_batch(experiment, {twice, [&] { return missing.next(); }}, options.batch, progress);
   progress.end();
   if (!end) return end.error().text();
   switch (*end) {

@@ -55,6 +55,7 @@ TEST_CASE("the runs that a store does not hold are missing, in their order", "[b
   REQUIRE(store->add(Row{"b", "w", 2, {}, {}}).ok());
   const MissingRuns missing(experiment, *store, {});
   CHECK(missing.count() == 11);
+  CHECK(missing.count_with({0, 3}) == 12);  // run 3 is there, and made again
   const std::vector<std::size_t> all = all_of(missing);
   CHECK(all == std::vector<std::size_t>{0, 1, 2, 4, 5, 6, 7, 8, 9, 10, 11});
 }

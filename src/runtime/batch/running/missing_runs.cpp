@@ -26,6 +26,11 @@ std::size_t MissingRuns::count() const {
   return count;
 }
 
+std::size_t MissingRuns::count_with(const std::vector<std::size_t>& twice) const {
+  const auto there = std::ranges::count_if(twice, [&](std::size_t run) { return !is_missing(run); });
+  return count() + static_cast<std::size_t>(there);
+}
+
 namespace {
 
 // A run that depends on one bit of an address comes out the same by chance in half of the cases: in all of these, in 1 of 128.

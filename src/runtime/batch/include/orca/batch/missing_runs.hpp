@@ -36,6 +36,9 @@ class MissingRuns {
   /// Returns how many the store does not hold now, from the first run of the shard on.
   [[nodiscard]] std::size_t count() const;
 
+  /// Returns how many runs are to be made: those that are missing, and of those to be made twice the ones that are there already.
+  [[nodiscard]] std::size_t count_with(const std::vector<std::size_t>& twice) const;
+
   /// Returns the runs of the shard that are to be made twice, evenly spread over its worlds and seeds: one in seven of each
   /// variant up to seven, and one in a hundred beyond. Those of which the store has as many are left out.
   [[nodiscard]] std::vector<std::size_t> not_repeated() const;
