@@ -22,7 +22,7 @@ using namespace orca::test;
 
 namespace {
 
-const Words kWalk{source_file("graphs/random_walk.xml"), "--until", "600 s"};
+const Words kWalk{source_file("graphs/random_walk.xml"), "--until", "100 s"};
 
 bool fuses() { return __builtin_cpu_supports("fma") != 0 || __builtin_cpu_supports("fma4") != 0; }
 

@@ -47,7 +47,7 @@ std::vector<std::string> goals_reached(const std::string& realism, int seed) {
 TEST_CASE("from an empty map a robot reaches three goals in the map that it has made, and touches nothing",
           "[system][slam]") {
   const std::vector<std::string> all{"kitchen", "office_2", "meeting"};
-  for (int seed = 1; seed <= part_of(20); ++seed) {
+  for (int seed = 1; seed <= (is_slow_run() ? 20 : 1); ++seed) {
     CAPTURE(seed);
     CHECK(goals_reached("nominal", seed) == all);
     if (is_slow_run()) CHECK(goals_reached("recorded", seed) == all);

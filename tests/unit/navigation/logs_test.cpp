@@ -109,7 +109,7 @@ TEST_CASE("published pose graphs come out at their published optima", "[navigati
   }
 }
 
-TEST_CASE("the log of the Intel lab becomes a map as right as people have measured it", "[navigation]") {
+TEST_CASE("the log of the Intel lab becomes a map as right as people have measured it", "[.][slow]") {
   const std::string text = public_text("slam/intel_scans.txt.gz");
   const std::string relations = public_text("slam/intel.relations.gz");
   if (text.empty() || relations.empty()) return;
