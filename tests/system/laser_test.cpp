@@ -200,6 +200,13 @@ TEST_CASE("a wider robot passes the same doors, though their posts seem to stand
   check_three_goals({"--set", "robot=" + source_file("sim/robots/barn_base.urdf")});
 }
 
+TEST_CASE("the Pioneer touches nothing at four times its usual speed, from which it needs 4 m to stop",
+          "[system][laser][pioneer]") {
+  const Words fast{"--set", "goto.max_speed=2 m/s"};
+  check_three_goals(fast);
+  check_three_goals(fast + kVfhPlus);
+}
+
 TEST_CASE("with VfhPlus instead of LaserAvoid the Pioneer reaches the same goals and touches nothing",
           "[system][laser][pioneer][vfh]") {
   check_three_goals(kVfhPlus);

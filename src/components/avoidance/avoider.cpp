@@ -147,8 +147,10 @@ Status Avoider::learn_robot() {
     return fail(sound.error().code,
                 "the base describes no robot that there can be: " + sound.error().message);
   body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
-  body_->slides = std::ranges::any_of(robot.drives(),
-                                      [](const idl::Drive& drive) { return drive.type() == idl::HOLONOMIC; });
+  for (const idl::Drive& drive : robot.drives()) {
+    body_->slides = body_->slides || drive.type() == idl::HOLONOMIC;
+    body_->acceleration = drive.speed_change();
+  }
   // A sensor on a line of its own is none of the base's.
   const auto note = [this](const idl::Sensor& sensor) {
     if (sensor.type() == sensed().name)
@@ -348,7 +350,16 @@ double Avoider::deaf_after() const {
   return std::max(*deaf_after_, body_ ? kMissed * body_->sensor_interval : 0.0);
 }
 
-double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + 0.5; }
+double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + braking_way() + 0.5; }
+
+// Of the way between the two distances a robot that slows down as it is advised has left so much to stop.
+double Avoider::braking_way() const {
+  constexpr double kShare = 0.6;
+  if (!body_ || body_->acceleration <= 0.0) return 0.0;
+  const double speed = speed_of(twist_);
+  const double needed = speed * *reaction_time_ + speed * speed / (2.0 * body_->acceleration);
+  return std::max(0.0, needed - kShare * (*safe_distance_ - *stop_distance_));
+}
 
 std::optional<Rectangle> Avoider::described_body() const {
   return body_ ? rectangle(body_->length, body_->width) : std::nullopt;
@@ -357,8 +368,8 @@ std::optional<Rectangle> Avoider::described_body() const {
 Limits Avoider::limits() const {
   return {.robot_radius = radius(),
           .margin = *margin_,
-          .safe_distance = *safe_distance_,
-          .stop_distance = *stop_distance_,
+          .safe_distance = *safe_distance_ + braking_way(),
+          .stop_distance = *stop_distance_ + braking_way(),
           .max_speed = *max_speed_,
           .slides = *sideways_ && body_ && body_->slides};
 }

@@ -11,6 +11,7 @@ namespace orca::go {
 namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
+constexpr double kBendSpeed = 0.5;  // [m/s] with which any robot takes any bend
 
 double bearing(const Target& target, const Pose2& pose) {
   return wrapped(portable::atan2(target.place.y - pose.y, target.place.x - pose.x) - pose.yaw);
@@ -20,6 +21,12 @@ Step drive(double direction, double speed, const Limits& limits) {
   if (std::abs(direction) > limits.turn_in_place) return {Step::Kind::turn, direction, 0.0};
   const double aligned = std::max(0.0, portable::cos(direction * kQuarterTurn / limits.turn_in_place));
   return {Step::Kind::drive, direction, std::min(limits.max_speed, speed) * aligned};
+}
+
+// Returns the largest speed on the way to a point that is passed [m/s]: behind it the way may lead anywhere.
+double speed_before(const Target& target, const Pose2& pose, const Limits& limits) {
+  const double left = std::max(0.0, distance(target, pose) - target.reach_radius);
+  return std::sqrt(kBendSpeed * kBendSpeed + 2.0 * limits.deceleration * left);
 }
 
 // Returns the rate at which a robot that slides turns [rad/s].
@@ -48,7 +55,7 @@ Step step_towards(const Target& target, const Pose2& pose, const Limits& limits,
     return limits.slides && rest->kind == Step::Kind::drive ? slide(rest->speed, true) : *rest;
   if (target.reach_radius <= 0.0) return circle(target, pose, limits);
   const double approach = std::max(limits.min_speed, limits.slow_down * distance(target, pose));
-  const double speed = target.via ? limits.max_speed : approach;
+  const double speed = target.via ? speed_before(target, pose, limits) : approach;
   return limits.slides ? slide(speed, false) : drive(bearing(target, pose), speed, limits);
 }
 

@@ -172,6 +172,20 @@ TEST_CASE("a robot that is pushed away from its goal while it turns comes back b
   }
 }
 
+TEST_CASE("before a via point a fast robot slows down to half a metre per second, at its deceleration",
+          "[components][goto]") {
+  Limits fast = kLimits;
+  fast.max_speed = 2.0;
+  Target via = target_at(3.0, 0.0);
+  via.via = true;
+  const auto speed = [&](double from_reach) {
+    return step_towards(via, facing(via, via.reach_radius + from_reach, 0.0), fast, {}).speed;
+  };
+  CHECK(speed(0.001) == Approx(0.5).margin(0.01));
+  CHECK(speed(0.75) == Approx(1.0));  // 1 - 0.5^2 = 2 * 0.5 * 0.75
+  CHECK(speed(4.0) == 2.0);
+}
+
 TEST_CASE("a via point needs no orientation, and the robot does not slow down for it", "[components][goto]") {
   Target via = target_at(3.0, 0.0);
   via.via = true;

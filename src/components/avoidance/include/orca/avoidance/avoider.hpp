@@ -121,17 +121,21 @@ class Avoider : public Component {
   [[nodiscard]] double reaction_time() const { return *reaction_time_; }
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
   [[nodiscard]] double farthest() const;
+  /// Returns how much farther ahead than `safe_distance` and `stop_distance` it looks [m], because it is so fast that it could
+  /// not stop in time otherwise.
+  [[nodiscard]] double braking_way() const;
 
  private:
-  static constexpr std::uint32_t kStateVersion = 4;
+  static constexpr std::uint32_t kStateVersion = 5;
 
   // The robot's body, as the base reports it.
   struct Body {
-    double radius;           // [m] of the circle that holds the body and the bumpers.
-    double sensor_interval;  // [s] between two readings of the sensor; 0: not known.
-    double length;           // [m] of the rectangle that holds the body; 0: the circle is all.
-    double width;            // [m]
-    bool slides = false;     // Whether it can move sideways.
+    double radius;              // [m] of the circle that holds the body and the bumpers.
+    double sensor_interval;     // [s] between two readings of the sensor; 0: not known.
+    double length;              // [m] of the rectangle that holds the body; 0: the circle is all.
+    double width;               // [m]
+    bool slides = false;        // Whether it can move sideways.
+    double acceleration = 0.0;  // [m/s2] at which it gains and loses speed; 0: not known.
   };
 
   Outcome work() override;
