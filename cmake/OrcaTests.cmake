@@ -18,7 +18,9 @@ elseif(ORCA_SANITIZE MATCHES "address")
   # Its readers are deleted as another type than they were made as.
   # Up to GCC 13 the leak detector may take a block of thread-local storage for one of an old glibc and crash while it reads
   # it (google/sanitizers, issue 1322). What it no longer follows are pointers that only such blocks hold.
-  set(ORCA_TEST_ENVIRONMENT "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0")
+  set(ORCA_TEST_ENVIRONMENT
+      "ASAN_OPTIONS=new_delete_type_mismatch=0:intercept_tls_get_addr=0"
+      "LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/lsan.supp:print_suppressions=0")
 endif()
 
 # The environment of tests that compile: the compiler cache, also for what lies in a new folder each time.

@@ -58,9 +58,12 @@ bool is_followed(std::string_view code, std::size_t end, Follows follows) {
 
 // Returns whether the bytes from a place on are the way back to a constant (%rip) or a function (call, jmp), as far as 16 MB.
 bool is_way_back(std::string_view code, std::size_t place) {
-  const std::uint8_t before = place == 0 ? 0 : at(code, place - 1);
-  const bool is_relative = (before & 0xc7) == 0x05 || before == 0xe8 || before == 0xe9;
-  return is_relative && at(code, place + 3) == 0xff;
+  const auto is_relative = [&](std::size_t back) {
+    const std::uint8_t before = place < back ? 0 : at(code, place - back);
+    return (before & 0xc7) == 0x05 || before == 0xe8 || before == 0xe9;
+  };
+  // The byte is the first or the second of four, the last of which is the sign.
+  return (is_relative(1) && at(code, place + 3) == 0xff) || (is_relative(2) && at(code, place + 2) == 0xff);
 }
 
 // Returns the instruction that begins at the byte 0x0f; empty: none of those.

@@ -58,6 +58,7 @@ TEST_CASE("bytes that look like such an instruction by chance are not taken for 
   // The way back to a constant or a function.
   CHECK(found(std::string("\xf2\x0f\x10\x3d\x0f\xc7\xfe\xff", 8) + kSetCarry).empty());
   CHECK(found(std::string("\xe8\x0f\xc7\xfe\xff", 5) + kSetCarry).empty());
+  CHECK(found(std::string("\x0d\x79\x0f\xc7\xff", 5) + kSetCarry).empty());  // 3.7 MB back
   CHECK(found(std::string("\x48\x8d\x05\x0f\x31\xfe\xff", 7) + kShift).empty());
 }
 #endif
