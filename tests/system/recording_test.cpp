@@ -35,6 +35,15 @@ int odometry_in(const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("what writes no JSON of a recording refuses to be asked for it", "[system][recording]") {
+  for (const char* way : {"check", "csv", "diff"}) {
+    CAPTURE(way);
+    const Run run = run_orcactl({"--json", "bag", way, "any.mcap", "other.mcap"});
+    CHECK(run.exit_code() == 2);
+    CHECK(run.says(std::string("bag ") + way + " writes no JSON, leave out --json; bag info does"));
+  }
+}
+
 TEST_CASE("recording everything of a virtual run changes nothing, and two recordings are the same file",
           "[system][recording]") {
   const TempFolder folder;

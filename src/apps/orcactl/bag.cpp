@@ -281,6 +281,10 @@ ExitCode handle_bag(const apps::Call& call) {
                             xml::did_you_mean(xml::nearest_name(call.words.front(), names))),
                    ExitCode::usage});
   }
+  if (call.has("--json") && way->first != "info")
+    return report({fail(Code::invalid_argument,
+                        "bag " + way->first + " writes no JSON, leave out --json; bag info does"),
+                   ExitCode::usage});
   learn_objects_in_folders(call);
   const Status done = way->second({call.words.begin() + 1, call.words.end()}, call.has("--json"));
   if (done.ok()) return ExitCode::done;
