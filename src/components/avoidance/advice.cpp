@@ -120,6 +120,10 @@ std::optional<Rectangle> rectangle(double length, double width) {
   return Rectangle{0.5 * length, 0.5 * width};
 }
 
+double braking_way(double speed, double reaction, double acceleration) {
+  return acceleration <= 0.0 ? 0.0 : speed * reaction + 0.5 * speed * speed / acceleration;
+}
+
 TurnRoom turn_room(std::span<const Vec2> echoes, const Situation& situation, const Limits& limits) {
   TurnRoom room;
   if (!limits.body) return room;

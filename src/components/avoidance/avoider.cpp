@@ -16,6 +16,9 @@
 namespace orca::avoid {
 namespace {
 
+// A robot that slows down as it is advised has left so much of the way between the two distances to stop.
+constexpr double kShareToStop = 0.6;
+
 // Returns the weight of the advice: 0 where the way is free, 1 half way, and at the stop distance, where no other wish must move
 // the robot on, so much that others have the share `yields`.
 double insistence(double urgency, double yields) { return urgency / (1.0 + yields - urgency); }
@@ -350,26 +353,19 @@ double Avoider::deaf_after() const {
   return std::max(*deaf_after_, body_ ? kMissed * body_->sensor_interval : 0.0);
 }
 
-double Avoider::farthest() const { return radius() + *margin_ + *safe_distance_ + braking_way() + 0.5; }
-
-// Of the way between the two distances a robot that slows down as it is advised has left so much to stop.
-double Avoider::braking_way() const {
-  constexpr double kShare = 0.6;
-  if (!body_ || body_->acceleration <= 0.0) return 0.0;
-  const double speed = speed_of(twist_);
-  const double needed = speed * *reaction_time_ + speed * speed / (2.0 * body_->acceleration);
-  return std::max(0.0, needed - kShare * (*safe_distance_ - *stop_distance_));
-}
+double Avoider::farthest() const { return radius() + *margin_ + limits().safe_distance + 0.5; }
 
 std::optional<Rectangle> Avoider::described_body() const {
   return body_ ? rectangle(body_->length, body_->width) : std::nullopt;
 }
 
 Limits Avoider::limits() const {
+  const double braking = braking_way(speed_of(twist_), *reaction_time_, body_ ? body_->acceleration : 0.0);
+  const double more = std::max(0.0, braking - kShareToStop * (*safe_distance_ - *stop_distance_));
   return {.robot_radius = radius(),
           .margin = *margin_,
-          .safe_distance = *safe_distance_ + braking_way(),
-          .stop_distance = *stop_distance_ + braking_way(),
+          .safe_distance = *safe_distance_ + more,
+          .stop_distance = *stop_distance_ + more,
           .max_speed = *max_speed_,
           .slides = *sideways_ && body_ && body_->slides};
 }

@@ -2,19 +2,17 @@
 #include "orca/host/hosted_part.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "containment/environment.hpp"
+#include "damaged_edges.hpp"
 #include "orca/base/exhaustion.hpp"
-#include "orca/base/log.hpp"
 #include "orca/base/mutex.hpp"
 #include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/port_list.hpp"
-#include "orca/host/alarm.hpp"
 #include "orca/host/last_words.hpp"
 #include "order_box.hpp"
 #include "outer_edges.hpp"
@@ -31,7 +29,6 @@ namespace orca::host {
 namespace {
 
 constexpr Duration kOrderLimit = 5s;
-constexpr const char* kLinkCut = "LINK_CUT";  // an alarm
 
 SystemOptions system_options(const PartOptions& options, PartListener& listener) {
   return {.seed = options.seed,
@@ -60,11 +57,7 @@ class HostedPart::Inside {
         outputs_(options.outputs),
         files_(place.executive),
         ports_(place.executive, options.missions),
-        outer_(whole_, process, options.doorbell, options.run, options.clock_ahead,
-               {[this](const auto& edge, const auto& component, const Error& reason) {
-                  note_damage(edge, component, reason);
-                },
-                [this](const std::string& edge) { note_renewal(edge); }}),
+        outer_(whole_, process, options.doorbell, options.run, options.clock_ahead, damaged_.watch()),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options, place.listener), [this] { return orders_.is_to_end(); }),
         swaps_(
@@ -135,38 +128,6 @@ class HostedPart::Inside {
   void order(PartOrder order) { orders_.put(std::move(order)); }
 
  private:
-  // The supervisor gives the edge new memory, unless that has happened too often.
-  void note_damage(const std::string& edge, const std::string& component, const Error& reason) {
-    {
-      const MutexLock lock(damaged_mutex_);
-      damaged_[edge] = component;
-    }
-    watched_.reporter().raise(make_alarm(kLinkCut, idl::ALARM_CRITICAL, component,
-                                         "the memory of the connection " + in_quotes(edge) +
-                                             " was damaged (" + reason.message +
-                                             "), so the connection was cut: one of its two processes writes "
-                                             "where it must not. If it stays cut, "
-                                             "orcactl restart one of them"));
-    place_.listener.edge_damaged(edge);
-  }
-
-  void note_renewal(const std::string& edge) {
-    std::string component;
-    {
-      const MutexLock lock(damaged_mutex_);
-      const auto damaged = damaged_.find(edge);
-      if (damaged == damaged_.end()) return;
-      component = damaged->second;
-      damaged_.erase(damaged);
-      if (std::ranges::any_of(damaged_, [&](const auto& other) { return other.second == component; })) return;
-    }
-    const std::string text = "its damaged connections have new memory";
-    log::info(component, std::string("alarm ") + kLinkCut + " is over: " + text);
-    idl::Alarm over = make_alarm(kLinkCut, idl::ALARM_CRITICAL, component, text);
-    over.active(false);
-    watched_.reporter().note(std::move(over));
-  }
-
   Status open_outputs() {
     const auto ports = outputs_.recordings.empty() ? std::vector<graph::ListedPort>{}
                                                    : graph::list_ports(whole_, place_.catalogue);
@@ -320,9 +281,7 @@ class HostedPart::Inside {
   RunFiles files_;
   Sightings sightings_;
   OuterPorts ports_;  // the system's ports answer to it
-  Mutex damaged_mutex_;
-  std::map<std::string, std::string> damaged_
-      ORCA_GUARDED_BY(damaged_mutex_);  // edges that are cut; the component of this process
+  DamagedEdges damaged_{[this]() -> Reporter& { return watched_.reporter(); }, place_.listener};
   OuterEdges outer_;
   OrderBox orders_{[this] { watched_.changed().notify(); }};
   WatchedSystem watched_;

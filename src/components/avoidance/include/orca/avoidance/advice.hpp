@@ -40,6 +40,10 @@ struct Limits {
   bool slides = false;
 };
 
+/// Returns the way that a robot needs to stop [m]; 0 if its acceleration is not known, which is 0.
+/// @param speed  [m/s]  @param reaction  time until it slows down [s]  @param acceleration  [m/s2] at which it then does
+[[nodiscard]] double braking_way(double speed, double reaction, double acceleration);
+
 /// The other things that an advice depends on.
 struct Situation {
   /// [rad] advised in the lap before, 0 if none. The side once chosen is kept, so that the robot does not

@@ -121,9 +121,6 @@ class Avoider : public Component {
   [[nodiscard]] double reaction_time() const { return *reaction_time_; }
   /// Returns the distance [m] from the robot's centre beyond which nothing changes any advice.
   [[nodiscard]] double farthest() const;
-  /// Returns how much farther ahead than `safe_distance` and `stop_distance` it looks [m], because it is so fast that it could
-  /// not stop in time otherwise.
-  [[nodiscard]] double braking_way() const;
 
  private:
   static constexpr std::uint32_t kStateVersion = 5;
