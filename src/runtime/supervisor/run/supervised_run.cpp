@@ -31,7 +31,6 @@
 #include "orca/supervisor/restart_policy.hpp"
 #include "refusal.hpp"
 #include "starting/adoption.hpp"
-#include "starting/edge_mending.hpp"
 #include "starting/on_demand.hpp"
 #include "starting/renewal.hpp"
 #include "starting/run_identity.hpp"
@@ -273,7 +272,7 @@ class SupervisedRun {
     if (const auto* call = std::get_if<PeerCalled>(&report)) return control_.obey(*call, member.name());
     if (const auto* kept = std::get_if<StateKept>(&report)) return starter_.keep(*kept), ok();
     if (const auto* damaged = std::get_if<EdgeDamaged>(&report))
-      return edge_mending_.mend(damaged->edge, now()), ok();
+      return starter_.mend(damaged->edge, now()), ok();
     if (const auto* wish = std::get_if<LogWished>(&report))
       return log_relay_.note_wish(member, wish->is_wanted), ok();
     log_relay_.set_source(&member);
@@ -395,7 +394,6 @@ class SupervisedRun {
   Roster roster_;
   Members polled_ = roster_.all();
   Starter starter_;
-  EdgeMending edge_mending_{starter_, options_.log_name};
   Ledger ledger_;
   LogRelay log_relay_;
   RecorderWatch recorders_;

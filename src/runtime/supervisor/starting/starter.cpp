@@ -2,6 +2,7 @@
 #include "starter.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/log.hpp"
 #include "orca/base/steady_clock.hpp"
+#include "orca/base/text.hpp"
 #include "orca/graph/placement.hpp"
 #include "orca/graph/print.hpp"
 #include "orca/supervisor/outputs.hpp"
@@ -67,6 +69,20 @@ Status Starter::renew_edges(const std::set<std::string>& edges) {
   if (!lots) return lots.error();
   renew_others({}, *lots);
   return ok();
+}
+
+void Starter::mend(const std::string& edge, Moment now) {
+  constexpr std::size_t kMost = 6;  // Both ends may report the same damage.
+  constexpr auto kSpan = std::chrono::minutes(1);
+  const auto complain = [&](const std::string& why) {
+    log::error(options_.log_name, "the connection " + in_quotes(edge) + " stays cut: " + why);
+  };
+  std::deque<Moment>& last = mended_[edge];
+  while (!last.empty() && now - last.front() > kSpan) last.pop_front();
+  if (last.size() >= kMost)
+    return complain("its memory was damaged too often; orcactl restart one of its two processes");
+  last.push_back(now);
+  if (const Status renewed = renew_edges({edge}); !renewed.ok()) complain(renewed.error().text());
 }
 
 // The supervisor itself sees to the limit of memory. The system counts what is reserved as well, such as stacks: its

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
@@ -62,6 +63,9 @@ class Starter {
   /// @param edges  by name.
   /// @errors  unavailable if the system gives none.
   Status renew_edges(const std::set<std::string>& edges);
+  /// Gives an edge new memory that a process has damaged. One that is damaged again and again stays cut, since whoever writes
+  /// there would go on; then a person is to begin one of its processes anew.
+  void mend(const std::string& edge, Moment now);
   /// Makes the order that tells of a component which comes, or goes to another process. It has its place in the run page
   /// from then on.
   /// @errors  failed_precondition if the page is full.
@@ -106,7 +110,8 @@ class Starter {
   std::set<std::string> heirs_;    // see pass_on_states()
   std::set<std::string> started_;  // processes that have been started once
   States states_;
-  bool has_gone_over_ = false;  // to another graph than that of the start
+  std::map<std::string, std::deque<Moment>> mended_;  // by edge: when, of late
+  bool has_gone_over_ = false;                        // to another graph than that of the start
 };
 
 }  // namespace orca::supervisor

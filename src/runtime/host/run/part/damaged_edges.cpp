@@ -15,14 +15,7 @@ constexpr const char* kAlarm = "LINK_CUT";
 
 }  // namespace
 
-OuterEdges::Watch DamagedEdges::watch() {
-  return {[this](const std::string& edge, const std::string& component, const Error& reason) {
-            note_damage(edge, component, reason);
-          },
-          [this](const std::string& edge) { note_renewal(edge); }};
-}
-
-void DamagedEdges::note_damage(const std::string& edge, const std::string& component, const Error& reason) {
+void DamagedEdges::note(const std::string& edge, const std::string& component, const Error& reason) {
   {
     const MutexLock lock(mutex_);
     components_[edge] = component;

@@ -4,10 +4,11 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "orca/base/mutex.hpp"
+#include "orca/base/result.hpp"
 #include "orca/host/hosted_part.hpp"
-#include "outer_edges.hpp"
 #include "run/reporting/reporter.hpp"
 
 namespace orca::host {
@@ -22,13 +23,13 @@ class DamagedEdges {
   DamagedEdges(std::function<Reporter&()> reporter, PartListener& listener)
       : reporter_(std::move(reporter)), listener_(listener) {}
 
-  /// Returns what tells the object of edges. It outlives that.
-  [[nodiscard]] OuterEdges::Watch watch();
-
- private:
-  void note_damage(const std::string& edge, const std::string& component, const Error& reason);
+  /// Notes that an edge was cut, whose memory holds what cannot be.
+  /// @param component  of this process.
+  void note(const std::string& edge, const std::string& component, const Error& reason);
+  /// Notes that an edge has new memory, damaged or not.
   void note_renewal(const std::string& edge);
 
+ private:
   const std::function<Reporter&()> reporter_;
   PartListener& listener_;
   Mutex mutex_;

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "containment/environment.hpp"
-#include "damaged_edges.hpp"
 #include "orca/base/exhaustion.hpp"
 #include "orca/base/mutex.hpp"
 #include "orca/base/text.hpp"
@@ -57,7 +56,9 @@ class HostedPart::Inside {
         outputs_(options.outputs),
         files_(place.executive),
         ports_(place.executive, options.missions),
-        outer_(whole_, process, options.doorbell, options.run, options.clock_ahead, damaged_.watch()),
+        outer_(
+            whole_, process, options.doorbell, options.run, options.clock_ahead,
+            [this]() -> Reporter& { return watched_.reporter(); }, place.listener),
         watched_(part_, {place.catalogue, place.executive, files_.trace(), place.listener},
                  system_options(options, place.listener), [this] { return orders_.is_to_end(); }),
         swaps_(
@@ -281,7 +282,6 @@ class HostedPart::Inside {
   RunFiles files_;
   Sightings sightings_;
   OuterPorts ports_;  // the system's ports answer to it
-  DamagedEdges damaged_{[this]() -> Reporter& { return watched_.reporter(); }, place_.listener};
   OuterEdges outer_;
   OrderBox orders_{[this] { watched_.changed().notify(); }};
   WatchedSystem watched_;

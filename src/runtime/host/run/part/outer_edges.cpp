@@ -55,13 +55,13 @@ std::string name_in_graph(const graph::ComponentNode& node, const std::string& n
 }  // namespace
 
 OuterEdges::OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
-                       ClockAhead clock_ahead, Watch watch)
+                       ClockAhead clock_ahead, std::function<Reporter&()> reporter, PartListener& listener)
     : whole_(whole),
       process_(std::move(process)),
       doorbell_(std::move(doorbell)),
       run_(std::move(run)),
       clock_ahead_(std::move(clock_ahead)),
-      watch_(std::move(watch)) {
+      damaged_(std::move(reporter), listener) {
   for (const graph::ComponentNode& node : whole.components) learn(node);
 }
 
@@ -136,7 +136,7 @@ void OuterEdges::connect_memory(const graph::Edge& edge, RingSegment segment, En
   const auto [here, there] = ends_of(edge);
   const auto server = servers_.find(edge.name());
   const auto damaged = [this, name = edge.name(), component = here.component](const Error& reason) {
-    watch_.damaged(name, component, reason);
+    damaged_.note(name, component, reason);
   };
   ShmEnd* const end = join(port, {std::move(segment),
                                   {there.text(), doorbell_(there.component), damaged},
@@ -248,7 +248,7 @@ Status OuterEdges::renew(const std::string& edge, const Descriptor& memory) {
     if (end == ends_.end()) return fail(Code::not_found, "an edge that this process does not have");
     end->second->renew(std::move(segment).value());
   }
-  watch_.renewed(edge);
+  damaged_.note_renewal(edge);
   return ok();
 }
 

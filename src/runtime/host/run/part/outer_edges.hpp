@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "damaged_edges.hpp"
 #include "orca/base/descriptor.hpp"
 #include "orca/base/doorbell.hpp"
 #include "orca/base/mutex.hpp"
@@ -31,22 +32,12 @@ class OuterEdges {
   /// Returns by how much the clock of a machine of the graph is ahead, as in PartOptions.
   using ClockAhead = std::function<Duration(std::size_t machine)>;
 
-  /// Whom the edges through shared memory tell how they are. Both are called with the name of the edge.
-  struct Watch {
-    /// The memory holds what cannot be, and the edge is cut.
-    /// @param component  of this process.
-    /// @thread  the strand of the port.
-    std::function<void(const std::string& edge, const std::string& component, const Error& reason)> damaged;
-    /// It has new memory.
-    /// @thread  that of renew().
-    std::function<void(const std::string& edge)> renewed;
-  };
-
   /// @param whole    the graph of all processes; outlives the object.
   /// @param process  the one that this process is.
   /// @param run      the name of the run.
+  /// @param reporter  of the part, once it runs: of alarms. It outlives the object, and so does the listener.
   OuterEdges(const graph::Graph& whole, std::string process, Doorbell doorbell, std::string run,
-             ClockAhead clock_ahead, Watch watch);
+             ClockAhead clock_ahead, std::function<Reporter&()> reporter, PartListener& listener);
 
   /// Asks the plugins what this process must know of the components at the other ends.
   /// @param memory  of each edge through shared memory.
@@ -97,12 +88,13 @@ class OuterEdges {
   const Doorbell doorbell_;
   const std::string run_;
   const ClockAhead clock_ahead_;
-  const Watch watch_;
   std::vector<graph::Edge> edges_;               // to other processes, until connect()
   std::map<std::string, Descriptor> memory_;     // until connect()
   std::map<std::string, PortContract> servers_;  // of Push
   std::unique_ptr<DdsBackend> dds_;              // null: not needed
   std::map<std::string, std::string> reached_;   // over DDS: the process at the other end
+
+  DamagedEdges damaged_;
 
   Mutex mutex_;
   std::map<std::string, ShmEnd*> ends_ ORCA_GUARDED_BY(mutex_);
