@@ -85,6 +85,23 @@ TEST_CASE("it stands as long as either laser is silent", "[system][lasers]") {
   CHECK(run.contacts().empty());
 }
 
+TEST_CASE("it stands when the laser that looks ahead is disconnected, and only one at the back is left",
+          "[system][lasers]") {
+  const TempFolder folder;
+  std::string robot = read_text(source_file("sim/robots/courier.urdf"));
+  const std::string high = R"(<origin xyz="0 0 0.3"/>)";
+  REQUIRE(robot.find(high) != std::string::npos);
+  robot.replace(robot.find(high), high.size(), R"(<origin xyz="0 0 0.3" rpy="0 0 3.14159"/>)");
+  std::string text = ShippedGraph("courier_depot").text();
+  text.erase(text.find(kSecondLaser), std::string(kSecondLaser).size());
+  const Run run = drive_shipped({"--set", "robot=" + folder.write("robot.urdf", robot), "--change",
+                                 folder.write("changed.xml", text) + "@3s"});
+  INFO(run.err);
+  CHECK(run.says("none of its lasers looks ahead"));
+  CHECK(run.arrivals().empty());
+  CHECK(run.contacts().empty());
+}
+
 TEST_CASE("further lasers need odometry, and the graph without it is refused with the reason",
           "[system][lasers]") {
   const Run run = drive_changed(R"(<connect from="base.OdometryPush" to="avoid.odometry"/>)", "");

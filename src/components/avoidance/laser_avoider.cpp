@@ -102,7 +102,13 @@ bool LaserAvoider::is_heard(const MoreLasers::Source& source, double longest) co
   return laser != further_.end() && laser->heard && to_seconds(now() - *laser->heard) <= longest;
 }
 
-bool LaserAvoider::looks_ahead() const { return ahead_ || std::ranges::any_of(further_, &Further::ahead); }
+// One that has been disconnected looks nowhere any more.
+bool LaserAvoider::looks_ahead() const {
+  const std::vector<MoreLasers::Source> sources = more_lasers_.sources();
+  return ahead_ || std::ranges::any_of(further_, [&](const Further& laser) {
+           return laser.ahead && std::ranges::find(sources, laser.source) != sources.end();
+         });
+}
 
 bool LaserAvoider::hears_aside(double longest) const {
   return looks_ahead() && std::ranges::all_of(more_lasers_.sources(), [&](const MoreLasers::Source& source) {
