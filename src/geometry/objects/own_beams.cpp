@@ -61,7 +61,7 @@ struct View {
   std::size_t unread = 0;
 
   void add(double yaw, double range) {
-    constexpr double kAhead = std::numbers::pi / 6.0;
+    constexpr double kAhead = std::numbers::pi / 6.0 + 1e-6;  // Rings of six have sonars at 30 degrees.
     if (std::abs(wrapped(yaw)) > kAhead) return;
     ++ahead;
     if (std::isnan(range)) ++unread;
