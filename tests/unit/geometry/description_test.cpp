@@ -39,6 +39,9 @@ TEST_CASE("a robot of some size is described, whatever else is not known", "[geo
   idl::Robot round;
   round.radius(0.01);
   CHECK(check_description(round).ok());
+  round.sensors().emplace_back();
+  round.sensors()[0].update_interval(300.0);  // of a battery, say
+  CHECK(check_description(round).ok());
 }
 
 TEST_CASE("a description of no size, or with a figure that no robot has, is refused with that figure",
