@@ -30,7 +30,7 @@ Status can_start_processes(const SystemFacts& facts) {
     if (!plugin.file.empty() && !std::filesystem::exists(plugin.file, error))
       return fail(Code::failed_precondition,
                   plugin.file + ", the plugin of " + type +
-                      ", is not there any more, and no process could come up without it; put it back before");
+                      ", is not there any more, and no process could come up without it; put it back first");
   return ok();
 }
 
