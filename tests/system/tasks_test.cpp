@@ -248,6 +248,8 @@ TEST_CASE("a task goes on where it was when its code is exchanged, and obeys an 
   const std::string json = robot.order({"tasks", "--json"}).out;
   CHECK_THAT(json, StartsWith("[\n") && EndsWith("]\n") && Contains("\"component\": \"task\""));
   CHECK_THAT(json, Contains("\"phase\": \"running\"") && Contains("\"text\": \"Drive to=library"));
+  CHECK_THAT(robot.refused({"set", "task.behaviours", "pilot; avoit"}),
+             Contains("no behaviour \"avoit\" is connected"));
   robot.step("50s");  // on the way to the office
   robot.order({"tasks", "skip"});
   robot.order({"tasks", "pause"});

@@ -58,6 +58,8 @@ class TaskTree final : public orca::Component, private Actor {
     return mission_.configure();
   }
 
+  orca::Status params_changed() override { return mission_.check_behaviours(); }
+
   // Reports all faults of the file at once.
   orca::Status read_file() {
     orca::xml::Diagnostics diagnostics;
