@@ -146,9 +146,7 @@ Status Avoider::learn_robot() {
   if (!*answer)
     return fail(answer->error().code, "the base does not describe the robot: " + answer->error().message);
   const idl::Robot& robot = ***answer;
-  if (const Status sound = check_description(robot); !sound.ok())
-    return fail(sound.error().code,
-                "the base describes no robot that there can be: " + sound.error().message);
+  if (Status sound = check_description(robot); !sound.ok()) return sound;
   body_ = {std::max(robot.radius(), robot.bumper_radius()), 0.0, robot.length(), robot.width()};
   for (const idl::Drive& drive : robot.drives()) {
     body_->slides = body_->slides || drive.type() == idl::HOLONOMIC;

@@ -56,14 +56,20 @@ Status check_intervals(const Sensors& sensors) {
   return ok();
 }
 
-}  // namespace
-
-Status check_description(const idl::Robot& robot) {
+Status check_all(const idl::Robot& robot) {
   if (Status sound = check_size(robot); !sound.ok()) return sound;
   for (const idl::Drive& drive : robot.drives())
     if (Status sound = check_drive(drive); !sound.ok()) return sound;
   if (Status sound = check_intervals(robot.sonar_rings()); !sound.ok()) return sound;
   return check_intervals(robot.laser_sensors());
+}
+
+}  // namespace
+
+Status check_description(const idl::Robot& robot) {
+  const Status sound = check_all(robot);
+  if (sound.ok()) return ok();
+  return fail(sound.error().code, "the base describes no robot that there can be: " + sound.error().message);
 }
 
 }  // namespace orca
