@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <memory>
+#include <regex>
 #include <thread>
 
 #include "deployer.hpp"
@@ -85,6 +86,23 @@ TEST_CASE("the base says how fast it can be, and a person drives no faster", "[s
   CHECK(holds_until(terminal, "w", program, "FUSED by teleop speed 1.00 turn 0.00"));
   terminal.press("q");
   CHECK(finish(program, kLimit).exit_code() == 0);
+}
+
+TEST_CASE("nobody drives a robot whose base describes one that cannot be", "[system][teleop]") {
+  const TempFolder folder;
+  std::string text = read_text(system_graph("teleop.xml"));
+  const std::string base = R"(to="base.RobotQuery"/>)";
+  REQUIRE(text.find(base) != std::string::npos);
+  text.replace(text.find(base), base.size(), R"(to="describer.RobotQuery"/>
+  <component name="describer" type="test.Describer"><param name="radius" value="-0.3 m"/></component>)");
+  text =
+      std::regex_replace(text, std::regex("\"(\\.\\./)+worlds/"), "\"" + source_file("tests/data/worlds/"));
+  text = std::regex_replace(text, std::regex("\"(\\.\\./)+sim/"), "\"" + source_file("sim/"));
+  const Run run =
+      run_deployer(Words{folder.write("graph.xml", text), "--until", "3 s"} + with_test_plugins());
+  INFO(run.err);
+  CHECK(run.says("the base describes no robot that there can be: its radius is -0.3 m"));
+  CHECK_FALSE(run.says("FUSED by teleop"));
 }
 
 TEST_CASE("P asks where the robot is, and the driving goes on meanwhile", "[system][teleop]") {

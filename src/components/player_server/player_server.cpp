@@ -10,6 +10,7 @@
 
 #include "connection.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/description.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/navigation.hpp"
@@ -78,6 +79,7 @@ class PlayerServer final : public orca::Component {
     const auto robot = robot_.query(std::move(ask), kBaseLimit);
     if (!robot)
       return orca::fail(robot.error().code, "cannot ask the base how large it is: " + robot.error().message);
+    if (orca::Status sound = orca::check_description(**robot); !sound.ok()) return sound;
     const double across = 2.0 * std::max((*robot)->radius(), (*robot)->bumper_radius());
     face_.size = {.width = (*robot)->width() > 0.0 ? (*robot)->width() : across,
                   .length = (*robot)->length() > 0.0 ? (*robot)->length() : across};

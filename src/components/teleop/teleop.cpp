@@ -15,6 +15,7 @@
 #include "joystick.hpp"
 #include "keys.hpp"
 #include "orca/component.hpp"
+#include "orca/geometry/objects/description.hpp"
 #include "orca/idl/hardware.hpp"
 #include "orca/idl/motion.hpp"
 #include "orca/idl/system.hpp"
@@ -115,6 +116,7 @@ class Teleop final : public orca::Component {
     if (!robot)
       return orca::fail(robot.error().code,
                         "cannot ask the base how fast it can be: " + robot.error().message);
+    if (orca::Status sound = orca::check_description(**robot); !sound.ok()) return sound;
     if ((*robot)->drives().empty()) return orca::ok();
     const orca::idl::Drive& drive = (*robot)->drives().front();
     limits_ = {drive.max_speed(), drive.max_steer_speed()};
