@@ -31,6 +31,13 @@ using orca::tasks::TaskRun;
 
 constexpr const char* kQuestion = "QUESTION";  // kind of the alarm while it asks
 
+// Returns what tells whether a task is the same as before.
+std::vector<std::string> step_texts(const Task& task) {
+  std::vector<std::string> texts;
+  for (const Step& step : task.steps) texts.push_back(std::to_string(step.depth) + " " + step.text);
+  return texts;
+}
+
 std::optional<orca::tasks::Ending> ending_of(const std::optional<MissionProxy::Ending>& ending) {
   if (!ending) return std::nullopt;
   return orca::tasks::Ending{
@@ -250,7 +257,7 @@ class TaskTree final : public orca::Component, private Actor {
   void stop() override { mission_.stop(); }
 
   void save_state(orca::StateWriter& state) const override {
-    state.write(step_texts(), run_->memories(), run_->last_failure(), paused_, paused_at_);
+    state.write(step_texts(task_), run_->memories(), run_->last_failure(), paused_, paused_at_);
   }
 
   [[nodiscard]] std::uint32_t state_version() const override { return 2; }
@@ -263,7 +270,7 @@ class TaskTree final : public orca::Component, private Actor {
     orca::TimePoint paused_at{};
     if (orca::Status read = state.read(texts, memories, last_failure, paused, paused_at); !read.ok())
       return read;
-    if (texts != step_texts() || memories.size() != texts.size()) {
+    if (texts != step_texts(task_) || memories.size() != texts.size()) {
       log_warning("the task is another one than before, so it begins anew");
       return orca::ok();
     }
@@ -272,12 +279,6 @@ class TaskTree final : public orca::Component, private Actor {
     paused_ = paused;
     paused_at_ = paused_at;
     return orca::ok();
-  }
-
-  [[nodiscard]] std::vector<std::string> step_texts() const {
-    std::vector<std::string> texts;
-    for (const Step& step : task_.steps) texts.push_back(std::to_string(step.depth) + " " + step.text);
-    return texts;
   }
 
   orca::QueryServer<orca::idl::TaskOrder, orca::idl::TaskState> orders_{
