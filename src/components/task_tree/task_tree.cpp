@@ -31,7 +31,7 @@ using orca::tasks::TaskRun;
 
 constexpr const char* kQuestion = "QUESTION";  // kind of the alarm while it asks
 
-// Returns what tells whether a task is the same as before.
+// Returns the steps as texts. A kept state fits the task if they are the same as before.
 std::vector<std::string> step_texts(const Task& task) {
   std::vector<std::string> texts;
   for (const Step& step : task.steps) texts.push_back(std::to_string(step.depth) + " " + step.text);
