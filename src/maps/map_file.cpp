@@ -160,7 +160,7 @@ std::optional<std::string> doubt_about(const idl::OccupancyGrid& map) {
   if (free == 0) return "no cell is free, so no robot finds a way" + what_to_do;
   if (occupied <= free) return std::nullopt;
   return "more cells are occupied (" + std::to_string(occupied) + ") than free (" + std::to_string(free) +
-         "); if black and white are exchanged, change negate in the YAML file";
+         "); if black and white are exchanged, change negate in its YAML file, or write one if it has none";
 }
 
 Result<MapTexts> texts_of(const idl::OccupancyGrid& map, std::string_view picture_name) {
