@@ -32,7 +32,10 @@ def wait_for(what, condition, seconds=20):
     """Returns the first value of the condition that is not false; fails with `what` if there is none in time."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        value = condition()
+        try:
+            value = condition()
+        except StaleElementReferenceException:  # the page has just drawn it anew
+            value = None
         if value:
             return value
         time.sleep(0.05)
