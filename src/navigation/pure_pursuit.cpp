@@ -22,7 +22,6 @@ constexpr double kSqueezeMargin = 0.005;  // [m] kept free where the margin find
 constexpr double kSqueezeSpeed = 0.5;     // at that share of the narrow speed
 constexpr double kCreep = 0.06;           // [m/s] Below this it counts as standing.
 constexpr double kAlmostThere = 0.05;     // [m] left of an arc that need not be free
-constexpr double kBendSpeed = 0.5;        // [m/s] with which any robot takes any bend
 constexpr double kBendPiece = 0.3;        // [m] of the path over which a bend is measured
 constexpr double kStraight = 1e-3;        // [1/m]
 

@@ -223,7 +223,7 @@ TEST_CASE("robots that hear each other do not touch at a blind corner, where oth
   const int seeds = is_slow_run() ? 10 : 1;
   int touched = 0, deaf = 0, arrived = 0, runs = 0;
   for (const std::string lead : {"west_b", "west", "west_c", "west_d"}) {
-    for (int seed = 2; seed <= seeds + 1; ++seed, ++runs) {
+    for (int seed = 2; seed <= seeds + 1; ++seed, ++runs) {  // with 1 those who do not hear do not touch
       const Run run = cross(seed, lead, "heard");
       CAPTURE(lead, seed, run.out, run.err);
       touched += run.contacts().empty() ? 0 : 1;

@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "orca/base/portable_math.hpp"
+#include "orca/navigation/pure_pursuit.hpp"
 
 namespace orca::go {
 namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
-constexpr double kBendSpeed = 0.5;  // [m/s] with which any robot takes any bend
 
 double bearing(const Target& target, const Pose2& pose) {
   return wrapped(portable::atan2(target.place.y - pose.y, target.place.x - pose.x) - pose.yaw);
@@ -26,7 +26,7 @@ Step drive(double direction, double speed, const Limits& limits) {
 // Returns the largest speed on the way to a point that is passed [m/s]: behind it the way may lead anywhere.
 double speed_before(const Target& target, const Pose2& pose, const Limits& limits) {
   const double left = std::max(0.0, distance(target, pose) - target.reach_radius);
-  return std::sqrt(kBendSpeed * kBendSpeed + 2.0 * limits.deceleration * left);
+  return std::sqrt(nav::kBendSpeed * nav::kBendSpeed + 2.0 * limits.deceleration * left);
 }
 
 // Returns the rate at which a robot that slides turns [rad/s].

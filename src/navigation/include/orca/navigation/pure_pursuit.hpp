@@ -30,6 +30,9 @@ struct Arc {
 /// @param deceleration [m/s2]  > 0.   @param delay [s]  until it begins to slow down.
 [[nodiscard]] double speed_to_stop_within(double way, double deceleration, double delay);
 
+/// [m/s] Speed with which any robot takes any bend.
+inline constexpr double kBendSpeed = 0.5;
+
 /// The manner in which a robot follows a path.
 struct Pursuit {
   double max_speed = 0.5;             ///< [m/s]
