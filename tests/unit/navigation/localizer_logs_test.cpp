@@ -228,7 +228,7 @@ void start_at(std::size_t begin, const std::vector<LogScan>& log, const std::sha
 Starts start_everywhere(const std::string& what, const std::vector<LogScan>& log) {
   const auto map = known_map_of(log);
   Starts starts;
-  for (std::size_t begin = 1; begin + 20 < log.size(); begin += is_slow_run() ? 4 : 32)
+  for (std::size_t begin = 1; begin + 20 < log.size(); begin += is_slow_run() ? 4 : 64)
     start_at(begin, log, map, starts);
   std::cout << what << ": " << starts.all << " starts; after one scan right " << starts.right_at_once
             << ", ambiguous " << starts.ambiguous_at_once << "; within 5 m found " << starts.found
