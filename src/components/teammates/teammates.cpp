@@ -79,8 +79,10 @@ class Teammates final : public orca::Component {
   }
 
   void learn_robot() {
-    // A base that does not describe the robot leaves its radius to the parameter.
-    if (robot_.learn().ok() && robot_.body()) own_radius_ = robot_.body()->radius;
+    if (const orca::Status learnt = robot_.learn(); !learnt.ok())
+      log_warning(learnt.error().text() + "; the others are told the parameter radius");
+    else if (robot_.body())
+      own_radius_ = robot_.body()->radius;
   }
 
   void hear_others() {

@@ -145,8 +145,11 @@ void leave_out_cut_rows(Log& log) {
 
 // Programs that convert logs write the stamp 0 in all lines; when each was logged is behind it.
 void take_times_of_logging(Log& log) {
-  if (std::ranges::any_of(log.entries, [](const Entry& entry) { return entry.what.stamp > Duration{0}; }))
-    return;
+  const auto any = [&](Duration Line::*time) {
+    return std::ranges::any_of(log.entries,
+                               [&](const Entry& entry) { return entry.what.*time > Duration{0}; });
+  };
+  if (any(&Line::stamp) || !any(&Line::logged)) return;
   for (Entry& entry : log.entries) entry.what.stamp = entry.what.logged;
   log.flaws.stamps =
       "all stamps are 0, so each line has the time at which it was logged, the last number in it";
