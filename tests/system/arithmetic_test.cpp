@@ -14,6 +14,7 @@
 
 #include "deployer.hpp"
 #include "shipped_graph.hpp"
+#include "slow_run.hpp"
 #include "temp_folder.hpp"
 
 #if defined(__x86_64__)
@@ -22,7 +23,7 @@ using namespace orca::test;
 
 namespace {
 
-const Words kWalk{source_file("graphs/random_walk.xml"), "--until", "100 s"};
+const Words kWalk{source_file("graphs/random_walk.xml"), "--until", is_slow_run() ? "600 s" : "100 s"};
 
 bool fuses() { return __builtin_cpu_supports("fma") != 0 || __builtin_cpu_supports("fma4") != 0; }
 

@@ -173,7 +173,7 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
       .events =
           R"(<drain robot="Pioneer" at="20 s" to="24 %"/><drain robot="Pioneer" at="100 s" to="90 %"/>)"};
   const Words patrol{"--set", "task=" + source_file("graphs/tasks/patrol.xml")};
-  const Run run = office.run(patrol + Words{"--until", "160 s"});
+  const Run run = office.run(patrol + Words{"--until", "260 s"});
   INFO(run.err);
   const Words reached = run.goals();
   REQUIRE(reached.size() > 3);
@@ -197,7 +197,7 @@ TEST_CASE("a robot that patrols goes to charge in time, and on from where it was
   const auto begin = text.find("<On when=\"battery");
   text.erase(begin, text.find("</On>", begin) + 5 - begin);
   const Run bare = Office{.events = R"(<drain robot="Pioneer" at="20 s" to="0.3 %"/>)"}.run(
-      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "160 s"});
+      {"--set", "task=" + office.folder.write("bare.xml", text), "--until", "200 s"});
   INFO(bare.err);
   REQUIRE_FALSE(bare.arrivals().empty());
   CHECK(bare.arrivals().back().t < 150.0);
