@@ -112,13 +112,20 @@ TEST_CASE("without goals the components' own word counts, and the report says so
   CHECK_THAT(text_in(folder.file("out") + "/report.md"), Contains("a success is the components' own word"));
 }
 
-TEST_CASE("a goal that no robot or place can meet is said with what there is", "[system][batch]") {
+TEST_CASE("a goal that no robot or place can meet is said with what there is, before anything runs",
+          "[system][batch]") {
   const TempFolder folder;
-  const Run run =
-      run_simbatch({liars(folder, "<goal place=\"cellar\" radius=\"0.3 m\"/>"), "--out", folder.file("out")});
+  const Run run = run_simbatch({liars(folder,
+                                      "<goal place=\"strat\" radius=\"0.3 m\"/>\n"
+                                      "<goal robot=\"Pioner\" x=\"1 m\" y=\"1 m\" radius=\"0.3 m\"/>"),
+                                "--out", folder.file("out")});
   INFO(run.err);
-  CHECK_THAT(run.out, Contains("honest: 2 runs, 0.0 %") && Contains("2 failed"));
-  CHECK_THAT(
-      text_in(folder.file("out") + "/runs.csv"),
-      Contains("a goal is at the place \"\"cellar\"\", which this world does not have; it has: start,"));
+  CHECK(run.exit_code() == 2);
+  CHECK(run.says("liars.xml:1:"));
+  CHECK(run.says(
+      "E017: <goal>: a goal is at the place \"strat\", which this world does not have; it has: start,"));
+  CHECK(run.says("did you mean \"start\"?"));
+  CHECK(run.says(
+      "E017: <goal>: a goal is for the robot \"Pioner\", which is not simulated; there are: Pioneer"));
+  CHECK_FALSE(std::filesystem::exists(folder.file("out")));
 }

@@ -136,7 +136,8 @@ TEST_CASE("a goal may be at a place of the world", "[batch][referee]") {
   const Result<Judgement> nowhere = judge_goals({{.place = "gaol", .radius = 0.25}}, scene, {}, after(6.0));
   REQUIRE_FALSE(nowhere);
   CHECK(nowhere.error().message ==
-        "a goal is at the place \"gaol\", which this world does not have; it has: start, goal");
+        "a goal is at the place \"gaol\", which this world does not have; it has: start, goal; did you mean "
+        "\"goal\"?");
 }
 
 TEST_CASE("a goal without its robot says what is wrong", "[batch][referee]") {

@@ -7,6 +7,7 @@
 #include "orca/batch/inputs.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/hw/scene.hpp"
 
 namespace orca::batch {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr const char* kArgumentWithoutValue = "G012";  // of graphs
 constexpr const char* kChange = "G074";
 constexpr const char* kFailingNobody = "E016";
+constexpr const char* kGoalNowhere = "E017";
 
 // A run of a batch has one graph from its start to its end.
 void refuse_changes(const std::vector<graph::PlannedChange>& changes, xml::Diagnostics& diagnostics) {
@@ -31,6 +33,12 @@ void refuse_unknown_failures(const World& world, const graph::Graph& graph, xml:
                         "<fail>: the graph has no component " + in_quotes(one.component));
 }
 
+void refuse_unknown_goals(const std::vector<Goal>& goals, const Scene& scene, xml::Diagnostics& diagnostics) {
+  for (const Goal& goal : goals)
+    if (const Status found = can_judge(goal, scene); !found.ok())
+      diagnostics.error(kGoalNowhere, goal.declared_at, "<goal>: " + found.error().message);
+}
+
 }  // namespace
 
 void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
@@ -45,14 +53,18 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       catalogue.forget_graph();
       graph::LoadOptions load;
       load.profiles = experiment.variants[variant].profiles;
-      load.settings = experiment.settings_of({variant, world, experiment.seeds.front()});
+      const Run first{variant, world, experiment.seeds.front()};
+      load.settings = experiment.settings_of(first);
       load.try_components = true;
       load.any_link = true;
       std::vector<graph::PlannedChange> changes;
       load.changes = &changes;
       xml::Diagnostics found;
       const auto graph = graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
-      if (graph) refuse_unknown_failures(experiment.worlds[world], *graph, found);
+      if (graph) {
+        refuse_unknown_failures(experiment.worlds[world], *graph, found);
+        refuse_unknown_goals(experiment.goals_of(first), catalogue.scene_at_start(*graph), found);
+      }
       refuse_changes(changes, found);
       for (const xml::Diagnostic& one : found.sorted()) {
         const bool follows = !is_whole && one.code == kArgumentWithoutValue;

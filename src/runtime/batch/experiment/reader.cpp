@@ -186,6 +186,7 @@ class ExperimentReader {
                        "a tolerance needs the heading that it is for");
     Goal goal{.robot = element.text("robot").value_or(""), .place = element.text("place").value_or("")};
     if (has_position) goal.position = {element.number("x").value_or(0.0), element.number("y").value_or(0.0)};
+    goal.declared_at = element.element().position();
     goal.radius = element.number("radius").value_or(0.0);
     if (element.has("heading")) {
       goal.heading = element.number("heading");

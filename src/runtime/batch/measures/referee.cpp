@@ -10,6 +10,7 @@
 #include "orca/base/text.hpp"
 #include "orca/geometry/angle.hpp"
 #include "orca/hw/scene.hpp"
+#include "orca/xml/names.hpp"
 #include "orca/xml/number.hpp"
 
 namespace orca::batch {
@@ -24,6 +25,13 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   return names;
 }
 
+// Returns the names that there are, and which of them may have been meant.
+template <class Named>
+std::string there_are(const std::vector<Named>& all, const std::string& wanted) {
+  const std::vector<std::string> names = names_of(all);
+  return listed(names) + xml::did_you_mean(xml::nearest_name(wanted, names));
+}
+
 // Returns the robot that a goal is for.
 Result<const Scene::Robot*> robot_of(const Goal& goal, const Scene& scene) {
   if (!goal.robot.empty()) {
@@ -31,7 +39,7 @@ Result<const Scene::Robot*> robot_of(const Goal& goal, const Scene& scene) {
     if (found != scene.robots.end()) return &*found;
     return fail(Code::not_found,
                 "a goal is for the robot " + in_quotes(goal.robot) +
-                    ", which is not simulated; there are: " + listed(names_of(scene.robots)));
+                    ", which is not simulated; there are: " + there_are(scene.robots, goal.robot));
   }
   if (scene.robots.size() == 1) return &scene.robots.front();
   return fail(Code::failed_precondition,
@@ -47,7 +55,7 @@ Result<Vec2> position_of(const Goal& goal, const Scene& scene) {
   if (found != scene.places.end()) return found->position;
   return fail(Code::not_found,
               "a goal is at the place " + in_quotes(goal.place) +
-                  ", which this world does not have; it has: " + listed(names_of(scene.places)));
+                  ", which this world does not have; it has: " + there_are(scene.places, goal.place));
 }
 
 // A goal whose place is known.
@@ -146,6 +154,12 @@ std::string goal_text(const Goal& goal) {
         ", facing " + number_text(*goal.heading) + " rad +- " + number_text(goal.heading_tolerance) + " rad";
   if (goal.hold > Duration{0}) text += ", for " + number_text(to_seconds(goal.hold)) + " s";
   return text;
+}
+
+Status can_judge(const Goal& goal, const Scene& scene) {
+  if (const auto robot = robot_of(goal, scene); !robot) return robot.error();
+  if (const auto position = position_of(goal, scene); !position) return position.error();
+  return ok();
 }
 
 Result<Judgement> judge_goals(const std::vector<Goal>& goals, const Scene& scene,

@@ -23,7 +23,8 @@ class Drawable {
   /// @pre  called before the container is opened.
   virtual void keep_motion() = 0;
 
-  /// Adds the world, unless another robot of the same world has done so, and the robot.
+  /// Adds the world, unless another robot of the same world has done so, and the robot. Before it is opened: only the world's
+  /// places, and the robot where it starts.
   /// @pre  the container's strand has ended.
   virtual void draw(Scene& scene) = 0;
 

@@ -10,6 +10,7 @@
 #include "orca/base/result.hpp"
 #include "orca/base/time.hpp"
 #include "orca/geometry/vec2.hpp"
+#include "orca/xml/diagnostics.hpp"
 
 namespace orca {
 struct Scene;
@@ -26,11 +27,18 @@ struct Goal {
   std::optional<double> heading{};              ///< [rad] In the world frame; nothing: any.
   double heading_tolerance = std::numbers::pi;  ///< [rad] Largest difference from `heading`.
   Duration hold{0};                             ///< Time that the robot has to stay there without a break.
+  xml::Position declared_at{};                  ///< In the experiment's file.
 };
 
 /// Returns a goal for people, and so that two goals with the same text are the same:
 /// "Dewey within 0.3 m of 4.2 9.8, facing 1.57 rad +- 0.35 rad, for 0.5 s".
 [[nodiscard]] std::string goal_text(const Goal& goal);
+
+/// Returns ok if the goal can be judged in this scene, which may be one of a run that has not begun.
+/// @errors  not_found if the scene has no such robot or place; failed_precondition if the goal names no robot and there are several,
+///          or none.
+/// @thread  no shared state; any thread.
+[[nodiscard]] Status can_judge(const Goal& goal, const Scene& scene);
 
 /// A word of a component on a goal of its robot: reached, or given up. A plain value.
 struct GoalClaim {
@@ -60,8 +68,7 @@ struct Judgement {
 /// @param scene   of a run that kept the motion of its robots.
 /// @param claims  in the order of their times.
 /// @param end     of the run.
-/// @errors  not_found if the scene has no such robot or place; failed_precondition if a goal names no robot and there are several,
-///          or none.
+/// @errors  of can_judge().
 /// @thread  no shared state; any thread.
 [[nodiscard]] Result<Judgement> judge_goals(const std::vector<Goal>& goals, const Scene& scene,
                                             const std::vector<GoalClaim>& claims, TimePoint end);
