@@ -5,10 +5,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "cursor.hpp"
+
 namespace orca::xml {
 namespace {
-
-constexpr std::string_view kBlank = " \t\r\n";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -44,9 +44,9 @@ bool starts_like_a_number(std::string_view digits) {
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 Result<LeadingNumber> parse_leading_number(std::string_view text) {
@@ -76,14 +76,11 @@ Result<std::int64_t> parse_integer(std::string_view text) {
   const char* end = digits.data() + digits.size();
   std::int64_t value = 0;
   const auto [stop, problem] = std::from_chars(digits.data(), end, value);
+  if (problem == std::errc{} && stop == end) return value;
   const std::string shown = "\"" + std::string(text) + "\"";
-  if (problem == std::errc::result_out_of_range) {
+  if (problem == std::errc::result_out_of_range)
     return fail(Code::invalid_argument, shown + " does not fit in 64 bits");
-  }
-  if (problem != std::errc{} || stop != end) {
-    return fail(Code::invalid_argument, shown + " is not an integer: digits only, no point and no unit");
-  }
-  return value;
+  return fail(Code::invalid_argument, shown + " is not an integer: digits only, no point and no unit");
 }
 
 std::string number_text(double value) {

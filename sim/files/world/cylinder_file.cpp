@@ -83,15 +83,15 @@ class CylinderFile {
     if (x && y) add(static_cast<std::uint64_t>(*world), {{*x, *y}, kRadius}, line);
   }
 
-  std::optional<double> coordinate(const std::string& name, std::string_view field, int line, int column) {
+  std::optional<double> coordinate(const char* name, std::string_view field, int line, int column) {
     const Result<double> value = xml::parse_number(field);
-    if (!value) return refuse(line, column, name + ": " + value.error().message);
+    if (!value) return refuse(line, column, std::string(name) + ": " + value.error().message);
     if (std::fabs(*value) <= kFarthest) return *value;
-    return refuse(line, column, name + ": " + in_quotes(field) + " is farther than 100 km");
+    return refuse(line, column, std::string(name) + ": " + in_quotes(field) + " is farther than 100 km");
   }
 
   void add(std::uint64_t world, const Circle& cylinder, int line) {
-    worlds_.insert(world);
+    worlds_.insert(worlds_.end(), world);  // they are sorted as a rule
     if (world != number_) return;
     for (const Place& place : world_.places)
       if (contains(cylinder, place.pose.position()))

@@ -28,10 +28,10 @@ MatchedAttributes all_of(const Element& element) {
 
 std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
   std::vector<std::string_view> pieces;
-  for (std::size_t start = 0;;) {
-    const std::size_t end = text.find_first_of(separators, start);
-    pieces.push_back(trimmed(text.substr(start, end == std::string_view::npos ? end : end - start)));
-    if (end == std::string_view::npos) return pieces;
+  for (auto start = text.begin();;) {
+    const auto end = std::ranges::find_first_of(start, text.end(), separators.begin(), separators.end());
+    pieces.push_back(trimmed({start, end}));
+    if (end == text.end()) return pieces;
     start = end + 1;
   }
 }

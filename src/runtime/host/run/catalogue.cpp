@@ -40,6 +40,7 @@ PluginCatalogue::~PluginCatalogue() { forget_answers(); }
 
 void PluginCatalogue::forget_graph() {
   of_graph_.clear();
+  forgot_graph_ = true;
   const std::lock_guard lock(mutex_);
   index_ = own_index_;
 }
@@ -215,7 +216,8 @@ Result<Contract> PluginCatalogue::component(const std::string& type, const graph
 
 std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::Graph& graph,
                                                                    const graph::Candidates& candidates) {
-  return rehearse(graph, candidates, *this, clock_, give_up_);
+  if (!std::exchange(forgot_graph_, false)) stood_ = {};
+  return rehearse(graph, candidates, *this, clock_, give_up_, stood_);
 }
 
 Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {

@@ -76,7 +76,9 @@ TEST_CASE("a graph that is checked again reads its files again, unless it was fo
   PluginCatalogue catalogue{PluginIndex({kShipped})};
   const auto is_faultless = [&] {
     xml::Diagnostics diagnostics;
-    const graph::LoadOptions options{.settings = {"world=" + world}};
+    // The simulator reads the world, and the configure() of a server of places.
+    const graph::LoadOptions options{
+        .profiles = {"sim", "odometry"}, .settings = {"world=" + world}, .try_components = true};
     return graph::load_file(ORCA_SOURCE_DIR "/graphs/scout_goto.xml", options, catalogue, diagnostics)
         .has_value();
   };

@@ -208,11 +208,25 @@ std::vector<std::string> without_more_of_a_kind(const graph::Graph& graph,
   return kept;
 }
 
+// Returns all that a trial depends on, besides the files that it reads and the components at other ends.
+TrialSubject subject(const graph::Graph& graph, const std::string& name) {
+  TrialSubject subject{*graph.find_component(name), {}, {}};
+  if (const auto* const hardware = graph.find_hardware(subject.component.hardware))
+    subject.hardware = *hardware;
+  for (const graph::Edge& edge : graph.edges) {
+    if (edge.from.component == name) subject.ports.push_back(edge.from.port);
+    if (edge.to.component == name) subject.ports.push_back(edge.to.port);
+  }
+  subject.component.name.clear();
+  subject.component.position = subject.hardware.position = {};
+  return subject;
+}
+
 // The trials of one graph, and what they have found.
 class Trials {
  public:
-  Trials(const graph::Graph& graph, const graph::Candidates& all)
-      : all_(all), left_(without_more_of_a_kind(graph, all.names)) {}
+  /// @param names  those of the candidates that are to be tried.
+  Trials(const graph::Candidates& all, std::vector<std::string> names) : all_(all), left_(std::move(names)) {}
 
   [[nodiscard]] bool has_more() const { return !left_.empty(); }
 
@@ -242,6 +256,11 @@ class Trials {
     return ++ends_ < kMostEnds && hangs_ < kMostHangs;
   }
 
+  /// Returns whether a component that was tried came up, and nothing that it needs may be missing.
+  [[nodiscard]] bool stood(const std::string& name) const {
+    return !all_.doubtful.contains(name) && !down_.contains(name);
+  }
+
   [[nodiscard]] std::vector<ComponentFault> faults() const {
     std::vector<ComponentFault> result;
     for (const std::string& name : all_.names)
@@ -267,17 +286,23 @@ class Trials {
 
 std::vector<ComponentFault> rehearse(const graph::Graph& graph, const graph::Candidates& candidates,
                                      PluginCatalogue& catalogue, ClockKind clock,
-                                     const std::function<bool()>& give_up) {
+                                     const std::function<bool()>& give_up, TrialsStood& stood) {
 #if defined(__SANITIZE_THREAD__)
   constexpr bool kPossible = false;
 #else
   constexpr bool kPossible = true;
 #endif
-  Trials trials(graph, candidates);
+  std::vector<std::string> names = without_more_of_a_kind(graph, candidates.names);
+  std::erase_if(names, [&](const std::string& name) {
+    return !candidates.doubtful.contains(name) && stood.holds(subject(graph, name));
+  });
+  Trials trials(candidates, names);
   for (bool more = kPossible && trials.has_more(); more;)
     more = trials.take(
         plugin::run_trial([&](TrialLine& line) { play(graph, trials.next(), catalogue, clock, line); },
                           kLimit, plugin::Effects::none, give_up));
+  for (const std::string& name : names)
+    if (kPossible && !trials.has_more() && trials.stood(name)) stood.add(subject(graph, name));
   return trials.faults();
 }
 

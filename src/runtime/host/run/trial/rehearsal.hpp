@@ -14,15 +14,19 @@ namespace orca::host {
 /// of their connections, 50 are tried. The trial of a component ends where it would leave a trace outside the
 /// copy; what comes after that is left to the start of the system.
 ///
+/// A component that is like one that stood its trial before is not tried again.
+///
 /// Under ThreadSanitizer, which can follow neither fibers nor the threads of a copied process, nothing is tried.
 ///
 /// @param clock  clock of the run that the graph is checked for.
 /// @param give_up  asked several times a second; true ends the trials. Empty: never.
+/// @param stood  also receives those that stand it now.
 /// @return their faults, in the order of the candidates.
 /// @thread  the one that uses the catalogue.
 [[nodiscard]] std::vector<graph::ComponentFault> rehearse(const graph::Graph& graph,
                                                           const graph::Candidates& candidates,
                                                           PluginCatalogue& catalogue, ClockKind clock,
-                                                          const std::function<bool()>& give_up);
+                                                          const std::function<bool()>& give_up,
+                                                          TrialsStood& stood);
 
 }  // namespace orca::host

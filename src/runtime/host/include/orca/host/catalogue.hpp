@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -32,6 +33,36 @@ struct LoadedType {
 
   /// Returns the file of the code.
   [[nodiscard]] std::string file() const { return library ? library->path() : "/proc/self/exe"; }
+};
+
+/// A component whose configure() was tried. A plain value.
+struct TrialSubject {
+  graph::ComponentNode component;  ///< Without its name.
+  graph::HardwareNode hardware;
+  std::vector<std::string> ports;  ///< That are connected.
+  friend bool operator==(const TrialSubject&, const TrialSubject&) = default;
+};
+
+/// Components that stood their trials.
+///
+/// Thread contract: not synchronised.
+class TrialsStood {
+ public:
+  void add(TrialSubject subject) {
+    std::vector<TrialSubject>& alike = by_params_[params_of(subject)];
+    alike.push_back(std::move(subject));
+  }
+  [[nodiscard]] bool holds(const TrialSubject& subject) const {
+    const auto alike = by_params_.find(params_of(subject));
+    return alike != by_params_.end() && std::ranges::find(alike->second, subject) != alike->second.end();
+  }
+
+ private:
+  using BothParams = std::pair<graph::Params, graph::Params>;  // in which most subjects differ
+  static BothParams params_of(const TrialSubject& subject) {
+    return {subject.component.params, subject.hardware.params};
+  }
+  std::map<BothParams, std::vector<TrialSubject>> by_params_;
 };
 
 /// The types of all plugins. It answers the graph checker's questions from the plugins themselves, and loads
@@ -98,7 +129,8 @@ class PluginCatalogue final : public graph::Catalogue {
   void give_up_if(std::function<bool()> give_up) { give_up_ = std::move(give_up); }
 
   /// Forgets the folders and the hardware of a graph, so that another can be checked. Plugins stay loaded, and hardware of which the
-  /// next graph has an equal one stays prepared: worlds and other files that it names are read once.
+  /// next graph has an equal one stays prepared: worlds and other files that it names are read once. Nor is a component of the next
+  /// graph tried that is like one that stood its trial.
   void forget_graph();
 
   /// Releases everything that was loaded and constructed only to answer questions.
@@ -131,6 +163,8 @@ class PluginCatalogue final : public graph::Catalogue {
   std::map<std::string, LoadedType> held_;         // by type; kept because answers came from them
   std::map<std::string, KnownHardware> hardware_;  // by name in a graph: the last of each name
   std::set<std::string> of_graph_;                 // names of those of the graph that is checked now
+  TrialsStood stood_;                              // in graphs that were forgotten, and in the one after them
+  bool forgot_graph_ = false;                      // since components were tried
 };
 
 }  // namespace orca::host
