@@ -48,7 +48,7 @@ void Reach::block(const Obstacle& obstacle, double radius) {
   for (int row = std::max(nearest(b.low.y) - reach, lattice_.bottom); row <= top; ++row)
     for (int column = std::max(nearest(b.low.x) - reach, lattice_.left); column <= right; ++column) {
       const Vec2 p{column * kPitch, row * kPitch};
-      State& state = points_[index(p)];
+      State& state = points_[index(column, row)];
       if (state == State::free && distance_to(obstacle.shape, p) < radius) state = State::blocked;
     }
 }
@@ -79,10 +79,12 @@ bool Reach::holds(Vec2 p) const {
   return column >= 0 && row >= 0 && column < lattice_.columns && row < lattice_.rows;
 }
 
-std::size_t Reach::index(Vec2 p) const {
-  const auto column = static_cast<std::size_t>(nearest(p.x) - lattice_.left);
-  const auto row = static_cast<std::size_t>(nearest(p.y) - lattice_.bottom);
-  return row * static_cast<std::size_t>(lattice_.columns) + column;
+std::size_t Reach::index(Vec2 p) const { return index(nearest(p.x), nearest(p.y)); }
+
+std::size_t Reach::index(int column, int row) const {
+  const auto columns = static_cast<std::size_t>(lattice_.columns);
+  return static_cast<std::size_t>(row - lattice_.bottom) * columns +
+         static_cast<std::size_t>(column - lattice_.left);
 }
 
 }  // namespace orca::sim::detail

@@ -37,6 +37,7 @@ class Reach {
   void flood(std::size_t from);
   [[nodiscard]] bool holds(Vec2 p) const;
   [[nodiscard]] std::size_t index(Vec2 p) const;
+  [[nodiscard]] std::size_t index(int column, int row) const;  // both in pitches
 
   Lattice lattice_;
   std::vector<State> points_;
