@@ -50,7 +50,16 @@ bool Finding::interval_supports_claim() const {
   return asked.more_is_better ? is_above : is_below;
 }
 
+bool Finding::interval_contradicts_claim() const {
+  const auto [low, high] = difference.interval;
+  const bool is_below = high < -asked.margin;
+  const bool is_above = low > asked.margin;
+  if (asked.claim == Claim::equal) return is_below || is_above;
+  return asked.claim == Claim::not_worse && (asked.more_is_better ? is_below : is_above);
+}
+
 std::optional<std::size_t> Finding::values_needed() const {
+  if (interval_contradicts_claim()) return std::nullopt;
   const double distance = asked.claim == Claim::difference ? std::fabs(difference.value) : asked.margin;
   if (!(spread > 0.0) || distance == 0.0) return std::nullopt;
   constexpr double kOutside = 0.05;                               // of an interval: 2.5 % on each side

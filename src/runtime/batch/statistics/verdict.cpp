@@ -46,6 +46,8 @@ std::string text_of(Doubt doubt, const Finding& finding, double adjusted_p) {
       return "too few worlds (" + std::to_string(finding.scope.worlds) + ", at least " +
              std::to_string(kFewestFlipped) + " are needed)";
     case Doubt::interval_too_wide:
+      if (finding.interval_contradicts_claim())
+        return "the whole interval lies beyond the margin, which speaks against the claim";
       return finding.asked.claim == Claim::difference ? "the interval includes 0"
                                                       : "the interval reaches the margin";
     case Doubt::p_value_too_large:

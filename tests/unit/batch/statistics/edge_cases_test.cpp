@@ -254,6 +254,19 @@ TEST_CASE("a claim with a margin looks where the interval lies beside it", "[bat
   CHECK(text_of(same, {-1.9, 1.9}) == "established");
   CHECK(text_of(same, {-2.0, 1.0}) == "not established: the interval reaches the margin");
   CHECK(text_of(same, {-1.0, 2.0}) == "not established: the interval reaches the margin");
+  CHECK(text_of(slower, {1.9, 9.0}) == "not established: the interval reaches the margin");
+  const std::string against =
+      "not established: the whole interval lies beyond the margin, which speaks against the claim";
+  CHECK(text_of(slower, {2.1, 9.0}) == against);
+  CHECK(text_of(weaker, {-0.9, -0.06}) == against);
+  CHECK(text_of(same, {2.1, 3.0}) == against);
+  CHECK(text_of(same, {-3.0, -2.1}) == against);
+  Finding spread = finding_of({1.9, 9.0});
+  spread.asked = slower;
+  spread.spread = 1.0;
+  CHECK(spread.values_needed().has_value());
+  spread.difference.interval = {2.1, 9.0};
+  CHECK_FALSE(spread.values_needed().has_value());  // no number of worlds is likely to show it
 }
 
 TEST_CASE("a test with a margin is one-sided, and two of them for equality", "[batch][statistics]") {

@@ -59,8 +59,11 @@ struct Finding {
   }
   /// Returns whether the interval lies where the claim says that the difference does.
   [[nodiscard]] bool interval_supports_claim() const;
+  /// Returns whether all of the interval lies beyond the margin, where the claim says that the difference does not lie.
+  [[nodiscard]] bool interval_contradicts_claim() const;
   /// Returns how many worlds (runs where the worlds are fixed) show the claim with a probability of 80 %, if values spread as those here. The true
-  /// difference is the observed one if that is asked for; with a margin it is 0. Nothing if there is no spread, or no difference.
+  /// difference is the observed one if that is asked for; with a margin it is 0. Nothing if there is no spread, no difference, or
+  /// if interval_contradicts_claim(): no number of values is likely to show it.
   /// @source  Julious, "Sample sizes for clinical trials with normal data", Statistics in Medicine 23, 2004, for paired values:
   ///          (t1 + t2)^2 spread^2 / distance^2, with Student's t1 for 0.975 and t2 for 0.8, or 0.9 for Claim::equal.
   [[nodiscard]] std::optional<std::size_t> values_needed() const;

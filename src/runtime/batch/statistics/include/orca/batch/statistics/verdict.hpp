@@ -14,9 +14,9 @@ constexpr double kLargestPValue = 0.05;  ///< Largest adjusted p-value that supp
 
 /// A reason why a claim is not established.
 enum class Doubt {
-  too_few_runs,       ///< One of the algorithms has fewer than kLeastRuns runs.
-  too_few_worlds,     ///< Finding::has_too_few_worlds().
-  interval_too_wide,  ///< It includes 0, or reaches the margin. An end that is exactly there counts.
+  too_few_runs,    ///< One of the algorithms has fewer than kLeastRuns runs.
+  too_few_worlds,  ///< Finding::has_too_few_worlds().
+  interval_too_wide,  ///< It includes 0, or reaches the margin or lies beyond it. An end that is exactly there counts.
   p_value_too_large,  ///< Above kLargestPValue.
   reversed,           ///< Families of worlds contradict each other; a report says so, not judge().
 };
