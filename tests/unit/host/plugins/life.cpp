@@ -34,6 +34,8 @@ class Life final : public orca::Component {
     if (*mode_ == "work fails once" && ++failures_ == 1) return orca::failed("not the first time");
     if (*mode_ == "work fails") return orca::failed("no work today");
     if (*mode_ == "work throws") throw std::runtime_error("no work today");
+    if (*mode_ == "work makes a port") orca::PushServer<orca::idl::GoalPoint>(*this, "late");
+    if (*mode_ == "work makes a parameter") orca::Param<bool>(*this, "late", false);
     if (*mode_ == "waits") goal_.get_update_wait();
     out_.push(out_.loan());
     return orca::again();

@@ -94,3 +94,16 @@ TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][
     CHECK(run.system().component("life")->failure() == "work() threw std::runtime_error: no work today");
   });
 }
+
+TEST_CASE("a port or parameter that is made after the constructor is named, with what to do",
+          "[host][states]") {
+  for (const std::string what : {"port", "parameter"}) {
+    LiveSystem live(life_in_mode("work makes a " + what) + kTwoUsers);
+    live.run(virtual_executives().front(), [&](LiveSystem& run) {
+      run.sleep(5s);
+      CHECK(run.system().component("life")->failure() ==
+            "work() threw std::logic_error: it makes its " + what +
+                " \"late\" after its constructor, too late for the graph; make it a member of the class");
+    });
+  }
+}

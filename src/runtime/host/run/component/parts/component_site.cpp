@@ -2,12 +2,21 @@
 #include "component_site.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "orca/base/text.hpp"
 #include "orca/host/alarm.hpp"
 
 namespace orca::host {
+namespace {
+
+[[noreturn]] void refuse_late(const std::string& what, const std::string& name) {
+  throw std::logic_error("it makes its " + what + " " + in_quotes(name) +
+                         " after its constructor, too late for the graph; make it a member of the class");
+}
+
+}  // namespace
 
 void ComponentSite::forget_code() {
   declared_.ports.clear();
@@ -15,11 +24,13 @@ void ComponentSite::forget_code() {
 }
 
 void ComponentSite::declare_port(PortDeclaration declaration) {
+  if (closed_) refuse_late("port", declaration.contract.name);
   declaration.contract.name = parts_->settings.name_in_graph(declaration.contract.name);
   declared_.ports.push_back(std::move(declaration));
 }
 
 void ComponentSite::declare_param(ParamDeclaration declaration) {
+  if (closed_) refuse_late("parameter", declaration.contract.name);
   declared_.params.push_back(std::move(declaration));
 }
 

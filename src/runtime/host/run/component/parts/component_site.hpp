@@ -34,6 +34,8 @@ class ComponentSite final : public ComponentHost {
   [[nodiscard]] const Declarations& declared() const { return declared_; }
   /// Returns whether the component wants to work without clients.
   [[nodiscard]] bool stays_active() const { return stays_active_; }
+  /// Takes no port or parameter any more: the object is constructed, and what it makes now no graph can connect or set.
+  void close_declarations() { closed_ = true; }
   /// Drops everything that may lead into the plugin's code.
   void forget_code();
 
@@ -67,6 +69,7 @@ class ComponentSite final : public ComponentHost {
  private:
   ComponentParts* parts_;
   Declarations declared_;
+  bool closed_ = false;
   bool stays_active_ = false;
   std::uint64_t heard_alarms_ = 0;  // position in the news
 };

@@ -42,6 +42,7 @@ Status Residency::construct() {
     resident_.object = static_cast<Component*>(entry.create(*resident_.site));
   });
   if (fault) return fail(Code::internal, "its constructor " + fault->text, parts_.settings.name);
+  resident_.site->close_declarations();
   return ok();
 }
 
