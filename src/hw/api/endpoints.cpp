@@ -179,6 +179,11 @@ TimePoint MotionHW::expiry() const {
   return setpoint_.stands() ? kForever : received_ + max_command_age_;
 }
 
+TimePoint MotionHW::last_command() const {
+  const std::lock_guard lock(mutex_);
+  return received_;
+}
+
 std::uint64_t MotionHW::expired_count() const {
   const std::lock_guard lock(mutex_);
   return expired_;

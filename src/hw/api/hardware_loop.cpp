@@ -143,9 +143,9 @@ void HardwareLoop::apply_motion() {
 }
 
 // Reports that the commands have ceased, now and then while that goes on happening. A command that comes as the last one grows too old, because
-// that is how often they come, has not ceased.
+// that is how often they come, has not ceased; nor has one to stand.
 void HardwareLoop::report_expiry(const MotionHW& motion) {
-  const bool goes_on = motion.expiry() != kForever;
+  const bool goes_on = motion.last_command() >= *expired_at_;
   if (!goes_on && host_.now() < *expired_at_ + kLate) return;
   expired_at_.reset();
   if (goes_on || host_.now() < next_expiry_report_) return;

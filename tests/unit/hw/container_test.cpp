@@ -150,6 +150,28 @@ EXECUTIVE_CASE("a command is refused unless the device runs, with its state", "[
   CHECK_THAT(robot.scout.command(*turn(0.25, 0.5)).error().text(), Contains("Closed"));
 }
 
+TEST_CASE(
+    "commands that come as the last one grows too old have not ceased, also if the last one is to stand",
+    "[hw][container]") {
+  const auto says_that_it_stands = [](const ObjectPtr<idl::MotionCommand>& last) {
+    bool says = false;
+    run_on({}, [&](Executive& executive) {
+      RunningScout robot(executive);
+      robot.scout.acquire();
+      REQUIRE(robot.gets(HardwareState::active));
+      REQUIRE(robot.scout.command(*turn(0.0, 0.5)).ok());
+      sleep(executive, kScoutCommandAge + 5ms);
+      if (last) REQUIRE(robot.scout.command(*last).ok());
+      sleep(executive, 100ms);
+      says = robot.diary.has("log: the base stands: no motion command for 200 ms");
+    });
+    return says;
+  };
+  CHECK(says_that_it_stands({}));
+  CHECK_FALSE(says_that_it_stands(turn(0.0, 0.5)));
+  CHECK_FALSE(says_that_it_stands(full_stop()));
+}
+
 TEST_CASE("hardware without motion refuses commands", "[hw][container]") {
   class Deaf final : public hw::HardwareContainer {
    public:

@@ -179,6 +179,8 @@ class MotionHW {
 
   /// Returns when the present command becomes too old; kForever when the base stands.
   [[nodiscard]] TimePoint expiry() const;
+  /// Returns when the last command was taken, also one to stand.
+  [[nodiscard]] TimePoint last_command() const;
 
   [[nodiscard]] const DriveLimits& limits() const { return limits_; }
   [[nodiscard]] Duration max_command_age() const { return max_command_age_; }
