@@ -63,6 +63,8 @@ class Pages(unittest.TestCase):
         self.assertEqual(reader.out.count("vfh_plus: 3 runs"), 1)
         self.assertIn("laser_avoid - vfh_plus, success:", reader.out)
         self.assertIn("</html>", (reader.folder / "two/two.batch/report.html").read_text())
+        reader.run("simbatch pack two.xml\nsimbatch repeat two.batch/two.pack.tar.gz --out elsewhere\n")
+        self.assertIn("the same: all 6 runs, byte for byte", reader.out)
 
     def test_orcactl_prints_the_path_that_is_missing(self):
         done = subprocess.run([BUILD / "bin/orcactl", "new", "experiment", "two"], cwd=self.folder, capture_output=True, text=True, timeout=60)

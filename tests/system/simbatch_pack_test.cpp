@@ -96,6 +96,32 @@ TEST_CASE("a pack repeats byte for byte in another folder, by one command, when 
   CHECK(in_folder(elsewhere, kProgram + " repeat drive.pack.tar.gz --resume").exit_code() == 0);
 }
 
+TEST_CASE("files behind links are packed, also behind links in the folder to which a link leads",
+          "[system][batch]") {
+  const TempFolder folder;
+  const fs::path root = clone(folder);
+  const fs::path share = folder.path() / "share", own = folder.path() / "own";
+  for (const fs::path& made : {share, own}) fs::create_directories(made);
+  for (const char* const part : {"graphs", "sim"}) fs::create_symlink(root / part, share / part);
+  fs::create_symlink(share, own / "orca");
+  fs::copy(root / "sim/experiments/lengths.csv", share / "lengths.csv");
+  fs::create_symlink(share / "lengths.csv", own / "lengths.csv");
+  std::ofstream(own / "linked.xml")
+      << R"(<experiment name="linked" seeds="1" until="6 s" graph="orca/sim/experiments/to_goal/goto.xml">
+  <variant name="Dwa"><set arg="avoid" value="orca.Dwa"/></variant>
+  <worlds name="doors" arg="world" file="orca/sim/experiments/to_goal/doors.xml" references="lengths.csv"/>
+</experiment>)";
+  const Run made = in_folder(own, kProgram + " linked.xml && " + kProgram +
+                                      " pack linked.xml && mv linked.batch/linked.pack.tar.gz ..");
+  INFO(made.err);
+  REQUIRE(made.exit_code() == 0);
+  for (const fs::path& gone : {root, share, own}) fs::remove_all(gone);
+  const Run run = in_folder(folder.path(), kProgram + " repeat linked.pack.tar.gz");
+  INFO(run.err);
+  CHECK(run.exit_code() == 0);
+  CHECK_THAT(run.out, Contains("the same: all 2 runs, byte for byte"));
+}
+
 TEST_CASE("two packs of the same results are the same archive", "[system][batch]") {
   const TempFolder folder;
   const fs::path root = clone(folder);

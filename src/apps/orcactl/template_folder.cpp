@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLongestName = 40;  // so that names derived from it fit into lines and paths
 constexpr std::size_t kLongestFile = std::size_t{1} << 20;  // [bytes]
+constexpr std::string_view kLink =
+    ".link";  // ends the name of a file of a template that holds where a link leads
 
 using Files = std::map<std::string, std::string>;  // path in the folder and text
 
@@ -93,7 +95,18 @@ Result<Files> read_template(const fs::path& folder) {
   return files;
 }
 
-Status write(const fs::path& path, const std::string& text) {
+// Returns the name of what is made of a file of a template.
+std::string made_of(const std::string& file) {
+  return file.ends_with(kLink) ? file.substr(0, file.size() - kLink.size()) : file;
+}
+
+Status write(const fs::path& folder, const std::string& name, const std::string& text) {
+  const fs::path path = folder / made_of(name);
+  if (name.ends_with(kLink)) {
+    std::error_code failure;
+    fs::create_directory_symlink(text.substr(0, text.find('\n')), path, failure);
+    return failure ? Status(fail(Code::unavailable, path.string() + ": " + failure.message())) : ok();
+  }
   OutputFile file("the file");
   if (Status opened = file.open(path.string()); !opened.ok()) return opened;
   file.write(text);
@@ -109,7 +122,7 @@ Status make(const fs::path& folder, const Files& files) {
   if (!made)
     return fail(Code::unavailable, "cannot make the folder " + folder.string() + ": " + failure.message());
   for (const auto& [name, text] : files)
-    if (Status written = write(folder / name, text); !written.ok()) {
+    if (Status written = write(folder, name, text); !written.ok()) {
       fs::remove_all(folder, failure);
       return written;
     }
@@ -172,7 +185,7 @@ Result<std::vector<std::string>> make_folder(const fs::path& templates, const st
                       " is the name of another file in such a folder; write another one, such as my_" + name);
   if (Status made = make(name, files); !made.ok()) return made.error();
   std::vector<std::string> names;
-  for (const auto& [file, text] : files) names.push_back(file);
+  for (const auto& [file, text] : files) names.push_back(made_of(file));
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -82,10 +83,46 @@ Status write(const fs::path& file, const std::string& text) {
 
 bool is_program(const std::string& name) { return !name.starts_with("file ") && !name.starts_with("world "); }
 
-// Copies the files to their places in the pack.
-Status copy_files(const std::vector<std::string>& files, const fs::path& common, const fs::path& to) {
+using Copies = std::map<fs::path, fs::path>;  // the place of each copy, and the file
+
+// Adds the files to which links in a folder lead, at the places that these links give them: so whoever read them has named them. Links behind
+// these count as well, for `depth` more of them.
+void add_linked(const fs::path& folder, const fs::path& place, const std::vector<std::string>& files,
+                int depth, Copies& copies) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.is_symlink(error)) continue;
+    const fs::path target = fs::canonical(entry.path(), error);
+    if (error) continue;  // it leads nowhere
+    const fs::path link = place / entry.path().filename();
+    for (const std::string& file : files) {
+      const fs::path behind = fs::path(file).lexically_relative(target);
+      if (behind == ".") copies.emplace(link, file);
+      if (behind != "." && *behind.begin() != "..") copies.emplace(link / behind, file);
+    }
+    if (depth > 0 && fs::is_directory(target, error)) add_linked(target, link, files, depth - 1, copies);
+  }
+}
+
+// Returns what goes to which place below the folder that all files are in. A link in the pack would lead out of it, so what is behind one is
+// copied.
+Copies copies_of(const std::vector<std::string>& files, const fs::path& common) {
+  Copies copies;
+  std::set<fs::path> folders;
   for (const std::string& file : files) {
-    const fs::path copy = to / fs::path(file).lexically_relative(common);
+    copies.emplace(file, file);
+    folders.insert(fs::path(file).parent_path());
+  }
+  for (const fs::path& folder : folders) add_linked(folder, folder, files, 1, copies);
+  Copies below;
+  for (const auto& [place, file] : copies) below.emplace(place.lexically_relative(common), file);
+  return below;
+}
+
+// Copies the files to their places in the pack.
+Status copy_files(const Copies& copies, const fs::path& to) {
+  for (const auto& [place, file] : copies) {
+    const fs::path copy = to / place;
     std::error_code error;
     fs::create_directories(copy.parent_path(), error);
     if (!error) fs::copy_file(file, copy, error);
@@ -154,7 +191,8 @@ Result<fs::path> write_pack(const batch::Experiment& experiment, const batch::St
   const std::vector<std::string> files = batch::files_of(experiment);
   const fs::path common = common_folder(files);
   const fs::path place = fs::weakly_canonical(fs::absolute(experiment.file)).lexically_relative(common);
-  if (Status copied = copy_files(files, common, scratch / kFiles); !copied.ok()) return copied.error();
+  if (Status copied = copy_files(copies_of(files, common), scratch / kFiles); !copied.ok())
+    return copied.error();
   if (Status checked = check_copies(scratch / kFiles / place, scratch / kFiles, plugins); !checked.ok())
     return checked.error();
   if (Status written = write_texts(experiment, store, scratch, place); !written.ok()) return written.error();
