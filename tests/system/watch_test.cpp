@@ -120,6 +120,17 @@ TEST_CASE("a plugin that was built wrongly is not taken, the log says why, and t
   CHECK_THAT(system.end(), Contains("its laps, in the shadow of the present one,"));
 }
 
+TEST_CASE("a plugin that ends its process after the exchange is not said to have left the old one at work",
+          "[system][watch]") {
+  Watched system;
+  system.build("test_teller_late_lap_crashes");
+  REQUIRE(system.hears("the graph names the file that was built anew, so its process begins with it again"));
+  system.build("test_teller_again");
+  const std::size_t mark = system.mark();
+  REQUIRE(system.hears_after("heard 1:", mark));
+  CHECK_THAT(system.end(), !Contains("the old one goes on"));
+}
+
 TEST_CASE(
     "ps tells which build of its code a component runs, after an exchange and in a process that is started "
     "again",

@@ -191,8 +191,14 @@ void Exchanging::take_rebuilt(const std::string& file) {
 void Exchanging::swap_rebuilt(const SwapWish& wish) {
   const Result<Record> done = exchange(wish);
   if (done) return log::info(wish.component, "runs the code that was built anew");
-  log::error(wish.component,
-             "the code that was built anew does not run, and the old one goes on: " + done.error().text());
+  const Result<const graph::ComponentNode*> node = names_.component(wish.component);
+  const bool goes_on = node && names_.ready_member_of(**node);
+  log::error(wish.component, std::string("the code that was built anew does not run") +
+                                 (goes_on ? ", and the old one goes on: " : ": ") + done.error().text());
+  if (!goes_on && node && plugin_of((*node)->type).file == wish.file)
+    log::error(wish.component,
+               "the graph names the file that was built anew, so its process begins with it again; build one "
+               "that runs");
 }
 
 std::set<std::string> Exchanging::plugin_files() const {

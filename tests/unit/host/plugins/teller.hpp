@@ -57,7 +57,8 @@ enum Fault {
   kLapEats,
   kLapsSlow,
   kConstructorInStill,
-  kLapInStill
+  kLapInStill,
+  kLateLapCrashes
 };
 
 /// What no exception handler can catch.
@@ -125,6 +126,7 @@ class Teller final : public orca::Component {
     if (TELLER_FAULT == kLapInStill && laps_ == 3 && is_in_still())
       throw std::runtime_error("no lap in still");
     if (TELLER_FAULT == kLapCrashes && laps_ == 3) crash();
+    if (TELLER_FAULT == kLateLapCrashes && laps_ == 100) crash();  // later than a trial lasts
     if (TELLER_FAULT == kLapEats && laps_ == 3) eat();
     for (volatile bool hangs = TELLER_FAULT == kLapHangs && laps_ == 3; hangs;) continue;
   }
