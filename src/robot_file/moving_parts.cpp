@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+#include <numbers>
+#include <string>
+#include <utility>
+
 #include "orca/geometry/usual_figures.hpp"
 #include "part_readers.hpp"
 
@@ -11,6 +15,8 @@ std::string_view to_string(DriveKind kind) {
   }
   return "unknown";
 }
+
+constexpr double kWidestDrive = 4.0;  // times the robot's radius
 
 void read_drive(const xml::Attributes& e, Devices& model) {
   Drive& drive = model.drive;
@@ -31,6 +37,15 @@ void read_drive(const xml::Attributes& e, Devices& model) {
   set(drive.big_turn_angle, e.number_or("big_turn_angle", drive.big_turn_angle));
   set(drive.big_turn_speed, e.number_or("big_turn_speed", drive.big_turn_speed));
   drive.label = read_label(e);
+  for (const auto& [name, length] :
+       {std::pair("track", drive.track), std::pair("wheel_diameter", drive.wheel_diameter)})
+    if (model.radius > 0.0 && length > kWidestDrive * model.radius)
+      e.error_at(name, codes::kContradiction,
+                 std::string(name) +
+                     " must be at most four times the robot's radius; a length without a unit is in metres");
+  if (drive.big_turn_angle > 2.0 * std::numbers::pi)
+    e.error_at("big_turn_angle", codes::kContradiction,
+               "big_turn_angle must be at most a turn; an angle without a unit is in radians");
   if (drive.dead_time > std::chrono::seconds{5})
     e.error_at("dead_time", codes::kContradiction, "a dead time of more than 5 s is not simulated");
   if (drive.stop_deceleration > 0.0 && drive.stop_deceleration < drive.max_acceleration)

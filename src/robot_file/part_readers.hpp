@@ -34,6 +34,9 @@ void read_odometry(const xml::Attributes& e, Devices& model);
 // Reads vendor, model and port.
 [[nodiscard]] DeviceLabel read_label(const xml::Attributes& e);
 
+// Reports a range that readings may not have, and a `quantum` [m], if there is one, that leaves nothing of it.
+void check_range(const xml::Attributes& e, double min_range, double max_range, double quantum = 0.0);
+
 // Reports a period that is shorter than the simulation's tick, or longer than an hour.
 void check_period(const xml::Attributes& e, Duration period);
 

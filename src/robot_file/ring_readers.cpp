@@ -10,9 +10,14 @@
 namespace orca::robot_file {
 namespace {
 
+constexpr double kWidestScan = 4.0 * std::numbers::pi + 1e-6;  // [rad] Receivers take no wider one.
+constexpr double kLongestRange = 1000.0;                       // [m] likewise
+
 void check(const xml::Attributes& e, const LaserScanner& laser) {
-  if (laser.min_range >= laser.max_range && laser.max_range > 0.0)
-    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  check_range(e, laser.min_range, laser.max_range, laser.quantum);
+  if (std::fabs(laser.pitch) * static_cast<double>(laser.count) > kWidestScan)
+    e.error_at("pitch", codes::kContradiction,
+               "all beams together must span at most two turns; an angle without a unit is in radians");
   if (laser.divergence > 0.5 * std::numbers::pi)
     e.error_at("divergence", codes::kContradiction, "divergence must be at most 90 deg");
   if (laser.period > Duration{0}) check_period(e, laser.period);
@@ -23,8 +28,7 @@ void check(const xml::Attributes& e, const LaserScanner& laser) {
 void check(const xml::Attributes& e, const InfraredRing& ring) {
   if (ring.half_beam > 0.5 * std::numbers::pi)
     e.error_at("half_beam", codes::kContradiction, "half_beam must be at most 90 deg");
-  if (ring.min_range >= ring.max_range && ring.max_range > 0.0)
-    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  check_range(e, ring.min_range, ring.max_range);
   if (ring.period > Duration{0}) check_period(e, ring.period);
 }
 
@@ -61,6 +65,16 @@ std::vector<LaserScanner::Sector> read_sectors(const xml::Attributes& e, std::st
 }
 
 }  // namespace
+
+void check_range(const xml::Attributes& e, double min_range, double max_range, double quantum) {
+  if (min_range >= max_range && max_range > 0.0)
+    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  if (max_range > kLongestRange)
+    e.error_at("max_range", codes::kContradiction, "max_range must be at most 1000 m");
+  if (quantum >= max_range && max_range > 0.0)
+    e.error_at("quantum", codes::kContradiction,
+               "quantum must be less than max_range; a length without a unit is in metres");
+}
 
 bool LaserScanner::ignores(double angle) const {
   return std::ranges::any_of(ignore, [&](const Sector& sector) {

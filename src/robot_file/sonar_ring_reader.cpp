@@ -55,8 +55,7 @@ void read_positions(const xml::Attributes& e, SonarRing& ring, double robot_radi
 void check_ring(const xml::Attributes& e, const SonarRing& ring) {
   if (ring.half_lobe > 0.5 * std::numbers::pi)
     e.error_at("half_lobe", codes::kContradiction, "half_lobe must be at most 90 deg");
-  if (ring.min_range >= ring.max_range && ring.max_range > 0.0)
-    e.error_at("min_range", codes::kContradiction, "min_range must be less than max_range");
+  check_range(e, ring.min_range, ring.max_range, ring.quantum);
   if (ring.period > Duration{0}) check_period(e, ring.period);
 }
 

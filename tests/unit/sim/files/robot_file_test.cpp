@@ -183,6 +183,16 @@ TEST_CASE("wrong devices are reported at their place", "[sim][robot_file]") {
   };
   CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "1 m/s\"", "1 kg\""))),
              Catch::Contains("r.urdf:3:60: error R005: max_speed: \"1 kg\""));
+  CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "0.35 m", "350"))),
+             Catch::Contains("error R022: track must be at most four times the robot's radius; a length "
+                             "without a unit is in metres"));
+  CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "0.15 m", "150"))),
+             Catch::Contains("error R022: wheel_diameter must be at most four times"));
+  CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "track", "big_turn_angle=\"60\" track"))),
+             Catch::Contains("error R022: big_turn_angle must be at most a turn; an angle without a unit is "
+                             "in radians"));
+  CHECK_THAT(device("", "link=\"base\"", "link=\"base\" quantum=\"20\""),
+             Catch::Contains("error R022: quantum must be less than max_range; a length without a unit"));
   CHECK_THAT(errors_of_robot(robot(kBase, replaced(kDrive, "differential", "synkro"))),
              Catch::Contains("error R005: type: \"synkro\" is not one of: differential, synchro, holonomic; "
                              "did you mean \"synchro\"?"));

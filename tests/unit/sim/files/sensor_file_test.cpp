@@ -95,6 +95,11 @@ TEST_CASE("wrong lasers are reported at their place", "[sim][robot_file]") {
              Catch::Contains("R004: <laser> needs the attribute \"max_range\""));
   CHECK_THAT(laser("sweep=\"20 ms\"", "sweep=\"120 ms\""),
              Catch::Contains("error R022: the sweep of one scan cannot take longer than the period"));
+  CHECK_THAT(laser("\"0.5 deg\"", "\"0.5\""),
+             Catch::Contains("error R022: all beams together must span at most two turns; an angle without a "
+                             "unit is in radians"));
+  CHECK_THAT(laser("10 mm", "10"), Catch::Contains("error R022: quantum must be less than max_range"));
+  CHECK_THAT(laser("8 m", "8000"), Catch::Contains("error R022: max_range must be at most 1000 m"));
   CHECK_THAT(laser("0.25 deg", "100 deg"), Catch::Contains("error R022: divergence must be at most 90 deg"));
   CHECK_THAT(laser("100 ms", "1 ms"), Catch::Contains("error R022: the period must be between"));
   CHECK_THAT(laser("quantum", "quantun"), Catch::Contains("did you mean \"quantum\"?"));
