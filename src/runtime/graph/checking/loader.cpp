@@ -74,6 +74,7 @@ Model check_parts(const Assembly& assembly, const Parts& parts, Catalogue& catal
   model.excused = assembly.excused;
   model.names_incomplete = assembly.names_incomplete;
   model.parts_missing = parts.some_missing;
+  model.left_out = parts.left_out;
   check_machines(parts.machines, model, report);
   check_processes(parts.processes, model, report);
   announce_types(parts, catalogue);

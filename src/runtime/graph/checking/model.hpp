@@ -10,6 +10,7 @@
 
 #include "orca/base/contract.hpp"
 #include "orca/graph/graph.hpp"
+#include "reading/merging/profiles.hpp"
 #include "reading/node.hpp"
 #include "reading/report.hpp"
 
@@ -86,6 +87,7 @@ struct Model {
   std::set<std::string> excused;                         // see Structure
   bool names_incomplete = false;                         // see Structure
   bool parts_missing = false;                            // see Parts
+  ProfilesByPart left_out;                               // see Parts
   bool any_link = false;                                 // see LoadOptions
 
   void add(CheckedProcess process, bool by_name) {

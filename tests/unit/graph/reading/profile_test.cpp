@@ -65,6 +65,21 @@ TEST_CASE("several profiles are merged in the order of the command line", "[grap
   CHECK(must_load(text, {{"x", "y"}, {}}).components.at(0).may_fail);
 }
 
+TEST_CASE("what is missing and stands in a profile that is not chosen is said to stand there",
+          "[graph][profile]") {
+  const LoadOptions slow{{"slow"}, {}};
+  CHECK_THAT(
+      said_about(kTwoRobots, slow),
+      Contains("G034: component \"base\": there is no hardware \"robot\"; the graph has: nothing; it stands "
+               "in the profile real or sim, which is not chosen: write --profile sim, or "
+               "default_profile=\"sim\" in <graph>"));
+  std::string wired = kTwoRobots;
+  wired.replace(wired.find("base.Sonar"), 5, "localizer.");
+  CHECK_THAT(said_about(wired, slow),
+             Contains("there is no component \"localizer\"; it stands in the profile sim"));
+  CHECK_THAT(said_about(kTwoRobots, {{"sim"}, {}}), !Contains("not chosen"));
+}
+
 TEST_CASE("another type starts with no parameters of the old one", "[graph][profile]") {
   const Graph graph = must_load(
       "<graph name='g'><hardware name='r' type='orca.hw.NomadScout'><param name='port' "

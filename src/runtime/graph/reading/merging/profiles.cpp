@@ -171,6 +171,17 @@ class Choice {
   bool some_unknown_ = false;
 };
 
+// Collects the parts of profiles that are not among the chosen ones.
+void collect_left_out(const Node& parent, const std::vector<const Node*>& chosen, ProfilesByPart& parts) {
+  for (const Node& profile : parent.children) {
+    if (!profile.is("profile")) continue;
+    collect_left_out(profile, chosen, parts);
+    if (std::ranges::find(chosen, &profile) != chosen.end()) continue;
+    for (const Node& part : profile.children)
+      parts[{std::string(part.rule->name), part.value("name")}].insert(profile.value("name"));
+  }
+}
+
 }  // namespace
 
 Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& chosen, Report& report) {
@@ -192,6 +203,7 @@ Parts merge_profiles(const Assembly& assembly, const std::vector<std::string>& c
         merger->second.add(child);
   }
   clashes.report(report);
+  collect_left_out(assembly.graph, sections, parts.left_out);
   return parts;
 }
 

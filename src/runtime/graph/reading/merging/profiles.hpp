@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reading/assembly.hpp"
@@ -9,6 +12,9 @@
 #include "reading/report.hpp"
 
 namespace orca::graph {
+
+// The profiles that have a part of a kind ("component") and name.
+using ProfilesByPart = std::map<std::pair<std::string, std::string>, std::set<std::string>>;
 
 // The parts of a graph once its profiles are merged.
 struct Parts {
@@ -19,6 +25,7 @@ struct Parts {
   std::vector<Node> groups;
   std::vector<Node> connections;
   std::vector<Node> changes;
+  ProfilesByPart left_out;    // of profiles that are not chosen
   bool some_missing = false;  // a file or a profile is missing, and parts of any kind may be in it
 };
 
