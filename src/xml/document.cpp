@@ -10,6 +10,7 @@
 
 #include "codes.hpp"
 #include "cursor.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/input_file.hpp"
 #include "scanner.hpp"
 
@@ -207,7 +208,8 @@ std::optional<Document> read_text(std::string_view text, const std::string& file
 std::optional<Document> read_file(const std::string& path, Diagnostics& diagnostics) {
   const Result<std::string> bytes = read_bytes(path);
   if (bytes) return read_text(*bytes, path, diagnostics);
-  diagnostics.error(codes::kUnreadable, {path, 1, 1}, "the file cannot be read: " + bytes.error().message);
+  diagnostics.error(codes::kUnreadable, {path, 1, 1},
+                    "the file cannot be read: " + bytes.error().message + hint_at_own_file(path));
   return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace orca {
 
@@ -49,6 +50,20 @@ std::string or_own_file(const std::string& name) {
   if (name.empty() || fs::path(name).is_absolute() || fs::exists(name, ignored)) return name;
   const std::string own = own_file(name);
   return fs::is_regular_file(own, ignored) ? own : name;
+}
+
+std::string hint_at_own_file(const std::string& path) {
+  std::error_code ignored;
+  const fs::path normal = fs::path(path).lexically_normal();
+  const std::vector<fs::path> names(normal.begin(), normal.end());
+  for (std::size_t from = 0; from + 1 < names.size(); ++from) {
+    fs::path end;
+    for (std::size_t i = from; i < names.size(); ++i) end /= names[i];
+    if (end.is_absolute() || names[from] == "..") continue;
+    const std::string own = own_file(end.string());
+    if (fs::is_regular_file(own, ignored)) return "; Orca's own is " + own;
+  }
+  return {};
 }
 
 }  // namespace orca

@@ -27,6 +27,10 @@ TEST_CASE("a file that is missing, a folder, or empty is named with the reason",
   CHECK_FALSE(read_file("no/such/file.xml", diagnostics));
   CHECK(diagnostics.text() ==
         "no/such/file.xml:1:1: error G101: the file cannot be read: No such file or directory\n");
+  Diagnostics copied;  // as by a graph that was copied to another folder
+  CHECK_FALSE(read_file("no/../such/sim/worlds/office.xml", copied));
+  CHECK(copied.text().find("No such file or directory; Orca's own is " ORCA_BINARY_DIR
+                           "/share/orca/sim/worlds/office.xml") != std::string::npos);
   Diagnostics folder;
   CHECK_FALSE(read_file(ORCA_SOURCE_DIR, folder));
   CHECK(folder.text().find("Is a directory") != std::string::npos);

@@ -9,6 +9,7 @@
 #include "codes.hpp"
 #include "files.hpp"
 #include "naming.hpp"
+#include "orca/base/files/own_library.hpp"
 #include "orca/base/text.hpp"
 #include "prefix.hpp"
 #include "structure.hpp"
@@ -117,7 +118,8 @@ class Assembler {
     if (chain_.size() == kDeepest) return refuse(codes::kExpansion, node, name, "more than 50 files deep");
     if (!budget_.take_file(node.position, report_)) return nullptr;
     const Files::File& file = files_.open(path);
-    if (!file.unreadable.empty()) return refuse(codes::kCannotInclude, node, name, file.unreadable);
+    if (!file.unreadable.empty())
+      return refuse(codes::kCannotInclude, node, name, file.unreadable + hint_at_own_file(path));
     if (!file.document || !budget_.take_elements(file.elements, node.position, report_)) return nullptr;
     report_.share(path);
     return &*file.document;

@@ -135,6 +135,15 @@ TEST_CASE("a file may be included twice if its arguments make the names differ",
   CHECK(graph.components.size() == 2);
 }
 
+TEST_CASE("a file that is not there is said to be one of Orca's own, if it may be meant",
+          "[graph][include]") {
+  CHECK_THAT(
+      said_about(Files{{"main.xml", "<graph name='g'><include file='graphs/scout_goto.xml'/></graph>"}}),
+      Catch::Contains("; Orca's own is ") && Catch::Contains("/share/orca/graphs/scout_goto.xml"));
+  CHECK_THAT(said_about(Files{{"main.xml", "<graph name='g'><include file='scout_goto.xml'/></graph>"}}),
+             Catch::Contains("G043") && !Catch::Contains("Orca's own"));
+}
+
 TEST_CASE("errors in an included file stand at their place in it, once", "[graph][include]") {
   CHECK(said_about(Files{
             {"main.xml",

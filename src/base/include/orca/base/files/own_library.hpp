@@ -35,4 +35,8 @@ template <class Function>
 /// anywhere where Orca is installed.
 [[nodiscard]] std::string or_own_file(const std::string& name);
 
+/// Returns the end of a message about a file that is not there: which of Orca's own it may be meant for, as where a graph was copied and its
+/// "../sim/worlds/office.xml" leads nowhere any more. Nothing if there is none with the last two names of the path, or more of them.
+[[nodiscard]] std::string hint_at_own_file(const std::string& path);
+
 }  // namespace orca
