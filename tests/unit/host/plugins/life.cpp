@@ -18,6 +18,7 @@ class Life final : public orca::Component {
   orca::Status configure() override {
     say("configure");
     lap_every(std::chrono::milliseconds(100));
+    if (*mode_ == "configure laps without a pause") lap_every(orca::Duration{0});
     if (*mode_ == "configure waits") sleep(std::chrono::hours(1));
     return orca::ok();
   }

@@ -95,6 +95,19 @@ TEST_CASE("a component that threw stays in WORK_FAILED, with the text", "[host][
   });
 }
 
+TEST_CASE("laps that configure() lets follow each other without a pause fail, as in a constructor",
+          "[host][states]") {
+  LiveSystem live(R"(<component name="life" type="test.Life" start="on_demand">
+      <param name="mode" value="configure laps without a pause"/></component>)" +
+                  kTwoUsers);
+  live.run(virtual_executives().front(), [](LiveSystem& run) {
+    run.sleep(5s);
+    CHECK(run.state("life") == ComponentState::broken);
+    CHECK(run.system().component("life")->failure() ==
+          "configure() threw std::logic_error: its laps start every 0 s; a period is 1 us or longer");
+  });
+}
+
 TEST_CASE("a port or parameter that is made after the constructor is named, with what to do",
           "[host][states]") {
   for (const std::string what : {"port", "parameter"}) {

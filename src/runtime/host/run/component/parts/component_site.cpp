@@ -35,6 +35,9 @@ void ComponentSite::declare_param(ParamDeclaration declaration) {
 }
 
 void ComponentSite::set_default_trigger(const Trigger& trigger) {
+  if (trigger.kind == Trigger::Kind::period && trigger.period < std::chrono::microseconds(1))
+    throw std::logic_error("its laps start every " + seconds_text(trigger.period) +
+                           "; a period is 1 us or longer");
   declared_.trigger = trigger;
   for (std::string& port : declared_.trigger.ports) port = parts_->settings.name_in_graph(port);
 }
