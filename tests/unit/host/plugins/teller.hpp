@@ -58,7 +58,8 @@ enum Fault {
   kLapsSlow,
   kConstructorInStill,
   kLapInStill,
-  kLateLapCrashes
+  kLateLapCrashes,
+  kDestructorCrashes
 };
 
 /// What no exception handler can catch.
@@ -88,6 +89,10 @@ class Teller final : public orca::Component {
     if (TELLER_FAULT == kConstructorCrashes) crash();
     if (TELLER_FAULT == kConstructor) throw std::runtime_error("no teller today");
     if (TELLER_FAULT == kConstructorInStill && is_in_still()) throw std::runtime_error("no teller in still");
+  }
+
+  ~Teller() override {
+    if (TELLER_FAULT == kDestructorCrashes) crash();
   }
 
  private:
