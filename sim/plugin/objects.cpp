@@ -123,4 +123,14 @@ void draw(const Snapshot& from, const std::string& name, const RobotModel& model
   }
 }
 
+void draw_start(const WorldModel& world, const std::string& name, const RobotModel& model, const Pose2& start,
+                Scene& to) {
+  if (to.places.empty())
+    for (const Place& place : world.places) to.places.push_back({place.name, place.pose.position()});
+  Scene::Robot& drawn = to.robots.emplace_back();
+  drawn.name = name;
+  drawn.pose = start;
+  drawn.radius_m = model.radius;
+}
+
 }  // namespace orca::sim

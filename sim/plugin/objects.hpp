@@ -63,4 +63,8 @@ void draw(const Snapshot& from, const std::string& name, const RobotModel& model
           std::vector<Scene::Moment> moments, std::vector<Scene::Step> motion,
           std::vector<Scene::Encounter> encounters, Scene& to);
 
+/// Adds the robot where it starts, and the places of its world if no other robot has added any. For runs that have not begun.
+void draw_start(const WorldModel& world, const std::string& name, const RobotModel& model, const Pose2& start,
+                Scene& to);
+
 }  // namespace orca::sim

@@ -215,18 +215,9 @@ std::string SimulatedRobot::settings() const {
   return text;
 }
 
-void SimulatedRobot::draw_start(Scene& scene) const {
-  if (!world_ || !robot_) return;
-  if (scene.places.empty())
-    for (const Place& place : world_->places) scene.places.push_back({place.name, place.pose.position()});
-  Scene::Robot& drawn = scene.robots.emplace_back();
-  drawn.name = *name_;
-  drawn.pose = start_;
-  drawn.radius_m = robot_->radius;
-}
-
 void SimulatedRobot::draw(Scene& scene) {
-  if (!moments_) return draw_start(scene);
+  if (!moments_ && world_ && robot_) draw_start(*world_, *name_, *robot_, start_, scene);
+  if (!moments_) return;
   scene.people = shared_->people();
   sim::draw(shared_->snapshot(), *name_, *robot_, moments_->moments(), shared_->motion(id_),
             shared_->encounters(id_), scene);

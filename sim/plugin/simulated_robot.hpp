@@ -69,7 +69,6 @@ class SimulatedRobot : public hw::HardwareContainer, private hw::Drawable {
   void keep_moments() final { keeps_moments_ = true; }
   void keep_motion() final { keeps_motion_ = true; }
   void draw(Scene& scene) final;
-  void draw_start(Scene& scene) const;
 
   hw::Surroundings* surroundings() final { return &outside_; }
 

@@ -214,7 +214,7 @@ LAYERS = (
     Layer("batch_running", (f"{BATCH}/running",), ("orca/batch/batch.hpp", "orca/batch/missing_runs.hpp"),
           ("batch_comparing", "batch_making", "batch_experiment", "batch_results", "base"), module=BATCH),
     Layer("batch_checking", (f"{BATCH}/checking",), ("orca/batch/inputs.hpp",), ("batch_making", "batch_experiment",
-          "batch_results", "host", "graph", "xml", "base"), module=BATCH),
+          "batch_results", "batch_measures", "host", "graph", "hw_api", "xml", "base"), module=BATCH),
     Layer("testing", ("src/testing",), ("orca/testing/",), ("host_run", "host", "graph", "plugin", "xml", *DEVICE)),
     Layer("guest", ("src/apps/deployer/guest",), (), ("host_part", "host", "graph", "text", "xml", *DEVICE), module="src/apps"),
     Layer("apps", ("src/apps",), (), ("guest", "batch_checking", "batch_running", "batch_comparing", "batch_tuning", "batch_report",

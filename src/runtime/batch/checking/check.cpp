@@ -7,6 +7,7 @@
 #include "orca/batch/inputs.hpp"
 #include "orca/graph/loader.hpp"
 #include "orca/host/catalogue.hpp"
+#include "orca/hw/drawable.hpp"
 #include "orca/hw/scene.hpp"
 
 namespace orca::batch {
@@ -31,6 +32,17 @@ void refuse_unknown_failures(const World& world, const graph::Graph& graph, xml:
     if (graph.find_component(one.component) == nullptr)
       diagnostics.error(kFailingNobody, one.position,
                         "<fail>: the graph has no component " + in_quotes(one.component));
+}
+
+// Returns what a picture of the graph's simulated robots shows before they move.
+Scene scene_at_start(const graph::Graph& graph, host::PluginCatalogue& catalogue) {
+  Scene scene;
+  for (const graph::HardwareNode& node : graph.hardware) {
+    plugin::DescribedHardware* const closed = catalogue.closed_hardware({node.name, node.type, node.params});
+    hw::Drawable* const drawable = closed == nullptr ? nullptr : closed->container().drawable();
+    if (drawable != nullptr) drawable->draw(scene);
+  }
+  return scene;
 }
 
 void refuse_unknown_goals(const std::vector<Goal>& goals, const Scene& scene, xml::Diagnostics& diagnostics) {
@@ -63,7 +75,7 @@ void check_graphs(const Experiment& experiment, const BatchOptions& options, xml
       const auto graph = graph::load_file(experiment.variants[variant].graph, load, catalogue, found);
       if (graph) {
         refuse_unknown_failures(experiment.worlds[world], *graph, found);
-        refuse_unknown_goals(experiment.goals_of(first), catalogue.scene_at_start(*graph), found);
+        refuse_unknown_goals(experiment.goals_of(first), scene_at_start(*graph, catalogue), found);
       }
       refuse_changes(changes, found);
       for (const xml::Diagnostic& one : found.sorted()) {

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
-#include "orca/hw/drawable.hpp"
 #include "orca/hw/link/make_link.hpp"
-#include "orca/hw/scene.hpp"
 #include "orca/plugin/object_library.hpp"
 #include "orca/ros/twin.hpp"
 #include "trial/rehearsal.hpp"
@@ -220,17 +218,8 @@ std::vector<graph::ComponentFault> PluginCatalogue::try_components(const graph::
   return rehearse(graph, candidates, *this, clock_, give_up_, stood_);
 }
 
-Device* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {
-  const Result<plugin::DescribedHardware*> made = described(use);
-  return made ? &(*made)->seat() : nullptr;
-}
-
-Scene PluginCatalogue::scene_at_start(const graph::Graph& graph) {
-  Scene scene;
-  for (const graph::HardwareNode& node : graph.hardware)
-    if (const auto made = described({node.name, node.type, node.params}))
-      if (hw::Drawable* const drawable = (*made)->container().drawable()) drawable->draw(scene);
-  return scene;
+plugin::DescribedHardware* PluginCatalogue::closed_hardware(const graph::HardwareUse& use) {
+  return described(use).value_or(nullptr);
 }
 
 std::vector<std::string> PluginCatalogue::unfit(PluginKind kind, const std::string& type) {

@@ -96,7 +96,9 @@ class Rehearsal {
   Device* device_of(const graph::ComponentNode& node, PluginCatalogue& catalogue) const {
     const graph::HardwareNode* const hardware = graph_.find_hardware(node.hardware);
     if (hardware == nullptr) return nullptr;
-    return catalogue.closed_hardware({hardware->name, hardware->type, hardware->params});
+    plugin::DescribedHardware* const closed =
+        catalogue.closed_hardware({hardware->name, hardware->type, hardware->params});
+    return closed == nullptr ? nullptr : &closed->seat();
   }
 
   // Returns whether all components are up that must be up before this one.

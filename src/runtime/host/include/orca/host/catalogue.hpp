@@ -19,10 +19,6 @@
 #include "orca/plugin/index.hpp"
 #include "orca/plugin/library.hpp"
 
-namespace orca {
-struct Scene;
-}
-
 namespace orca::host {
 
 /// A type, and the plugin that holds its code. The plugin stays in memory at least as long as this object
@@ -119,11 +115,7 @@ class PluginCatalogue final : public graph::Catalogue {
   void on_alarm(AlarmSink sink) { sink_ = std::move(sink); }
 
   /// Returns the hardware of a graph as it was prepared to be described, closed; null if it cannot be.
-  [[nodiscard]] Device* closed_hardware(const graph::HardwareUse& use);
-
-  /// Returns what a picture of the graph's simulated robots shows before they move.
-  /// @pre  the graph was checked with this catalogue, and has no errors.
-  [[nodiscard]] Scene scene_at_start(const graph::Graph& graph);
+  [[nodiscard]] plugin::DescribedHardware* closed_hardware(const graph::HardwareUse& use);
 
   /// Sets the question whether to give up trials of components, for a program that is asked to stop meanwhile.
   void give_up_if(std::function<bool()> give_up) { give_up_ = std::move(give_up); }
