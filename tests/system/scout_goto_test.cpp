@@ -44,6 +44,15 @@ TEST_CASE("the Scout drives to three goals in different rooms and touches nothin
   CHECK(run.contacts().empty());
 }
 
+TEST_CASE("a Scout that is told to drive faster than it can touches nothing", "[system][scout]") {
+  for (const char* seed : {"1", "4", "6"}) {
+    const Run run = drive({"--set", "goto.max_speed=3", "--seed", seed});
+    INFO(seed << run.err);
+    CHECK(run.arrivals().size() == 3);
+    CHECK(run.contacts().empty());
+  }
+}
+
 TEST_CASE("stdout has a line per arrival, then the trace hash, and nothing else", "[system][scout]") {
   const Run run = drive();
   INFO(run.out);

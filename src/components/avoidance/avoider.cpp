@@ -19,6 +19,9 @@ namespace {
 // A robot that slows down as it is advised has left so much of the way between the two distances to stop.
 constexpr double kShareToStop = 0.6;
 
+// [m/s2] At which a base slows down that does not say how fast it does: no robot that Orca knows is slower.
+constexpr double kLeastAcceleration = 0.5;
+
 // Returns the weight of the advice: 0 where the way is free, 1 half way, and at the stop distance, where no other wish must move
 // the robot on, so much that others have the share `yields`.
 double insistence(double urgency, double yields) { return urgency / (1.0 + yields - urgency); }
@@ -358,7 +361,9 @@ std::optional<Rectangle> Avoider::described_body() const {
 }
 
 Limits Avoider::limits() const {
-  const double braking = braking_way(speed_of(twist_), *reaction_time_, body_ ? body_->acceleration : 0.0);
+  const bool is_told = body_ && body_->acceleration > 0.0;
+  const double braking =
+      braking_way(speed_of(twist_), *reaction_time_, is_told ? body_->acceleration : kLeastAcceleration);
   const double more = std::max(0.0, braking - kShareToStop * (*safe_distance_ - *stop_distance_));
   return {.robot_radius = radius(),
           .margin = *margin_,
