@@ -245,14 +245,17 @@ TEST_CASE("while the prompt waits, orders of an operator are taken, and what has
 TEST_CASE("a behaviour gets another name where others require it, and the one of before again",
           "[system][goals]") {
   const TempFolder folder;
+  // A fixed parameter is for new code.
+  const std::string new_code = GENERATE("", "<param name=\"sync\" value=\"period\"/>");
   const auto named = [&](const std::string& name) {
     const std::string text = std::regex_replace(read_text(source_file("graphs/scout_goto.xml")),
                                                 std::regex("\\bavoid\\b(?=[.\"])"), name);
-    return folder.write(name + ".xml",
-                        std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file("")));
+    std::string graph = std::regex_replace(text, std::regex("\"\\.\\./"), "\"" + source_file(""));
+    if (name == "dodge") graph.insert(graph.find("<param name=\"required\""), new_code);
+    return folder.write(name + ".xml", graph);
   };
   const Run virtually = run_deployer(Words{named("avoid"), "--until", "20 s", "--change",
-                                           named("dodge") + "@3s", "--change", named("avoid") + "@4s"} +
+                                           named("dodge") + "@3s", "--change", named("avoid") + "@6s"} +
                                      virtual_clock());
   INFO(virtually.err);
   CHECK(virtually.exit_code() == 0);
@@ -261,7 +264,8 @@ TEST_CASE("a behaviour gets another name where others require it, and the one of
   const auto works = [] { return run_orcactl({"ps"}).out.find("WORK") != std::string::npos; };
   REQUIRE(comes_true(works, Seconds(20)));
   for (const char* const name : {"dodge", "avoid"}) {
-    const Run applied = run_orcactl({"apply", named(name)});
+    const Run applied =
+        run_orcactl({"apply", named(name), "--tryout", "0.3s", "--probation", "0.3s"}, Seconds(30));
     INFO(applied.err << program.err());
     REQUIRE(applied.exit_code() == 0);
     CHECK_THAT(run_orcactl({"get", "fuser.required"}).out, Contains(name));

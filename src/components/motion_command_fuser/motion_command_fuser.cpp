@@ -100,7 +100,10 @@ class MotionCommandFuser final : public orca::Component {
   Status load_state(orca::StateReader& state) override {
     std::vector<std::string> names;
     if (Status read = state.read(names); !read.ok()) return read;
-    return listen_to(names);
+    const auto gone = std::ranges::find_if(names, [this](const auto& name) { return !source_of(name); });
+    if (gone == names.end()) return listen_to(names);
+    log_warning(not_connected(*gone).error().text() + "; the robot stands until a client list comes");
+    return listen_to({});
   }
 
   Status on_client_list(const ObjectPtr<orca::idl::ClientList>& list) { return listen_to(list->clients()); }
@@ -330,7 +333,6 @@ class MotionCommandFuser final : public orca::Component {
       {.text = "Whether a list of behaviours is right: the list itself, or the error that it would give."}};
   orca::SendProxy<orca::idl::MotionCommand> base_{
       *this, "base", {.text = "Receiver of the fused command: a robot base."}};
-
   orca::PushServer<orca::idl::FusionReason> reason_{
       *this,
       "FusionReasonPush",
@@ -388,7 +390,6 @@ class MotionCommandFuser final : public orca::Component {
       {.unit = "1/s",
        .min = 0.01,
        .text = "Turn rate per radian of direction, where one is converted into the other."}};
-
   orca::Param<double> max_turn_rate_{
       *this,
       "max_turn_rate",
@@ -433,7 +434,6 @@ class MotionCommandFuser final : public orca::Component {
       {.unit = "s",
        .min = 0.0,
        .text = "Mode subsumption: time for which a node still acts after the last wish."}};
-
   orca::Synchronizer behaviours_;
   orca::fuse::Ear ear_{host()};
   orca::fuse::Rules rules_;

@@ -79,7 +79,7 @@ Result<Applying::Outcome> Applying::Change::carry_out(const GraphSource& source)
   if (way_ == Way::compares) return outcome;
   if (Status possible = is_possible(); !possible.ok()) return possible.error();
   for (Status (Change::*const step)() : {&Change::exchange, &Change::set, &Change::come, &Change::settle,
-                                         &Change::rewire, &Change::set_late}) {
+                                         &Change::rewire, &Change::set_late, &Change::exchange_late}) {
     Status done = (this->*step)();
     if (done.ok() && !lost_.empty()) done = loss();
     if (!done.ok()) return go_back(done.error());
@@ -135,27 +135,53 @@ Error Applying::Change::loss() const {
 
 // ---- Code and parameters
 
+// Values may name what is connected only later, as the behaviours that a fuser requires. So what is refused is tried again with the new
+// connections.
 Status Applying::Change::exchange() {
   for (const graph::GraphPlan::Exchange& wanted : plan_.exchanges) {
     if (!lost_.empty()) return loss();
-    if (Status done = exchange(wanted); !done.ok()) return done;
+    set_after_ = undo_.size();
+    Status done = exchange(wanted, nullptr);
+    if (done.ok()) continue;
+    if (!lost_.empty() || !changes_connections_of(wanted.component)) return done;
+    late_exchanges_.push_back(&wanted);
   }
   return ok();
 }
 
-Status Applying::Change::exchange(const graph::GraphPlan::Exchange& wanted) {
+Status Applying::Change::exchange_late() {
+  for (const graph::GraphPlan::Exchange* const wanted : late_exchanges_) {
+    if (!lost_.empty()) return loss();
+    if (Status done = exchange(*wanted, &wanted_.graph); !done.ok()) return done;
+  }
+  return ok();
+}
+
+bool Applying::Change::changes_connections_of(const std::string& component) const {
+  return std::ranges::any_of(plan_.connections, [&](const graph::GraphPlan::Rewiring& one) {
+    const graph::Edge& edge = one.after ? *one.after : *one.before;
+    return edge.from.component == component || edge.to.component == component;
+  });
+}
+
+Status Applying::Change::exchange(const graph::GraphPlan::Exchange& wanted, const graph::Graph* changed) {
   const graph::ComponentNode& node = node_of(wanted.component);
   const CodeFacts present = place_.exchanging.code_of(node);
   SwapWish before{wanted.component, present.plugin.file, present.type,
                   graph::print_values(place_.operating.params_of(node)), care_};
   before.has_worked = true;
-  const SwapWish wish{
-      wanted.component,
-      present.type == wanted.type ? present.plugin.file : wanted_.facts.plugins[wanted.type].file,
-      wanted.type, graph::print_values(wanted.params), care_};
+  SwapWish wish{wanted.component,
+                present.type == wanted.type ? present.plugin.file : wanted_.facts.plugins[wanted.type].file,
+                wanted.type, graph::print_values(wanted.params), care_};
+  wish.changed = changed;
   if (const Result<Record> done = place_.exchanging.exchange(wish); !done) return done.error();
-  undo_.emplace_back([this, before](const Error& reason) { return exchange_back(before, reason); });
+  add_early_undo([this, before](const Error& reason) { return exchange_back(before, reason); });
   return ok();
+}
+
+// The values of before fit the connections of before: they go back after these, whenever they were set.
+void Applying::Change::add_early_undo(Undo undo) {
+  undo_.insert(undo_.begin() + static_cast<std::ptrdiff_t>(set_after_), std::move(undo));
 }
 
 Error Applying::Change::exchange_back(const SwapWish& before, const Error& reason) {
@@ -164,22 +190,16 @@ Error Applying::Change::exchange_back(const SwapWish& before, const Error& reaso
   return done ? reason : with(reason, before.component, done.error());
 }
 
-// A value may name what is connected only then, as the behaviours that a fuser requires. So what is refused is tried again with the new connections.
+// As exchange(); who refuses may have asked another component about its connections.
 Status Applying::Change::set() {
   set_after_ = undo_.size();
   Status done = set_all();
-  sets_late_ =
-      !done.ok() && lost_.empty() &&
-      std::ranges::any_of(plan_.connections, [this](const graph::GraphPlan::Rewiring& one) {
-        const graph::Edge& edge = one.after ? *one.after : *one.before;
-        return plan_.settings.contains(edge.from.component) || plan_.settings.contains(edge.to.component);
-      });
+  sets_late_ = !done.ok() && lost_.empty() && !plan_.connections.empty();
   return sets_late_ ? ok() : done;
 }
 
 Status Applying::Change::set_late() { return sets_late_ ? set_all() : ok(); }
 
-// The values of before fit the connections of before: they go back after these, whenever they were set.
 Status Applying::Change::set_all() {
   std::map<std::string, graph::Params> before;
   for (const auto& [component, values] : plan_.settings) {
@@ -187,8 +207,7 @@ Status Applying::Change::set_all() {
     for (const auto& [param, value] : values) before[component][param] = present.at(param);
   }
   if (Status done = place_.operating.change(plan_.settings); !done.ok()) return done;
-  const auto after = undo_.begin() + static_cast<std::ptrdiff_t>(set_after_);
-  undo_.insert(after, [this, before](const Error& reason) mutable {
+  add_early_undo([this, before](const Error& reason) mutable {
     std::erase_if(before, [this](const auto& one) { return is_lost(one.first); });
     const Status done = place_.operating.change(before);
     return done.ok() ? reason : with(reason, "parameters", done.error());

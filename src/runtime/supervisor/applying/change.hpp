@@ -41,6 +41,7 @@ class Applying::Change {
   Status settle();
   Status rewire();
   Status set_late();
+  Status exchange_late();
   Status renew();
   // What follows when all has been done, or some of it has not.
   void commit();
@@ -52,7 +53,10 @@ class Applying::Change {
   [[nodiscard]] Error loss() const;
   // Returns the processes of the components that come and go.
   [[nodiscard]] std::map<std::string, std::string> comers() const;
-  Status exchange(const graph::GraphPlan::Exchange& wanted);
+  [[nodiscard]] bool changes_connections_of(const std::string& component) const;
+  // @param changed  the graph with the connections of the component, if they have changed.
+  Status exchange(const graph::GraphPlan::Exchange& wanted, const graph::Graph* changed);
+  void add_early_undo(Undo undo);
   Status set_all();
   [[nodiscard]] Error exchange_back(const SwapWish& before, const Error& reason);
   // Ends a component.
@@ -73,7 +77,8 @@ class Applying::Change {
   const bool is_edit_;  // of the run's graph: what operators have set and exchanged stays as it is
   CheckedSystem wanted_;
   graph::GraphPlan plan_;
-  bool sets_late_ = false;      // parameters were refused before the connections changed
+  bool sets_late_ = false;  // parameters were refused before the connections changed
+  std::vector<const graph::GraphPlan::Exchange*> late_exchanges_;  // likewise
   std::size_t set_after_ = 0;   // how many steps came before the parameters
   bool is_renewing_ = false;    // processes end because they are to begin anew
   std::vector<Undo> undo_;      // the last step comes first

@@ -266,7 +266,7 @@ Result<Record> Exchanging::exchange_component(const SwapWish& wish) {
 }
 
 host::ShadowOrder Exchanging::trial_of(const SwapWish& wish, const graph::ComponentNode& node) const {
-  return {names_.surroundings_of(wish.component),
+  return {wish.changed != nullptr ? *wish.changed : names_.surroundings_of(wish.component),
           wish.component,
           wish.type.empty() ? code_of(node).type : wish.type,
           ports_of(wish.component),

@@ -51,6 +51,8 @@ struct SwapWish {
   bool has_worked = false;  ///< In this system before, so it is not tried out.
   bool fresh = false;       ///< It begins without the state of the old one, which is not asked for it.
   bool only_tries = false;  ///< Nothing is exchanged.
+  /// The graph with the connections of the component, if they have just changed.
+  const graph::Graph* changed = nullptr;
 };
 
 /// Exchanges the code of components and drivers at an operator's word, and knows which code each of them runs.
