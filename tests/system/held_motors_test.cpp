@@ -4,6 +4,7 @@
 
 #include "deployer.hpp"
 #include "hosted_system.hpp"
+#include "temp_folder.hpp"
 
 using namespace orca::test;
 using Catch::Contains;
@@ -57,6 +58,23 @@ TEST_CASE("who plans a way recovers from nothing while the motors are held, and 
     system.order({"estop", "--release"});
     CHECK_THAT(system.step("1s"), !Contains("RECOVERS"));
     system.stop();
+  }
+}
+
+TEST_CASE("the time that a goal may take stands still while the motors are held", "[system][goto]") {
+  const TempFolder folder;
+  const std::string task = folder.write(
+      "task.xml", "<task name=\"there\" version=\"1\"><Drive to=\"kitchen\" within=\"6 s\"/></task>");
+  for (const Words& words : {Words{source_file("graphs/scout_goto.xml"), "--set", "command.goal_timeout=6"},
+                             {source_file("graphs/pioneer_tasks.xml"), "--set", "task=" + task}}) {
+    CAPTURE(words);
+    Paused system(words);
+    (void)system.step("3s");
+    system.order({"estop"});
+    CHECK_THAT(system.step("20s"), !Contains("timed out") && !Contains("unanswered"));
+    system.order({"estop", "--release"});
+    CHECK_THAT(system.step("2s"), !Contains("timed out") && !Contains("unanswered"));
+    CHECK_THAT(system.step("2s"), Contains("timed out: not reached within "));
   }
 }
 

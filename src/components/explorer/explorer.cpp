@@ -62,7 +62,9 @@ class Explorer final : public orca::Component {
         log_warning(taken.error().message);
     while (const auto arrived = relay_.next_arrival()) hear(*arrived);
     while (const auto failed = relay_.next_failure()) hear(*failed);
-    patient_until_ += held_.since_last(now(), kept_alarms());
+    const orca::Duration held = held_.since_last(now(), kept_alarms());
+    patient_until_ += held;
+    began_ += held;
     if (is_over()) relay_.end();
     if (!relay_.goal() || !explores_ || !senders_.accepts(*here)) return orca::again();
     if (!robot_.body() || now() < looked_ + kEvery || known_area() <= 0.0) return orca::again();

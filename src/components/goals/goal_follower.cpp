@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "orca/component/held_motors.hpp"
 #include "orca/geometry/objects/covariance.hpp"
 #include "orca/geometry/objects/plane.hpp"
 #include "orca/idl/time.hpp"
@@ -162,6 +161,7 @@ Status GoalFollower::refuse(const idl::GoalPoint& goal, const char* fault) {
 }
 
 Outcome GoalFollower::work() {
+  route_.delay(held_.since_last(now(), kept_alarms()));
   const std::optional<Pose2> pose = take_pose();
   if (pose && !is_lost()) {
     follow_route(*pose);

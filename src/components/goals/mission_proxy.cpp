@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "orca/base/text.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/idl/time.hpp"
 #include "outbox.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr Duration kRoomLimit = std::chrono::seconds(5);          // for Goto to take a point
 constexpr Duration kGrace = std::chrono::seconds(2);              // for Goto to say that the time is up
+constexpr Duration kLookAfter = std::chrono::seconds(1);          // whether the motors are held
 constexpr Duration kRetryAfter = std::chrono::milliseconds(200);  // for receivers that come up
 
 }  // namespace
@@ -24,8 +26,9 @@ struct MissionProxy::Drive {
   Trip trip;
   Outbox outbox;
   std::uint64_t mission;
-  double time_limit;                  // [s]
-  TimePoint limit;                    // for Goto to reach it
+  double time_limit;  // [s]
+  TimePoint limit;    // for Goto to reach it
+  HeldTime held{};
   std::vector<std::string> told{};    // the behaviours of which the fuser knows
   bool by_route = false;              // The via points are those of a route.
   std::optional<TimePoint> ask_at{};  // when the route is asked for again
@@ -149,8 +152,9 @@ std::optional<MissionProxy::Ending> MissionProxy::begin(const Trip& trip, double
 
 std::optional<MissionProxy::Ending> MissionProxy::wait(Duration longest) {
   if (drive_->told != *behaviours_) drive_->outbox.list_changed();
+  drive_->limit += drive_->held.since_last(host_.now(), host_.kept_alarms());
   const Duration left = last_moment() - host_.now();
-  if (const PushSubject* const port = next_result(std::min(left, longest))) {
+  if (const PushSubject* const port = next_result(std::min({left, longest, kLookAfter}))) {
     if (const std::optional<Ending> ending = take_result(*port)) return end(*ending);
   } else if (host_.now() >= last_moment()) {
     char text[32];

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "orca/component.hpp"
+#include "orca/component/held_motors.hpp"
 #include "orca/component/sender_life.hpp"
 #include "orca/component/sender_watch.hpp"
 #include "orca/geometry/objects/odometry_trust.hpp"
@@ -152,6 +153,7 @@ class GoalFollower : public Component {
   bool was_known_ = false;  // It was, at least once.
   std::optional<TimePoint> lost_at_;
   Route route_;
+  HeldTime held_;
   PathShown path_shown_;
   Legs legs_;
   Patience patience_;

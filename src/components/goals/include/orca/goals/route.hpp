@@ -37,7 +37,9 @@ class Route {
   }
   /// Returns a number that grows whenever the points change.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
-  /// Returns how long the robot has been on this route [s].
+  /// Lets a time not count, in which the robot could not be on its way.
+  void delay(Duration time) { begun_ += time; }
+  /// Returns how long the robot has been on this route, without such times [s].
   [[nodiscard]] double age(TimePoint now) const { return to_seconds(now - begun_); }
 
   /// Returns all of it, to be passed on to another version of Goto.
