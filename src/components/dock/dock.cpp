@@ -43,9 +43,9 @@ class Dock final : public orca::Component {
     // Its points may be sent again, along another way, when the robot is there already.
     const bool goes_on = relay_.goal() && goal->mission() == relay_.goal()->mission();
     if (docking_ && goes_on) return orca::ok();
+    if (orca::Status sound = relay_.keep(goal); !sound.ok()) return sound;
     if (!goes_on) waiting_.clear();
     docking_.reset();
-    relay_.keep(goal);
     waiting_.push_back(goal);
     return orca::ok();
   }

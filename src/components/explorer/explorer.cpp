@@ -42,6 +42,7 @@ class Explorer final : public orca::Component {
   void stop() override { robot_.leave(); }
 
   orca::Status on_goal(const orca::ObjectPtr<GoalPoint>& goal) {
+    if (orca::Status sound = relay_.keep(goal); !sound.ok()) return sound;
     towards_.reset();
     reached_.reset();
     left_out_.clear();
@@ -49,7 +50,6 @@ class Explorer final : public orca::Component {
     began_ = now();
     empty_looks_ = 0;
     turn_ = Turn::due;
-    relay_.keep(goal);
     looked_ = {};
     return explores_ ? orca::ok() : relay_.pass_on(copy_value(goal));
   }

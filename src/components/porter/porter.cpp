@@ -47,8 +47,8 @@ class Porter final : public orca::Component {
   orca::Status on_goal(const orca::ObjectPtr<orca::idl::GoalPoint>& goal) {
     // Its points may be sent again, along another way, when the robot is there already.
     if (errand_ && relay_.goal() && goal->mission() == relay_.goal()->mission()) return orca::ok();
+    if (orca::Status sound = relay_.keep(goal); !sound.ok()) return sound;
     errand_.reset();
-    relay_.keep(goal);
     if (!kind_of(*goal)) return relay_.pass_on(copy_value(goal));
     auto near = orca::make_object(*goal);
     near->name() = "near_" + goal->name();

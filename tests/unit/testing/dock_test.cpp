@@ -51,6 +51,7 @@ struct Charged final : Partner {
     there->name(name);
     there->coordinate().point().x(where);
     there->use_orientation(true);
+    there->reach_angle(0.1);
     REQUIRE(goal.send(std::move(there)).ok());
   }
 

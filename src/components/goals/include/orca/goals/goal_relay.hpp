@@ -7,6 +7,7 @@
 
 #include "orca/component.hpp"
 #include "orca/geometry/pose2.hpp"
+#include "orca/goals/route.hpp"
 #include "orca/idl/navigation.hpp"
 #include "orca/idl/time.hpp"
 
@@ -46,8 +47,17 @@ class GoalRelay {
   [[nodiscard]] Task& task() { return task_; }
   [[nodiscard]] const Task& task() const { return task_; }
   [[nodiscard]] const ObjectPtr<idl::GoalPoint>& goal() const { return task_.goal; }
-  /// Makes a point that has come the goal.
-  void keep(const ObjectPtr<idl::GoalPoint>& goal) { task_ = {goal, goal->mission()}; }
+  /// Makes a point that has come the goal. One that no robot can take is reported as refused, and the goal of before stays.
+  /// @errors  invalid_argument.
+  Status keep(const ObjectPtr<idl::GoalPoint>& goal) {
+    const double height = goal->coordinate().point().z();  // the driver knows that of the robot
+    if (const char* const fault = fault_of(*goal, height)) {
+      report_failure(*goal, idl::GOAL_REFUSED, std::string("refused: it ") + fault);
+      return fail(Code::invalid_argument, "the goal \"" + goal->name() + "\" " + fault);
+    }
+    task_ = {goal, goal->mission()};
+    return ok();
+  }
   /// Sends a point to the driver.
   /// @errors  those of the port.
   Status pass_on(Loan<idl::GoalPoint> point) {
@@ -81,13 +91,7 @@ class GoalRelay {
     done_.push(std::move(arrived));
   }
   void report_failure(idl::GoalFailure kind, const std::string& reason) {
-    auto failed = undone_.loan();
-    failed->mission(goal()->mission());
-    failed->name() = goal()->name();
-    failed->kind(kind);
-    failed->reason() = reason;
-    failed->stamp(to_time_value(host_.now()));
-    undone_.push(std::move(failed));
+    report_failure(*goal(), kind, reason);
   }
   /// Ends the mission: there is no goal under way.
   void end() {
@@ -96,6 +100,15 @@ class GoalRelay {
   }
 
  private:
+  void report_failure(const idl::GoalPoint& goal, idl::GoalFailure kind, const std::string& reason) {
+    auto failed = undone_.loan();
+    failed->mission(goal.mission());
+    failed->name() = goal.name();
+    failed->kind(kind);
+    failed->reason() = reason;
+    failed->stamp(to_time_value(host_.now()));
+    undone_.push(std::move(failed));
+  }
   template <class Result>
   ObjectPtr<Result> next(PushProxy<Result>& results) {
     while (results.new_data_arrived())
