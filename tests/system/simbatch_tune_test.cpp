@@ -93,6 +93,19 @@ TEST_CASE("a variant drives with the settings that the tuner wrote", "[system][b
   CHECK(runs[1].substr(runs[1].find(',')) != runs[4].substr(runs[4].find(',')));
 }
 
+TEST_CASE("errors of <tuning> and of the graphs are said at once, also those of the tuner's worlds",
+          "[system][batch]") {
+  const TempFolder folder;
+  const std::string experiment =
+      corridor(folder, R"(<world name="far"><set arg="realism" value="ideel"/></world>)",
+               R"(<variant name="wrong"><tune arg="goto.max_speed" from="2" to="1"/></variant>)");
+  for (const Words& words : {Words{experiment, "--check"}, {"tune", experiment}}) {
+    const Run run = run_simbatch(words);
+    CHECK(run.exit_code() == 2);
+    CHECK_THAT(run.err, Contains("error E015: it must be above from") && Contains("\"ideel\" is not one of"));
+  }
+}
+
 TEST_CASE("worlds that are compared in are refused for tuning", "[system][batch]") {
   const TempFolder folder;
   const Run same = run_simbatch(

@@ -229,10 +229,12 @@ ExitCode did_not_finish(const std::string& fault) {
 // Tries values of what each variant may change, in worlds that the experiment does not compare in, and writes the best.
 ExitCode tune(const Options& options) {
   xml::Diagnostics diagnostics;
-  const std::optional<batch::Experiment> experiment = batch::read_experiment(options.subject, diagnostics);
-  const Result<batch::Experiment> drawn =
-      experiment ? batch::draws_of(*experiment) : fail(Code::invalid_argument, "the experiment has errors");
-  if (experiment && drawn) batch::check_graphs(*drawn, options.batch, diagnostics, check_watch());
+  const std::optional<batch::Experiment> experiment = batch::read_parts(options.subject, diagnostics);
+  const Result<batch::Experiment> drawn = diagnostics.has_errors()
+                                              ? fail(Code::invalid_argument, "the experiment has errors")
+                                              : batch::draws_of(*experiment);
+  if (experiment)
+    batch::check_graphs(drawn ? *drawn : *experiment, options.batch, diagnostics, check_watch());
   LiveLine::erase();
   std::fputs(diagnostics.text().c_str(), stderr);
   if (diagnostics.has_errors()) return ExitCode::bad_input;

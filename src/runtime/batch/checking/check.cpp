@@ -51,14 +51,22 @@ void refuse_unknown_goals(const std::vector<Goal>& goals, const Scene& scene, xm
       diagnostics.error(kGoalNowhere, goal.declared_at, "<goal>: " + found.error().message);
 }
 
+// Returns the experiment as one that compares in the worlds of its tuner, too.
+Experiment with_tuning_worlds(const Experiment& experiment) {
+  Experiment all = experiment;
+  if (all.tuning) all.worlds.insert(all.worlds.end(), all.tuning->worlds.begin(), all.tuning->worlds.end());
+  return all;
+}
+
 }  // namespace
 
-void check_graphs(const Experiment& experiment, const BatchOptions& options, xml::Diagnostics& diagnostics,
+void check_graphs(const Experiment& checked, const BatchOptions& options, xml::Diagnostics& diagnostics,
                   const std::function<void(std::size_t done, std::size_t all)>& watch) {
+  const bool is_whole = !diagnostics.has_errors();  // otherwise settings may be missing, of which it was said
+  const Experiment experiment = is_whole ? checked : with_tuning_worlds(checked);
   const std::size_t all = experiment.worlds.size() * experiment.variants.size();
   host::PluginCatalogue catalogue(plugin::PluginIndex(options.plugin_folders), ClockKind::virtual_time);
   std::set<std::string> said;
-  const bool is_whole = !diagnostics.has_errors();  // otherwise settings may be missing, of which it was said
   for (std::size_t world = 0; world < experiment.worlds.size(); ++world) {
     for (std::size_t variant = 0; variant < experiment.variants.size(); ++variant) {
       if (watch) watch(world * experiment.variants.size() + variant, all);

@@ -15,7 +15,8 @@
 namespace orca::batch {
 
 /// Checks the graphs of all variants in all worlds against their plugins, as deployer --check does. It runs nothing.
-/// @param experiment   may be one of which errors are in `diagnostics` already, see read_parts().
+/// @param experiment   may be one of which errors are in `diagnostics` already, see read_parts(). Then those of its tuner's worlds are
+///                     looked for, too.
 /// @param diagnostics  receives everything that is wrong, each once.
 /// @param watch        is called before each graph; empty: nobody watches.
 /// @thread  the main thread, while there is no other.
