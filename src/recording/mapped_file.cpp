@@ -17,7 +17,8 @@ Result<MappedFile> MappedFile::open(const std::string& path) {
   const auto refuse = [&](int reason) {
     return fail(Code::invalid_argument, std::string("cannot read the file: ") + std::strerror(reason), path);
   };
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Without O_NONBLOCK, a pipe that nobody writes to would block here for ever.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK));
   if (file.number() < 0) return refuse(errno);
   struct stat status {};
   if (fstat(file.number(), &status) != 0) return refuse(errno);

@@ -80,8 +80,9 @@ Result<std::string> read_layout(const std::string& graph_file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error == std::errc::no_such_file_or_directory) return std::string("{}");
+  if (error) return fail(Code::unavailable, "the layout cannot be read: " + error.message(), file);
   std::ifstream in(file, std::ios::binary);
-  if (error || !in) return fail(Code::unavailable, "the layout cannot be read", file);
+  if (!in) return fail(Code::unavailable, "the layout cannot be read", file);
   if (size > kLongest)
     return fail(Code::data_loss, "this file is no layout of a graph: it is too long", file);
   const json layout = read_json(std::string(std::istreambuf_iterator<char>(in), {}));

@@ -2,6 +2,8 @@
 // Lengths of ways from tables, and in experiments.
 #include "experiment/references.hpp"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 #include "orca/batch/experiment.hpp"
@@ -42,6 +44,9 @@ TEST_CASE("a table without the column, or with a line that is no length, is refu
   CHECK_THAT(error_of("world,length\n1\n"), Contains("line 2"));
   CHECK_THAT(error_of(""), Contains("cannot be read"));
   CHECK_THAT(read_references("/nowhere/t.csv", "length").error().message, Contains("cannot be read"));
+  const TempFolder folder;
+  REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+  CHECK_THAT(read_references(folder.file("pipe"), "length").error().message, Contains("no regular file"));
 }
 
 TEST_CASE("worlds have the length that they name, or that a table has for their number",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "layout_file.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -45,6 +46,13 @@ TEST_CASE("an empty layout leaves no file", "[view]") {
   CHECK(keep_layout(graph, "{}").ok());
   CHECK(keep_layout(graph, "{}").ok());
   CHECK(files_in(folder) == 0);
+}
+
+TEST_CASE("a pipe in the place of a layout is an error at once", "[view]") {
+  const orca::test::TempFolder folder;
+  const std::string graph = folder.file("my.xml");
+  REQUIRE(mkfifo(layout_file_of(graph).c_str(), 0600) == 0);
+  CHECK(read_layout(graph).error().code == Code::unavailable);
 }
 
 TEST_CASE("what is no layout is neither kept nor overwritten", "[view]") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Logs of CARMEN as text: lines, what is wrong in a log, and what a log says of its lasers.
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <catch2/catch.hpp>
@@ -366,4 +367,6 @@ TEST_CASE("files are read packed or not, and one that ends early says so", "[rec
   CHECK_THAT(cut->flaws.texts().back(), Contains("the file ends early: "));
   CHECK_THAT(read_log_file(folder.file("none")).error().message, Contains("No such file"));
   CHECK_THAT(read_log_file(folder.path().string()).error().message, Contains("no regular file"));
+  REQUIRE(mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+  CHECK_THAT(read_log_file(folder.file("pipe")).error().message, Contains("no regular file"));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string_view>
@@ -52,6 +53,9 @@ Error no_column(const std::string& file, const std::string& name, const std::vec
 }  // namespace
 
 Result<std::map<std::uint64_t, double>> read_references(const std::string& file, const std::string& column) {
+  std::error_code unused;
+  if (std::filesystem::is_fifo(file, unused))
+    return fail(Code::invalid_argument, in_quotes(file) + " is no regular file");
   std::ifstream lines(file);
   std::string line;
   if (!std::getline(lines, line)) return fail(Code::not_found, in_quotes(file) + " cannot be read");
