@@ -14,14 +14,14 @@ inline Run bag(const Words& words) { return run_orcactl(Words{"bag"} + words); }
 
 /// Returns the cell of a topic in `bag info --json`; "" if there is no such topic.
 inline std::string cell_of(const std::string& info, const std::string& topic, const std::string& name) {
-  for (const std::string& line : split_lines(info)) {
-    if (line.find("\"" + topic + "\"") == std::string::npos) continue;
-    const std::size_t at = line.find("\"" + name + "\":");
-    if (at == std::string::npos) return "";
-    const std::size_t begin = line.find_first_not_of(" \"", at + name.size() + 3);
-    return line.substr(begin, line.find_first_of("\",}", begin) - begin);
-  }
-  return "";
+  const std::size_t there = info.find("\"" + topic + "\"");
+  if (there == std::string::npos) return "";
+  const std::string object =
+      info.substr(info.rfind('{', there), info.find('}', there) - info.rfind('{', there));
+  const std::size_t at = object.find("\"" + name + "\":");
+  if (at == std::string::npos) return "";
+  const std::size_t begin = object.find_first_not_of(" \"", at + name.size() + 3);
+  return object.substr(begin, object.find_first_of("\",\n", begin) - begin);
 }
 
 /// Returns `bag info --json` of a file.

@@ -33,13 +33,7 @@ bool comes(const Question& question) {
 
 // Returns how many messages of a topic `bag info` of a system lists.
 int count_of(const std::string& topic) {
-  const Run run = run_orcactl({"--json", "bag", "info", kName});
-  for (const std::string& line : split_lines(run.out)) {
-    const std::size_t at = line.find("\"messages\":");
-    if (line.find("\"" + topic + "\"") != std::string::npos && at != std::string::npos)
-      return std::atoi(line.c_str() + at + 11);
-  }
-  return 0;
+  return count_in(run_orcactl({"--json", "bag", "info", kName}).out, topic);
 }
 
 pid_t recorder_of(const Subprocess& system) {

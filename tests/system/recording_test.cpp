@@ -35,6 +35,15 @@ int odometry_in(const std::string& file) {
 
 }  // namespace
 
+TEST_CASE("what a recording holds is one JSON document, as other answers", "[system][recording]") {
+  const TempFolder folder;
+  const std::string file = folder.file("short.mcap");
+  REQUIRE(run_deployer(Words{kScout, "--until", "1s", "--record", file} + virtual_clock()).exit_code() == 0);
+  const std::string info = info_of(file);
+  CHECK_THAT(info, StartsWith("[\n") && EndsWith("]\n"));
+  CHECK_THAT(info, Contains("\"graph\": \"scout_goto\"") && Contains("\"topic\": \"/base/OdometryPush\""));
+}
+
 TEST_CASE("what writes no JSON of a recording refuses to be asked for it", "[system][recording]") {
   for (const char* way : {"check", "csv", "diff"}) {
     CAPTURE(way);

@@ -194,6 +194,12 @@ ExitCode print_names(const apps::Call& call) {
     if (kind == "port") add_names(client, "names", "port", names);
     if (kind == "param") add_names(client, "names", "param", names);
   }
+  if (call.has("--json")) {
+    std::vector<Record> records;
+    for (const std::string& name : names) records.push_back({{"name", name}});
+    print(table_json(records));
+    return ExitCode::done;
+  }
   for (const std::string& name : names) print(name + "\n");
   return ExitCode::done;
 }

@@ -88,9 +88,9 @@ Status info(const Words& words, bool as_json) {
   const Record summary = summary_of(*file, facts);
   const std::vector<Record> topics = topics_of(*file, facts);
   if (as_json) {
-    std::string text = record_json(summary);
-    for (const Record& topic : topics) text += record_json(topic);
-    print(text);
+    std::vector<Record> all{summary};
+    all.insert(all.end(), topics.begin(), topics.end());
+    print(table_json(all));
     return ok();
   }
   for (const supervisor::Cell& cell : summary)

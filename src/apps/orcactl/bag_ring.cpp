@@ -277,9 +277,9 @@ Status show_ring(const std::string& folder, bool as_json) {
   const Record summary = ring_summary(*parts, folder);
   const std::vector<Record> topics = ring_topics(*parts);
   if (as_json) {
-    std::string text = record_json(summary);
-    for (const Record& topic : topics) text += record_json(topic);
-    print(text);
+    std::vector<Record> all{summary};
+    all.insert(all.end(), topics.begin(), topics.end());
+    print(table_json(all));
     return ok();
   }
   for (const supervisor::Cell& cell : summary) print(cell.name + ": " + cell.value + "\n");
