@@ -204,7 +204,8 @@ TEST_CASE("a report can be made again, and needs results", "[system][batch]") {
   const TempFolder folder;
   const std::string experiment = drive(folder);
   const std::string out = folder.file("out");
-  CHECK(run_simbatch({"report", experiment, "--out", out}).says("holds no results of a batch"));
+  CHECK(run_simbatch({"report", experiment, "--out", out})
+            .says("holds no results of a batch: there is no results.sqlite in it"));
   (void)batch(experiment, out);
   const std::string first = text_in(out + "/report.html");
   REQUIRE(std::filesystem::remove(out + "/report.html"));
@@ -222,7 +223,8 @@ TEST_CASE("a batch overwrites no files of others, and makes no run before it say
   const Run run = run_simbatch({experiment, "--out", paper.path().string()});
   CHECK(run.exit_code() == 2);
   CHECK(
-      run.says("figures: it is there already and not of a batch, and would be overwritten; --out DIR takes"));
+      run.says("figures: it is there already and would be overwritten, and no results.sqlite beside it says "
+               "that it is of a batch; bring that back, or move what is there away, or"));
   CHECK(text_in(figure) == "a figure");
   CHECK_FALSE(std::filesystem::exists(paper.path() / "results.sqlite"));
 }

@@ -9,9 +9,14 @@
 #include "orca/base/text.hpp"
 
 namespace orca::simbatch {
+namespace {
+
+constexpr const char* kResults = "results.sqlite";
+
+}  // namespace
 
 std::filesystem::path results_in(const std::filesystem::path& folder) {
-  return std::filesystem::is_regular_file(folder) ? folder : folder / "results.sqlite";
+  return std::filesystem::is_regular_file(folder) ? folder : folder / kResults;
 }
 
 std::vector<std::string> names_of_report() {
@@ -25,15 +30,21 @@ Status check_free(const std::filesystem::path& folder, const std::vector<std::st
     if (std::filesystem::exists(std::filesystem::symlink_status(folder / name)))
       return fail(
           Code::already_exists,
-          "it is there already and not of a batch, and would be overwritten; --out DIR takes another folder",
+          "it is there already and would be overwritten, and no " + std::string(kResults) +
+              " beside it says that it is of a batch; bring that back, or move what is there away, or take "
+              "another folder by --out DIR",
           (folder / name).lexically_normal().string());
   return ok();
 }
 
+Error no_results(const std::string& folder) {
+  return fail(Code::not_found,
+              in_quotes(folder) + " holds no results of a batch: there is no " + kResults + " in it");
+}
+
 Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder) {
   const std::filesystem::path file = results_in(folder);
-  if (!std::filesystem::exists(file))
-    return fail(Code::not_found, in_quotes(folder) + " holds no results of a batch");
+  if (!std::filesystem::exists(file)) return no_results(folder);
   return batch::Store::open(file.string(), {});
 }
 

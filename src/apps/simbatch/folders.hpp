@@ -25,6 +25,9 @@ namespace orca::simbatch {
 /// @errors  already_exists, with the first that is there in a folder without results.
 [[nodiscard]] Status check_free(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
+/// Returns the error that a folder has no file of results.
+[[nodiscard]] Error no_results(const std::string& folder);
+
 /// Opens results that are there, whatever experiment they are of.
 /// @errors  not_found if there are none; those of Store::open().
 [[nodiscard]] Result<std::unique_ptr<batch::Store>> open_results(const std::string& folder);

@@ -151,8 +151,7 @@ ExitCode report_again(const Options& options) {
   std::fputs(diagnostics.text().c_str(), stderr);
   if (!experiment) return ExitCode::bad_input;
   const std::filesystem::path folder = folder_of(options, *experiment);
-  if (!std::filesystem::exists(results_in(folder)))
-    return refuse(fail(Code::not_found, in_quotes(folder.string()) + " holds no results of a batch"));
+  if (!std::filesystem::exists(results_in(folder))) return refuse(no_results(folder.string()));
   const Result<std::unique_ptr<batch::Store>> store =
       batch::Store::open(results_in(folder).string(), batch::identity_of(*experiment));
   if (!store) return refuse(store.error());
@@ -282,8 +281,7 @@ ExitCode report_joined(const Options& options, const batch::Store& store) {
 
 Status take_all(batch::Store& store, const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
-    if (!std::filesystem::exists(results_in(folder)))
-      return fail(Code::not_found, in_quotes(folder) + " holds no results of a batch");
+    if (!std::filesystem::exists(results_in(folder))) return no_results(folder);
     if (Status taken = store.take_over(results_in(folder).string()); !taken.ok()) return taken;
   }
   return ok();
