@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kHalfTurn = std::numbers::pi;
-constexpr double kFarthest = 1e6;      // [m] that anything is away
-constexpr double kLatest = 9e9;        // [s] of a stamp: it fits into 64 bits of nanoseconds
+constexpr double kFarthest = 1e6;  // [m] that anything is away
+constexpr double kLatest = 4.6e9;  // [s] of a stamp, in the year 2115: it fits into a Duration as any other
 constexpr std::size_t kMost = 100000;  // readings of a scan
 constexpr std::string_view kBlanks = " \t\r\n";
 

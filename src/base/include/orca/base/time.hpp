@@ -30,9 +30,16 @@ inline constexpr TimePoint kForever = TimePoint::max();
 [[nodiscard]] constexpr double to_seconds(Duration d) { return std::chrono::duration<double>(d).count(); }
 [[nodiscard]] constexpr double to_seconds(TimePoint t) { return to_seconds(t.time_since_epoch()); }
 
+/// The longest time that from_seconds() returns, 146 years: an instant of today plus that is no overflow.
+inline constexpr Duration kLongestTime = Duration::max() / 2;
+
 /// @param seconds [s]  rounded to the nearest nanosecond.
+/// @return at most kLongestTime, forwards or backwards; zero if it is no number.
 [[nodiscard]] constexpr Duration from_seconds(double seconds) {
-  return Duration{static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5))};
+  const double ns = seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5);
+  if (ns >= static_cast<double>(kLongestTime.count())) return kLongestTime;
+  if (ns <= -static_cast<double>(kLongestTime.count())) return -kLongestTime;
+  return ns == ns ? Duration{static_cast<std::int64_t>(ns)} : Duration{0};  // NaN is unlike itself
 }
 
 /// Returns t + d without overflow: kForever stays kForever.
