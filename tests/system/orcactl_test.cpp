@@ -148,15 +148,6 @@ std::string ask_ps() {
 
 }  // namespace
 
-TEST_CASE("names are JSON where that is asked for, and who writes none refuses", "[system][orcactl]") {
-  CHECK(run_orcactl({"names", "system", "--json"}).out == "[]\n");
-  for (const Words& words : {Words{"new", "component", "x"}, {"import", "x.xml"}, {"map", "ways", "x"}}) {
-    const Run run = run_orcactl(words + Words{"--json"});
-    CHECK(run.exit_code() == 2);
-    CHECK(run.says(words[0] + " writes no JSON, leave out --json"));
-  }
-}
-
 TEST_CASE("orcactl shows what runs, and ends it", "[system][orcactl]") {
   System system({kScout});
   system.await_work();

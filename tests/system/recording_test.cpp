@@ -53,6 +53,15 @@ TEST_CASE("what writes no JSON of a recording refuses to be asked for it", "[sys
   }
 }
 
+TEST_CASE("names are JSON where that is asked for, and who writes none refuses", "[system][recording]") {
+  CHECK(run_orcactl({"names", "system", "--json"}).out == "[]\n");
+  for (const Words& words : {Words{"import", "x.xml"}, {"map", "ways", "x"}, {"keys", "x.xml"}}) {
+    const Run run = run_orcactl(words + Words{"--json"});
+    CHECK(run.exit_code() == 2);
+    CHECK(run.says(words[0] + " writes no JSON, leave out --json"));
+  }
+}
+
 TEST_CASE("recording everything of a virtual run changes nothing, and two recordings are the same file",
           "[system][recording]") {
   const TempFolder folder;
