@@ -41,7 +41,7 @@ ExitCode carry_out(const apps::Call& call) {
                                                     {"tasks", handle_tasks}, {"go", handle_go},
                                                     {"new", handle_new},     {"import", import_file},
                                                     {"keys", handle_keys}};
-  static const std::set<std::string_view> text_only{"calibrate", "import", "keys", "map", "new", "record"};
+  static const std::set<std::string_view> text_only{"import", "keys", "map", "new", "record"};
   if (call.has("--json") && text_only.contains(call.command->name))
     return report({orca::fail(orca::Code::invalid_argument,
                               std::string(call.command->name) + " writes no JSON, leave out --json"),
