@@ -113,8 +113,8 @@ TEST_CASE("code that fails, crashes, hangs or takes all memory in the shadow is 
       {"test_teller_first_lap", "work() threw std::runtime_error: no lap today"},
       {"test_teller_third_lap", "work() threw std::runtime_error: no lap today"},
       {"test_teller_handler", "no poke today"},
-      {"test_teller_constructor_crashes", "its static initialisation, constructor or destructor"},
-      {"test_teller_destructor_crashes", "its static initialisation, constructor or destructor"},
+      {"test_teller_constructor_crashes", "its static initialisation, its constructor or its destructor"},
+      {"test_teller_destructor_crashes", "its static initialisation, its constructor or its destructor"},
       {"test_teller_lap_crashes", "its laps, in the shadow of the present one, "}};
   for (const auto& [version, text] : cases) {
     const Result<ShadowReport> tried = try_teller(version);

@@ -229,7 +229,7 @@ void play(const ShadowOrder& order, plugin::PluginImage& plugin, std::vector<See
   LastWords::leave_copy();
   limit_memory();
   auto& verdict = *new Verdict(line);
-  verdict.step("its static initialisation, constructor or destructor");
+  verdict.step("its static initialisation, its constructor or its destructor");
   auto& catalogue = *new PluginCatalogue(plugin::PluginIndex({}));
   Result<LoadedType> type =
       catalogue.acquire(std::move(plugin), PluginKind::component, order.type, plugin::Trial::done);
